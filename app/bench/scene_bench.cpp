@@ -10,7 +10,6 @@
 #include "app/bench/scratch_folder.h"
 #include "app/output/process.h"
 #include "app/run/run_json.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
@@ -48,8 +47,8 @@ std::vector<fs::path> chosen_scenes(const BenchOptions& options) {
         (options.only.empty() || entry.path().stem() == options.only))
       scenes.push_back(entry.path());
   if (scenes.empty())
-    throw scene::toml::UsageError("--only", "there is no scene " + options.only,
-                                  "expected the name of a file in " + folder.string());
+    throw UsageError("--only", "there is no scene " + options.only,
+                     "expected the name of a file in " + folder.string());
   std::sort(scenes.begin(), scenes.end());
   return scenes;
 }

@@ -16,7 +16,6 @@
 #include "app/run/run_json.h"
 #include "app/run/walk.h"
 #include "app/scene/names.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -70,21 +69,20 @@ std::size_t probed_row(const dump::StepInspection& inside, const dump::Listing& 
                        const dump::Probe& probe) {
   if (const auto* place = std::get_if<sim::Vec3d>(&probe)) {
     if (listing.place.empty())
-      throw scene::toml::UsageError("--probe", "there is nothing", "there is no snow at this time");
+      throw UsageError("--probe", "there is nothing", "there is no snow at this time");
     return nearest_row(listing, *place);
   }
   const std::size_t id = std::get<std::size_t>(probe);
   if (listing.is_of_nodes)
-    throw scene::toml::UsageError("--probe", "nodes have no id " + std::to_string(id),
-                                  "expected a place, as in --probe 0,0.5,0");
+    throw UsageError("--probe", "nodes have no id " + std::to_string(id),
+                     "expected a place, as in --probe 0,0.5,0");
   const std::optional<std::size_t> row = inside.step.after.index_of(id);
   if (row) return *row;
   const std::string particle = "particle " + std::to_string(id);
   const std::size_t ids = inside.before.x.size() + inside.simulation.flow_totals().removed;
   if (id < ids)
-    throw scene::toml::UsageError("--probe", particle + " was removed",
-                                  "a sink removed it before this time");
-  throw scene::toml::UsageError(
+    throw UsageError("--probe", particle + " was removed", "a sink removed it before this time");
+  throw UsageError(
       "--probe",
       inside.scene.emitters.empty() ? "there is no " + particle : particle + " is not emitted yet",
       ids == 0 ? "there were none so far" : "expected 0 to " + std::to_string(ids - 1));
@@ -198,11 +196,11 @@ class DumpOutput {
 void check_dump_output(const dump::DumpOptions& options) {
   if (options.format != dump::DumpFormat::vtk || !options.file.empty()) return;
   if (options.at.size() > 1)
-    throw scene::toml::UsageError("--format", "vtk has one time in a file",
-                                  "give a file with --out, as in --out fields.vtp");
+    throw UsageError("--format", "vtk has one time in a file",
+                     "give a file with --out, as in --out fields.vtp");
   if (::isatty(STDOUT_FILENO))
-    throw scene::toml::UsageError("--format", "vtk is binary and standard output is a terminal",
-                                  "give a file with --out, as in --out fields.vtp");
+    throw UsageError("--format", "vtk is binary and standard output is a terminal",
+                     "give a file with --out, as in --out fields.vtp");
 }
 
 dump::Listing listing_of(const dump::DumpOptions& options, const dump::StepInspection& inside) {

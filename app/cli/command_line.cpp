@@ -13,7 +13,6 @@
 #include "app/cli/usage_hints.h"
 #include "app/run/passes.h"
 #include "app/scene/scene_file.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/setup/caps.h"
 #include "app/support/errors.h"
@@ -28,8 +27,8 @@ namespace neve::app::cli {
 
 void check_threads(int threads) {
   if (threads < 0 || threads > 1024)
-    throw scene::toml::UsageError("--threads", "cannot use " + std::to_string(threads),
-                                  "expected 0 (one per core) to 1024");
+    throw UsageError("--threads", "cannot use " + std::to_string(threads),
+                     "expected 0 (one per core) to 1024");
 }
 
 void check_backend(const std::string& name) {
@@ -39,7 +38,7 @@ void check_backend(const std::string& name) {
   const bool is_gpu = word == "gpu" || word == "cuda" || word == "opengl" || word == "vulkan" ||
                       word == "hip" || word == "metal" || word == "nvidia";
   const bool is_cpu = word == "cpu" || word == "software" || word == "llvmpipe" || word == "mesa";
-  throw scene::toml::UsageError(
+  throw UsageError(
       "--backend", "unknown backend \"" + name + "\"",
       is_gpu ? "egl draws with OpenGL on a GPU where there is one; expected one of " +
                    joined(backends, ", ")
@@ -68,9 +67,8 @@ void add_progress(CLI::App& command, std::optional<std::string>& progress,
           "--log",
           [&options](const std::string& file) {
             if (!is_log_name(file))
-              throw scene::toml::UsageError(
-                  "--log", "\"" + file + "\" is no log",
-                  "expected a file for the messages, as in --log run.log");
+              throw UsageError("--log", "\"" + file + "\" is no log",
+                               "expected a file for the messages, as in --log run.log");
             options.log = file;
           },
           "Append all messages to a file, with times, details and every frame")
@@ -79,22 +77,22 @@ void add_progress(CLI::App& command, std::optional<std::string>& progress,
 
 bool parse_progress(const std::string& text) {
   if (text != "text" && text != "json")
-    throw scene::toml::UsageError("--progress", "cannot use \"" + text + "\"",
-                                  names_advice(text, {"text", "json"}));
+    throw UsageError("--progress", "cannot use \"" + text + "\"",
+                     names_advice(text, {"text", "json"}));
   return text == "json";
 }
 
 void require_folder_name(const std::string& out, const std::string& example) {
   if (out == "~" || out.starts_with("~/"))
-    throw scene::toml::UsageError("--out", "\"" + out + "\" would be a folder with the name ~",
-                                  "the shell puts your home folder there in --out " + out +
-                                      ", with a blank and without quotes");
+    throw UsageError("--out", "\"" + out + "\" would be a folder with the name ~",
+                     "the shell puts your home folder there in --out " + out +
+                         ", with a blank and without quotes");
   const std::string suffix = lower_text(std::filesystem::path(out).extension().string());
   std::error_code error;
   for (const char* of_file : {".png", ".exr", ".jpg", ".mp4", ".mov", ".webm", ".gif", ".ply",
                               ".vtp", ".vti", ".vdb", ".bgeo", ".usda", ".npz", ".csv", ".obj"})
     if (suffix == of_file && !std::filesystem::is_directory(out, error))
-      throw scene::toml::UsageError(
+      throw UsageError(
           "--out", "\"" + out + "\" looks like a file",
           "expected a folder: files are DIR/" + example + "; leave " + suffix + " away");
 }
@@ -105,37 +103,33 @@ run::RenderOptions finished(run::RenderOptions options, const RenderTexts& texts
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
   if (texts.size) options.size = setup::parse_size(*texts.size);
   if (options.shutter && !(*options.shutter >= 0 && *options.shutter <= 360))
-    throw scene::toml::UsageError("--shutter",
-                                  "cannot use " + rough_text(*options.shutter) + " degrees",
-                                  "expected 0 (no motion blur) to 360 (the whole frame)");
+    throw UsageError("--shutter", "cannot use " + rough_text(*options.shutter) + " degrees",
+                     "expected 0 (no motion blur) to 360 (the whole frame)");
   if (texts.passes) options.passes = run::parse_passes(*texts.passes);
   if (texts.quality) options.quality = setup::quality_named(*texts.quality);
   if (!options.shader_dir.empty() && !std::filesystem::is_directory(options.shader_dir))
-    throw scene::toml::UsageError("--shader-dir", "cannot use \"" + options.shader_dir + "\"",
-                                  "expected a folder with the files of shaders/");
+    throw UsageError("--shader-dir", "cannot use \"" + options.shader_dir + "\"",
+                     "expected a folder with the files of shaders/");
   options.movie = finished_movie(texts.movie);
   if (!options.has_movies && options.movie.has_format && options.movie.is_made)
-    throw scene::toml::UsageError("--movie", "cannot be combined with --no-movie",
-                                  "give one of the two");
+    throw UsageError("--movie", "cannot be combined with --no-movie", "give one of the two");
   if (texts.is_quiet) options.verbosity = Verbosity::quiet;
   if (texts.is_verbose) options.verbosity = Verbosity::verbose;
   if (texts.progress) options.progress.is_json = parse_progress(*texts.progress);
   options.scene = scene::path_of_scene(options.scene);
   std::error_code error;
   if (options.from && !options.scene.empty() && !std::filesystem::exists(options.scene, error))
-    throw scene::toml::UsageError("--from", options.scene + " is not there",
-                                  "expected a scene, the folder of a run, or a picture made by "
-                                  "neve");
+    throw UsageError("--from", options.scene + " is not there",
+                     "expected a scene, the folder of a run, or a picture made by "
+                     "neve");
   check_threads(options.threads);
   if (options.checkpoint_every < 0 || options.checkpoint_every > 1000000)
-    throw scene::toml::UsageError("--checkpoint-every",
-                                  "cannot use " + std::to_string(options.checkpoint_every),
-                                  "expected frames, or 0 for none");
+    throw UsageError("--checkpoint-every", "cannot use " + std::to_string(options.checkpoint_every),
+                     "expected frames, or 0 for none");
   if (!(options.reference_threshold >= 0))
-    throw scene::toml::UsageError("--reference-threshold", "is negative", "expected 0 to 255");
+    throw UsageError("--reference-threshold", "is negative", "expected 0 to 255");
   if (!(options.reference_local_threshold >= 0))
-    throw scene::toml::UsageError("--reference-local-threshold", "is negative",
-                                  "expected 0 to 255");
+    throw UsageError("--reference-local-threshold", "is negative", "expected 0 to 255");
   check_backend(options.backend);
   return options;
 }
@@ -190,19 +184,18 @@ bench::BenchOptions finished_bench(const CLI::App& command, bench::BenchOptions 
   check_threads(options.threads);
   check_backend(options.backend);
   if (command.count("--rounds") > 0 && (options.rounds < 1 || options.rounds > 1000))
-    throw scene::toml::UsageError("--rounds", "cannot use " + std::to_string(options.rounds),
-                                  "expected 1 to 1000");
+    throw UsageError("--rounds", "cannot use " + std::to_string(options.rounds),
+                     "expected 1 to 1000");
   if (options.frames < 0 || options.frames > 1000000)
-    throw scene::toml::UsageError("--frames", "cannot use " + std::to_string(options.frames),
-                                  "expected a number of frames, or 0 for all");
+    throw UsageError("--frames", "cannot use " + std::to_string(options.frames),
+                     "expected a number of frames, or 0 for all");
   if (options.is_json && options.is_markdown)
-    throw scene::toml::UsageError("--markdown", "cannot be combined with --json",
-                                  "give one of the two");
+    throw UsageError("--markdown", "cannot be combined with --json", "give one of the two");
   const bool has_particles = command.get_option_no_throw("--particles") != nullptr;
   if (has_particles && command.count("--particles") > 0 &&
       !(options.particles >= 1 && options.particles <= 1e9))
-    throw scene::toml::UsageError("--particles", "cannot use " + rough_text(options.particles),
-                                  "expected 1 to 1e9");
+    throw UsageError("--particles", "cannot use " + rough_text(options.particles),
+                     "expected 1 to 1e9");
   return options;
 }
 
@@ -312,7 +305,7 @@ void add_render(CLI::App& app, Action& action) {
       ->excludes(quiet);
   command->final_callback([=, &action] {
     if (command->count("--out") > 0 && options->out.empty())
-      throw scene::toml::UsageError("--out", "names no folder", "expected the path of a folder");
+      throw UsageError("--out", "names no folder", "expected the path of a folder");
     action = [options, texts] {
       require_folder_name(options->out, "particles/0000.png");
       return run_render(finished(*options, *texts));

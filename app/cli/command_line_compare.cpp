@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "app/cli/command_line_parts.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::cli {
@@ -32,25 +32,24 @@ CompareOptions finished_compare(const CLI::App& command, CompareOptions options,
   pictures.a = options.a;
   pictures.b = options.b;
   if (command.count("--out") > 0 && pictures.out.empty())
-    throw scene::toml::UsageError(
-        "--out", "names no folder or file",
-        "expected a folder, or a file .png, .mp4, .webm, .mov, .gif, .webp or .csv");
+    throw UsageError("--out", "names no folder or file",
+                     "expected a folder, or a file .png, .mp4, .webm, .mov, .gif, .webp or .csv");
   for (const char* flag : {"--mode", "--frames", "--view", "--size", "--wipe", "--range", "--movie",
                            "--movie-quality", "--movie-fps"})
     if (pictures.out.empty() && command.count(flag) > 0)
-      throw scene::toml::UsageError(flag, "has no use without pictures",
-                                    "give --out DIR, --out x.png or --out x.mp4 too");
+      throw UsageError(flag, "has no use without pictures",
+                       "give --out DIR, --out x.png or --out x.mp4 too");
   for (const std::string& mode : texts.modes) pictures.modes.push_back(compare::mode_named(mode));
   if (texts.frames) pictures.frames = setup::parse_frames(*texts.frames);
   pictures.movie = finished_movie(texts.movie);
   if (texts.size) pictures.size = setup::parse_size(*texts.size);
   if (texts.range) pictures.range = setup::finite_number(*texts.range);
   if (texts.range && !(pictures.range && *pictures.range > 0))
-    throw scene::toml::UsageError("--range", "cannot use \"" + *texts.range + "\"",
-                                  "expected metres, as in --range 0.1");
+    throw UsageError("--range", "cannot use \"" + *texts.range + "\"",
+                     "expected metres, as in --range 0.1");
   if (!(pictures.wipe >= 0 && pictures.wipe <= 1))
-    throw scene::toml::UsageError("--wipe", "cannot use " + rough_text(pictures.wipe),
-                                  "expected a share of the width, 0 to 1");
+    throw UsageError("--wipe", "cannot use " + rough_text(pictures.wipe),
+                     "expected a share of the width, 0 to 1");
   if (texts.is_quiet) pictures.verbosity = Verbosity::quiet;
   if (texts.progress) pictures.progress.is_json = parse_progress(*texts.progress);
   check_threads(pictures.threads);

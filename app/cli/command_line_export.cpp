@@ -9,8 +9,8 @@
 #include "app/scene/describe.h"
 #include "app/scene/export_advice.h"
 #include "app/scene/leaf.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::cli {
@@ -47,8 +47,8 @@ class ExportKey {
   const std::string& help() const { return help_; }
   void check(double value) const {
     if (!valid_.contains(value))
-      throw scene::toml::UsageError(flag_, "cannot use " + rough_text(value),
-                                    "expected " + valid_.text_of_bounds());
+      throw UsageError(flag_, "cannot use " + rough_text(value),
+                       "expected " + valid_.text_of_bounds());
   }
 
  private:
@@ -80,8 +80,8 @@ E choice_of(const char* flag, const std::string& word) {
   if (const std::optional<E> value = scene::value_named<E>(word)) return *value;
   std::string hint;
   if constexpr (std::is_same_v<E, scene::ExportFormat>) hint = scene::export_format_advice(word);
-  throw scene::toml::UsageError(flag, "there is no \"" + word + "\"",
-                                hint.empty() ? names_advice(word, scene::choices<E>()) : hint);
+  throw UsageError(flag, "there is no \"" + word + "\"",
+                   hint.empty() ? names_advice(word, scene::choices<E>()) : hint);
 }
 
 /// "a,b": each at most once, at least one.
@@ -93,8 +93,8 @@ std::vector<E> choices_in(const char* flag, const std::string& text) {
     if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
   }
   if (values.empty())
-    throw scene::toml::UsageError(flag, "names nothing",
-                                  "expected some of " + joined(scene::choices<E>(), ", "));
+    throw UsageError(flag, "names nothing",
+                     "expected some of " + joined(scene::choices<E>(), ", "));
   return values;
 }
 
@@ -122,8 +122,7 @@ void check_surface(const CLI::App& command, const scene::Export& e) {
   if (e.surface) return;
   for (const ExportKey* key : {&cell_key(), &smoothing_key(), &piece_key()})
     if (command.count(key->flag()) > 0)
-      throw scene::toml::UsageError(key->flag(), "has no use without a surface",
-                                    "give --surface too");
+      throw UsageError(key->flag(), "has no use without a surface", "give --surface too");
 }
 
 run::ExportOptions finished_export(const CLI::App& command, const run::RenderOptions& run,
@@ -131,15 +130,14 @@ run::ExportOptions finished_export(const CLI::App& command, const run::RenderOpt
   run::ExportOptions options;
   options.run = finished(run, run_texts);
   if (command.count("--out") > 0 && options.run.out.empty())
-    throw scene::toml::UsageError("--out", "names no folder", "expected the path of a folder");
+    throw UsageError("--out", "names no folder", "expected the path of a folder");
   require_folder_name(options.run.out, "ply/0000.ply");
   if (texts.at && options.run.frames)
-    throw scene::toml::UsageError("--at", "cannot be combined with --frames",
-                                  "give one of the two");
+    throw UsageError("--at", "cannot be combined with --frames", "give one of the two");
   if (texts.at) options.at = setup::parse_times(*texts.at);
   if (!(texts.scale >= 1e-6 && texts.scale <= 1e6))
-    throw scene::toml::UsageError("--scale", "cannot use " + rough_text(texts.scale),
-                                  "expected 1e-6 to 1e6, as in --scale 100 for centimetres");
+    throw UsageError("--scale", "cannot use " + rough_text(texts.scale),
+                     "expected 1e-6 to 1e6, as in --scale 100 for centimetres");
   check_surface(command, texts.surface);
   scene::Export common = texts.surface;
   common.bodies = texts.bodies;

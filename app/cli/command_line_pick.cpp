@@ -6,8 +6,8 @@
 #include "app/cli/command_line_parts.h"
 #include "app/cli/devices/screen_flags.h"
 #include "app/scene/scene_file.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 
 namespace neve::app::cli {
 
@@ -29,8 +29,8 @@ pick::PickOptions finished_pick(pick::PickOptions options, const PickTexts& text
   if (texts.is_quiet) runs.verbosity = Verbosity::quiet;
   constexpr int most_rounds = 100;
   if (options.rounds < 1 || options.rounds > most_rounds)
-    throw scene::toml::UsageError("--rounds", "cannot use " + std::to_string(options.rounds),
-                                  "expected 1 to " + std::to_string(most_rounds));
+    throw UsageError("--rounds", "cannot use " + std::to_string(options.rounds),
+                     "expected 1 to " + std::to_string(most_rounds));
   check_threads(runs.threads);
   check_backend(runs.backend);
   return options;
@@ -41,8 +41,8 @@ view::ScreenOptions finished_place(const PickTexts& texts, bool is_terminal) {
   view::ScreenOptions screen = texts.screen;
   devices::finish_screen(screen, texts.listen);
   if (is_terminal && (screen.is_web || screen.is_window || !screen.replay.empty()))
-    throw scene::toml::UsageError(
-        "--terminal", "cannot be combined with --window, --web or --replay", "choose one");
+    throw UsageError("--terminal", "cannot be combined with --window, --web or --replay",
+                     "choose one");
   return screen;
 }
 
@@ -98,7 +98,7 @@ void add_pick(CLI::App& app, Action& action) {
   command->add_flag("--quiet,-q", texts->is_quiet, "Print only errors, warnings and questions");
   command->final_callback([=, &action] {
     if (command->count("--out") > 0 && options->runs.out.empty())
-      throw scene::toml::UsageError("--out", "names no folder", "expected the path of a folder");
+      throw UsageError("--out", "names no folder", "expected the path of a folder");
     action = [=] {
       return run_pick(finished_pick(*options, *texts),
                       finished_place(*texts, options->is_terminal));

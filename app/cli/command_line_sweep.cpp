@@ -7,8 +7,8 @@
 #include "app/cli/commands.h"
 #include "app/run/past_run.h"
 #include "app/scene/scene_file.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 #include "app/sweep/read/sweep_leaf.h"
 #include "app/sweep/store/store.h"
 
@@ -26,13 +26,12 @@ struct SweepTexts {
 sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
                                          const SweepTexts& texts) {
   if (options.file.empty())
-    throw scene::toml::UsageError("sweep", "which sweep?",
-                                  "give a sweep file, or a scene and -p ADDRESS=LIST");
+    throw UsageError("sweep", "which sweep?", "give a sweep file, or a scene and -p ADDRESS=LIST");
   options.file = scene::path_of_scene(options.file);
   if (texts.from) options.from = setup::parse_time(*texts.from, "--from");
   if (!texts.from && run::is_folder(options.file))
-    throw scene::toml::UsageError("sweep", options.file + " is a folder, not a scene",
-                                  "to vary its run from a time on, add --from TIME");
+    throw UsageError("sweep", options.file + " is a folder, not a scene",
+                     "to vary its run from a time on, add --from TIME");
   if (texts.frames) options.frames = setup::parse_frames(*texts.frames);
   if (texts.fork) options.fork = setup::parse_time(*texts.fork, "--fork");
   if (texts.coarsening) options.coarsening = setup::parse_coarsening(*texts.coarsening);
@@ -44,28 +43,27 @@ sweep::plan::SweepOptions finished_sweep(sweep::plan::SweepOptions options,
   if (texts.progress) options.progress.is_json = parse_progress(*texts.progress);
   if (texts.shard) options.shard = sweep::plan::parse_shard(*texts.shard);
   if (options.engine != "local" && options.engine != "slurm")
-    throw scene::toml::UsageError(
-        "--engine", "unknown engine \"" + options.engine + "\"",
-        "expected local or slurm; --shard and --emit work with any scheduler");
+    throw UsageError("--engine", "unknown engine \"" + options.engine + "\"",
+                     "expected local or slurm; --shard and --emit work with any scheduler");
   if (texts.budget) {
     const std::optional<double> seconds = sweep::read::seconds_of(*texts.budget);
     if (!seconds || !(*seconds > 0))
-      throw scene::toml::UsageError("--budget", "cannot use \"" + *texts.budget + "\"",
-                                    "expected a time as in 90s, 20m or 1h30m");
+      throw UsageError("--budget", "cannot use \"" + *texts.budget + "\"",
+                       "expected a time as in 90s, 20m or 1h30m");
     if (options.engine == "slurm" || !options.emit.empty())
-      throw scene::toml::UsageError(
+      throw UsageError(
           "--budget", "runs of other schedulers end when these end them",
           "remove --budget, or limit each run with [limits] timeout in the sweep file");
     options.budget = *seconds;
   }
   if (!options.sbatch.empty() && options.engine != "slurm")
-    throw scene::toml::UsageError("--sbatch", "works only with --engine slurm",
-                                  "add --engine slurm, or remove --sbatch");
+    throw UsageError("--sbatch", "works only with --engine slurm",
+                     "add --engine slurm, or remove --sbatch");
   check_threads(options.threads);
   check_backend(options.backend);
   if (options.jobs < 0 || options.jobs > 1024)
-    throw scene::toml::UsageError("--jobs", "cannot use " + std::to_string(options.jobs),
-                                  "expected 0 (as many as keep the cores busy) to 1024");
+    throw UsageError("--jobs", "cannot use " + std::to_string(options.jobs),
+                     "expected 0 (as many as keep the cores busy) to 1024");
   return options;
 }
 
@@ -184,7 +182,7 @@ void add_run(CLI::App& sweep, Action& action) {
   add_folder(*command, action, options, run_sweep_run);
   command->parse_complete_callback([=] {
     if (command->count("--index") == 0 && !options->is_beginning)
-      throw scene::toml::UsageError("sweep run", "which run?", "give --index N, or --beginning");
+      throw UsageError("sweep run", "which run?", "give --index N, or --beginning");
   });
 }
 
@@ -235,7 +233,7 @@ void add_sweep(CLI::App& app, Action& action) {
   command->final_callback([=, &action] {
     if (!command->get_subcommands().empty()) return;
     if (command->count("--out") > 0 && options->out.empty())
-      throw scene::toml::UsageError("--out", "names no folder", "expected the path of a folder");
+      throw UsageError("--out", "names no folder", "expected the path of a folder");
     action = [=] { return run_sweep(finished_sweep(*options, *texts)); };
   });
 }

@@ -6,8 +6,8 @@
 #include "app/cli/command_line_parts.h"
 #include "app/cli/commands.h"
 #include "app/cli/devices/screen_flags.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 
 namespace neve::app::cli {
 
@@ -19,9 +19,8 @@ view::ViewOptions finished_view(view::ViewOptions options, const run::RenderOpti
   options.run = finished(run, run_texts);
   devices::finish_screen(options.screen, listen);
   if (options.screen.pictures < 0)
-    throw scene::toml::UsageError("--frames",
-                                  "cannot use " + std::to_string(options.screen.pictures),
-                                  "expected the number of pictures to show before the end");
+    throw UsageError("--frames", "cannot use " + std::to_string(options.screen.pictures),
+                     "expected the number of pictures to show before the end");
   return options;
 }
 

@@ -8,7 +8,6 @@
 #include "app/output/atomic_file.h"
 #include "app/scene/first_scene.h"
 #include "app/scene/schema.h"
-#include "app/scene/toml/error.h"
 #include "app/scene/valid.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -27,14 +26,14 @@ fs::path new_scene_path(const std::string& name) {
   fs::path path = name;
   if (path.extension() == ".toml") path.replace_extension();
   if (!scene::is_identifier(path.filename().string()))
-    throw scene::toml::UsageError("new", "cannot call a scene \"" + path.filename().string() + "\"",
-                                  "expected 1 to 64 letters, digits, _ and -, as in neve new "
-                                  "my_scene");
+    throw UsageError("new", "cannot call a scene \"" + path.filename().string() + "\"",
+                     "expected 1 to 64 letters, digits, _ and -, as in neve new "
+                     "my_scene");
   path += ".toml";
   std::error_code error;
   if (fs::symlink_status(path, error).type() != fs::file_type::not_found)
-    throw scene::toml::UsageError("new", path.string() + " is there already",
-                                  "choose another name, or move that file away");
+    throw UsageError("new", path.string() + " is there already",
+                     "choose another name, or move that file away");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!fs::is_directory(folder, error))
     throw IoError(
@@ -74,8 +73,8 @@ int run_new(const std::string& name, bool is_json) {
 
 int run_schema(const std::string& kind) {
   if (kind != "scene" && kind != "sweep")
-    throw scene::toml::UsageError("schema", "there is no schema of \"" + kind + "\"",
-                                  names_advice(kind, {"scene", "sweep"}));
+    throw UsageError("schema", "there is no schema of \"" + kind + "\"",
+                     names_advice(kind, {"scene", "sweep"}));
   const bool is_scene = kind == "scene";
   std::cout << to_text(is_scene ? scene::scene_schema() : sweep::read::sweep_schema()) << "\n";
   return exit_ok;

@@ -4,7 +4,6 @@
 #include "app/cli/commands.h"
 #include "app/scene/params.h"
 #include "app/scene/search.h"
-#include "app/scene/toml/error.h"
 #include "app/scene/wishes.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -32,8 +31,8 @@ std::string nearest_filter(const std::string& filter, const std::vector<scene::P
 
 [[noreturn]] void fail_unfound(const std::string& what, const std::string& filter,
                                const std::string& nearest, const std::string& otherwise) {
-  throw scene::toml::UsageError("params", what + " \"" + filter + "\"",
-                                nearest.empty() ? otherwise : "did you mean " + nearest + "?");
+  throw UsageError("params", what + " \"" + filter + "\"",
+                   nearest.empty() ? otherwise : "did you mean " + nearest + "?");
 }
 
 void print_wishes(const ParamsOptions& options) {

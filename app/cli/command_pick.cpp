@@ -13,7 +13,6 @@
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
 #include "app/pick/game.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/command_text.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -193,9 +192,9 @@ namespace {
 /// What a sweep takes and a search does not. @throws UsageError
 void check_axes(const std::vector<std::string>& axes) {
   if (axes.empty())
-    throw scene::toml::UsageError("pick", "nothing varies",
-                                  "name what to find, and between which two values: -p "
-                                  "material.snow.hardening=5,20");
+    throw UsageError("pick", "nothing varies",
+                     "name what to find, and between which two values: -p "
+                     "material.snow.hardening=5,20");
 }
 
 }  // namespace
@@ -205,7 +204,7 @@ int run_pick(const pick::PickOptions& options, const view::ScreenOptions& screen
   pick::Game game(options);
   if (options.clicks.empty() && !wants_screen(options, screen) &&
       !devices::TerminalLines::is_there())
-    throw scene::toml::UsageError(
+    throw UsageError(
         "pick", "there is no terminal to ask for the best tile",
         "call it in a terminal, or give --web for a page, --window, or --clicks FILE with one "
         "choice a line: a tile from 1 to 9, two of them, or 0 for none");

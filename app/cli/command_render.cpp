@@ -20,7 +20,6 @@
 #include "app/run/render_run.h"
 #include "app/run/step_warnings.h"
 #include "app/scene/coarsen.h"
-#include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/resolve.h"
 #include "app/setup/seed_scene.h"
@@ -48,7 +47,7 @@ void refuse_strip(const run::RenderOptions& options) {
       !run::is_picture(options.scene))
     return;
   if (const auto strip = run::read_picture_record(options.scene).strip)
-    throw scene::toml::UsageError(
+    throw UsageError(
         options.scene, "is a strip of " + std::to_string(strip->times.size()) + " moments",
         "neve strip " + options.scene + " makes it again; --frames renders frames of its scene");
 }

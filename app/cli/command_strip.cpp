@@ -8,7 +8,6 @@
 #include "app/cli/command_line_parts.h"
 #include "app/cli/report_error.h"
 #include "app/run/strip_run.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -26,7 +25,7 @@ run::StripOptions finished_strip(const CLI::App& command, const run::RenderOptio
                                  const RenderTexts& run_texts, run::StripOptions options,
                                  const StripTexts& texts) {
   const auto refuse = [](const char* flag, const std::string& what, const char* hint) {
-    throw scene::toml::UsageError(flag, what, hint);
+    throw UsageError(flag, what, hint);
   };
   const auto cannot_use = [](int number) { return "cannot use " + std::to_string(number); };
   options.run = finished(run, run_texts);

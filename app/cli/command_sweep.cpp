@@ -16,7 +16,6 @@
 #include "app/output/movie.h"
 #include "app/output/named_file.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/caps.h"
 #include "app/setup/command_text.h"
 #include "app/support/errors.h"
@@ -339,12 +338,11 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
                     options.progress);
   const sweep::store::Manifest manifest = sweep::store::read_manifest(options.folder);
   if (options.is_beginning && !manifest.beginning)
-    throw scene::toml::UsageError("--beginning", "the runs have no beginning in common",
-                                  "give --index N for one of them");
+    throw UsageError("--beginning", "the runs have no beginning in common",
+                     "give --index N for one of them");
   if (options.index < 0 || options.index >= static_cast<int>(manifest.runs.size()))
-    throw scene::toml::UsageError(
-        "--index", fmt::format("there is no run {}", options.index),
-        fmt::format("expected a number from 0 to {}", manifest.runs.size() - 1));
+    throw UsageError("--index", fmt::format("there is no run {}", options.index),
+                     fmt::format("expected a number from 0 to {}", manifest.runs.size() - 1));
   sweep::jobs::LocalOptions engine;
   engine.cores = core_count(options.threads);
   engine.jobs = 1;

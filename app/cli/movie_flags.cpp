@@ -3,8 +3,8 @@
 #include <map>
 #include <vector>
 
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::cli {
@@ -62,22 +62,22 @@ output::MovieStyle finished_movie(const MovieTexts& texts) {
   } else if (texts.format) {
     const auto format = output::movie_format_named(*texts.format);
     if (!format)
-      throw scene::toml::UsageError("--movie", "there is no format \"" + *texts.format + "\"",
-                                    format_advice(*texts.format));
+      throw UsageError("--movie", "there is no format \"" + *texts.format + "\"",
+                       format_advice(*texts.format));
     style.format = *format;
   }
   if (texts.quality) {
     const std::optional<int> quality = number_of<int>(*texts.quality);
     if (!quality || *quality < 1 || *quality > 100)
-      throw scene::toml::UsageError("--movie-quality", "cannot use \"" + *texts.quality + "\"",
-                                    "expected a whole number from 1 to 100");
+      throw UsageError("--movie-quality", "cannot use \"" + *texts.quality + "\"",
+                       "expected a whole number from 1 to 100");
     style.quality = *quality;
   }
   if (texts.fps) {
     const std::optional<double> fps = setup::finite_number(*texts.fps);
     if (!fps || *fps < 0.1 || *fps > 1000)
-      throw scene::toml::UsageError("--movie-fps", "cannot use \"" + *texts.fps + "\"",
-                                    "expected 0.1 to 1000 frames a second, as in --movie-fps 12");
+      throw UsageError("--movie-fps", "cannot use \"" + *texts.fps + "\"",
+                       "expected 0.1 to 1000 frames a second, as in --movie-fps 12");
     style.fps = *fps;
   }
   return style;

@@ -71,7 +71,7 @@ Report describe_current_error() {
         error.line > 0 ? ":" + std::to_string(error.line) + ":" + std::to_string(error.column) : "";
     return {exit_invalid_scene, error.what(), error.message, error.file + place,
             error.hint,         error.file,   error.line,    error.column};
-  } catch (const scene::toml::UsageError& error) {
+  } catch (const UsageError& error) {
     const std::string hint = error.hint.empty() ? "" : "; " + error.hint;
     const std::string where = error.where.empty() ? "" : error.where + ": ";
     Report report = plain_report(exit_usage, where + error.message + hint, error.where, error.hint);

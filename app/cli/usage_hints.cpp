@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/scene/toml/error.h"
 #include "app/setup/foreign_flags.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::cli {
@@ -89,9 +89,9 @@ void check_empty_names(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& word : option->results())
       if (option->get_positional() && word.empty())
-        throw scene::toml::UsageError(option->get_name(), "the name is empty",
-                                      "expected a file or folder; is a variable of the shell not "
-                                      "set?");
+        throw UsageError(option->get_name(), "the name is empty",
+                         "expected a file or folder; is a variable of the shell not "
+                         "set?");
 }
 
 /// @param name of the command with those above it
@@ -110,11 +110,10 @@ void check_leftovers_of(const CLI::App& command, const std::string& name) {
   std::string word = leftovers.front();
   if (!word.starts_with("-")) {
     const std::string advice = setup::stray_word_advice(word, flags);
-    throw scene::toml::UsageError("", "unexpected argument \"" + word + "\"",
-                                  advice.empty() ? help : advice);
+    throw UsageError("", "unexpected argument \"" + word + "\"", advice.empty() ? help : advice);
   }
   word = word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
-  throw scene::toml::UsageError("", "unknown option " + word, hint_for(word, flags, help));
+  throw UsageError("", "unknown option " + word, hint_for(word, flags, help));
 }
 
 }  // namespace
@@ -132,17 +131,16 @@ void check_subcommand(const CLI::App& app, int argc, char** argv) {
   const std::vector<std::string> names = subcommand_names(app);
   if (word.starts_with("-")) return;
   if (word == "completion" || word == "completions" || word == "man")
-    throw scene::toml::UsageError(
+    throw UsageError(
         "", "unknown subcommand \"" + word + "\"",
         "neve manual DIR writes the manual pages and the completions for bash, zsh and fish");
   const bool is_file = word.ends_with(".toml") || word.ends_with(".png");
   const std::string meant = is_file ? "neve render " + word : setup::command_meant(word);
   if (!meant.empty())
-    throw scene::toml::UsageError("", "unknown subcommand \"" + word + "\"",
-                                  "did you mean " + meant + "?");
+    throw UsageError("", "unknown subcommand \"" + word + "\"", "did you mean " + meant + "?");
   if (std::find(names.begin(), names.end(), word) == names.end())
-    throw scene::toml::UsageError("", "unknown subcommand \"" + word + "\"",
-                                  suggestion(word, names, "neve --help lists them"));
+    throw UsageError("", "unknown subcommand \"" + word + "\"",
+                     suggestion(word, names, "neve --help lists them"));
   const CLI::App& command = *app.get_subcommand(word);
   const std::vector<std::string> parts = subcommand_names(command);
   if (command.get_require_subcommand_min() == 0) return;
@@ -152,8 +150,8 @@ void check_subcommand(const CLI::App& app, int argc, char** argv) {
       std::find(parts.begin(), parts.end(), part) != parts.end())
     return;
   if (part.empty() || part.starts_with("-"))
-    throw scene::toml::UsageError(word, "which part?", "expected one of " + known);
-  throw scene::toml::UsageError(word + " " + part, "unknown part", "expected one of " + known);
+    throw UsageError(word, "which part?", "expected one of " + known);
+  throw UsageError(word + " " + part, "unknown part", "expected one of " + known);
 }
 
 void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
@@ -163,27 +161,26 @@ void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
   // "--at: At Most 1 required but received 2"
   const std::string too_many = ": At Most 1 required but received ";
   if (const std::size_t at = text.find(too_many); at != std::string::npos)
-    throw scene::toml::UsageError(
-        text.substr(0, at), "takes one value and was given " + text.substr(at + too_many.size()),
-        help);
+    throw UsageError(text.substr(0, at),
+                     "takes one value and was given " + text.substr(at + too_many.size()), help);
   // "fast was given a disallowed flag override": --fast=no
   if (const std::size_t at = text.find(" was given a disallowed flag"); at != std::string::npos)
-    throw scene::toml::UsageError("--" + text.substr(0, at), "takes no value",
-                                  "it is on where it is given; " + help);
+    throw UsageError("--" + text.substr(0, at), "takes no value",
+                     "it is on where it is given; " + help);
   // "--progress: 1 required NAME missing"
   if (const std::size_t at = text.find(": 1 required "); at != std::string::npos)
-    throw scene::toml::UsageError(
+    throw UsageError(
         text.substr(0, at), "has no value",
         "expected " + text.substr(at + 13, text.rfind(" missing") - at - 13) + "; " + help);
   // "NAME is required"
   if (const std::size_t at = text.find(" is required"); at != std::string::npos)
-    throw scene::toml::UsageError("", name + " needs " + text.substr(0, at), help);
+    throw UsageError("", name + " needs " + text.substr(0, at), help);
   // "The following argument was not expected: --json"
   const std::string unexpected = "not expected: ";
   if (const std::size_t at = text.find(unexpected); at != std::string::npos)
-    throw scene::toml::UsageError("", "no command is before " + text.substr(at + unexpected.size()),
-                                  "flags follow the command, as in neve render SCENE --quiet");
-  if (!text.starts_with(conversion)) throw scene::toml::UsageError("", text, help);
+    throw UsageError("", "no command is before " + text.substr(at + unexpected.size()),
+                     "flags follow the command, as in neve render SCENE --quiet");
+  if (!text.starts_with(conversion)) throw UsageError("", text, help);
   // "Could not convert: --threads = x"
   text.erase(0, conversion.size());
   const std::size_t equals = text.find(" = ");
@@ -192,8 +189,8 @@ void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::Option* found = command->get_option_no_throw(option);
   // Only MEAN is a fraction.
   const bool is_fraction = found && found->get_type_name() == "MEAN";
-  throw scene::toml::UsageError(option, "cannot use \"" + value + "\"",
-                                "expected " + expectation_of(option, is_fraction) + "; " + help);
+  throw UsageError(option, "cannot use \"" + value + "\"",
+                   "expected " + expectation_of(option, is_fraction) + "; " + help);
 }
 
 void check_leftovers(const CLI::App& app) {
@@ -208,8 +205,8 @@ std::string help_of(const CLI::App& app, const std::vector<std::string>& words) 
     const std::vector<std::string> names = subcommand_names(*command);
     name += (name.empty() ? "" : " ") + command->get_name();
     if (std::find(names.begin(), names.end(), word) == names.end())
-      throw scene::toml::UsageError("help", "there is no " + name + " " + word,
-                                    suggestion(word, names, name + " --help lists them"));
+      throw UsageError("help", "there is no " + name + " " + word,
+                       suggestion(word, names, name + " --help lists them"));
     command = command->get_subcommand(word);
   }
   return command->help(name);

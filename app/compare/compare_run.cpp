@@ -20,19 +20,18 @@ bool is_explicit(const PairOptions& options, Mode mode) {
 }
 
 /// A mode that these runs cannot have: an error where it was asked for, or is the only one.
-void refuse_mode(const PairOptions& options, Mode mode,
-                 const std::optional<scene::toml::UsageError>& problem, Target& target,
-                 PairResult& result) {
+void refuse_mode(const PairOptions& options, Mode mode, const std::optional<UsageError>& problem,
+                 Target& target, PairResult& result) {
   if (!problem || !target.has(mode)) return;
   if (is_explicit(options, mode) || target.kind() != TargetKind::folder) throw *problem;
   target.leave_out(mode);
   result.warnings.push_back(std::string("no ") + name(mode) + ": " + problem->message);
 }
 
-std::optional<scene::toml::UsageError> metrics_problem(const Pair& pair) {
+std::optional<UsageError> metrics_problem(const Pair& pair) {
   if (!pair.a.is_picture && !pair.b.is_picture) return std::nullopt;
-  return scene::toml::UsageError("--mode metrics", "a picture has no metrics over time",
-                                 "compare the folders of two runs");
+  return UsageError("--mode metrics", "a picture has no metrics over time",
+                    "compare the folders of two runs");
 }
 
 void check_costs(const Side& side, int threads) {
@@ -169,7 +168,7 @@ PairResult compare_plain_pictures(const PairOptions& options) {
   const Mode mode = options.modes.empty() ? Mode::beside : target.modes().front();
   const bool is_of_pixels = mode == Mode::beside || mode == Mode::wipe;
   if (!is_of_pixels || target.modes().size() > 1 || target.kind() != TargetKind::picture)
-    throw scene::toml::UsageError(
+    throw UsageError(
         "--mode", "these pictures hold no scene of neve, only pixels",
         "give --out x.png with --mode beside or wipe, or pictures that neve render wrote");
   const render::Image a = read_plain(options.a), b = read_plain(options.b);

@@ -1,6 +1,6 @@
 #include "app/compare/pair_options.h"
 
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::compare {
@@ -33,8 +33,7 @@ Mode mode_named(const std::string& text) {
     if (text == name(mode)) return mode;
     names.emplace_back(name(mode));
   }
-  throw scene::toml::UsageError("--mode", "there is no \"" + text + "\"",
-                                names_advice(text, names));
+  throw UsageError("--mode", "there is no \"" + text + "\"", names_advice(text, names));
 }
 
 }  // namespace neve::app::compare

@@ -9,7 +9,6 @@
 #include "app/run/picture_record.h"
 #include "app/scene/flat.h"
 #include "app/scene/live_change.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 
@@ -99,12 +98,11 @@ setup::FrameRange common_frames(const PairOptions& options, const Pair& pair) {
   const std::string found = fmt::format("{} has {} and {} has {}", pair.a.title, range_text(a),
                                         pair.b.title, range_text(b));
   if (both.first > both.last)
-    throw scene::toml::UsageError("", found + ": they have no frame in common",
-                                  "compare runs, or pictures of one moment");
+    throw UsageError("", found + ": they have no frame in common",
+                     "compare runs, or pictures of one moment");
   if (!options.frames) return both;
   if (options.frames->first < both.first || options.frames->last > both.last)
-    throw scene::toml::UsageError("--frames", found,
-                                  "expected frames that both have: " + range_text(both));
+    throw UsageError("--frames", found, "expected frames that both have: " + range_text(both));
   return *options.frames;
 }
 
@@ -120,7 +118,7 @@ Pair read_pair(const PairOptions& options) {
   pair.b = read_side(options.b, options.threads);
   const double fps_a = pair.a.job.scene.fps, fps_b = pair.b.job.scene.fps;
   if (fps_a != fps_b)
-    throw scene::toml::UsageError(
+    throw UsageError(
         "",
         fmt::format("{} has {} frames a second and {} has {}: their frames are of other times",
                     options.a, rough_text(fps_a), options.b, rough_text(fps_b)),
@@ -135,8 +133,8 @@ Pair read_pair(const PairOptions& options) {
   return pair;
 }
 
-std::optional<scene::toml::UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
-                                                  const setup::SeededScene& b) {
+std::optional<UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
+                                     const setup::SeededScene& b) {
   const scene::Scene &scene_a = pair.a.job.scene, &scene_b = pair.b.job.scene;
   std::string why;
   if (scene_a.seed != scene_b.seed)
@@ -149,15 +147,15 @@ std::optional<scene::toml::UsageError> id_problem(const Pair& pair, const setup:
     if (in_a != in_b) why = count_text(in_a, in_b, scene_a.bodies[k].name);
   }
   if (why.empty()) return std::nullopt;
-  return scene::toml::UsageError(
+  return UsageError(
       "--mode displacement", "no particle of A is the same piece of snow as one of B: " + why,
       "compare runs of one seed and cell size, or use --mode beside, wipe or metrics");
 }
 
-std::optional<scene::toml::UsageError> grid_problem(const Pair& pair) {
+std::optional<UsageError> grid_problem(const Pair& pair) {
   const double a = pair.a.job.scene.solver.cell_size, b = pair.b.job.scene.solver.cell_size;
   if (a == b) return std::nullopt;
-  return scene::toml::UsageError(
+  return UsageError(
       "--mode mass",
       fmt::format("solver.cell_size is {} m in A and {} m in B: their nodes lie in other places",
                   rough_text(a), rough_text(b)),

@@ -7,7 +7,6 @@
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
 #include "app/support/version.h"
@@ -31,7 +30,7 @@ output::MovieStyle movie_for(const PairOptions& options, TargetKind kind) {
   const bool is_same =
       std::string(output::movie_suffix(movie.format)) == output::movie_suffix(format);
   if (movie.is_chosen && movie.has_format && (!is_same || !movie.is_made))
-    throw scene::toml::UsageError(
+    throw UsageError(
         std::string("--movie ") + (movie.is_made ? output::name(movie.format) : "none"),
         "does not fit " + options.out,
         std::string("leave it out, or name a file ") + output::movie_suffix(movie.format));
@@ -51,15 +50,14 @@ TargetKind kind_of(const fs::path& out) {
 std::vector<Mode> modes_for(const PairOptions& options, TargetKind kind) {
   if (kind == TargetKind::folder) return options.modes.empty() ? all_modes() : options.modes;
   if (options.modes.size() > 1)
-    throw scene::toml::UsageError("--mode",
-                                  "is given more than once, and " + options.out + " holds one",
-                                  "give one --mode, or name a folder with --out");
+    throw UsageError("--mode", "is given more than once, and " + options.out + " holds one",
+                     "give one --mode, or name a folder with --out");
   const bool is_metrics = !options.modes.empty() && options.modes.front() == Mode::metrics;
   if (kind == TargetKind::table && !options.modes.empty() && !is_metrics)
-    throw scene::toml::UsageError("--mode", "a table has metrics", "leave --mode out");
+    throw UsageError("--mode", "a table has metrics", "leave --mode out");
   if (kind == TargetKind::movie && is_metrics)
-    throw scene::toml::UsageError("--mode", "metrics are one picture with all times, no movie",
-                                  "name a file .png or .csv, or a folder");
+    throw UsageError("--mode", "metrics are one picture with all times, no movie",
+                     "name a file .png or .csv, or a folder");
   if (kind == TargetKind::table) return {Mode::metrics};
   return options.modes.empty() ? std::vector<Mode>{Mode::beside} : options.modes;
 }
@@ -109,8 +107,8 @@ Target::Target(const PairOptions& options)
       movie_(movie_for(options, kind_)) {
   std::error_code error;
   if (kind_ != TargetKind::folder || !fs::exists(output::run_json_path(out_), error)) return;
-  throw scene::toml::UsageError("--out", options.out + " is the folder of a run",
-                                "name another folder, or a file .png or .mp4");
+  throw UsageError("--out", options.out + " is the folder of a run",
+                   "name another folder, or a file .png or .mp4");
 }
 
 Target::~Target() {

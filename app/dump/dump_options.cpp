@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/scene/names.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 #include "app/support/lower_text.h"
 #include "app/support/text.h"
 
@@ -16,8 +16,8 @@ namespace {
 
 [[noreturn]] void fail_stage(const std::string& text, const std::string& meant,
                              const std::vector<std::string>& names) {
-  throw scene::toml::UsageError("--stage", "there is no stage \"" + text + "\"",
-                                "did you mean " + meant + "? expected " + joined(names, ", "));
+  throw UsageError("--stage", "there is no stage \"" + text + "\"",
+                   "did you mean " + meant + "? expected " + joined(names, ", "));
 }
 
 }  // namespace
@@ -36,10 +36,10 @@ sim::Stage parse_stage(const std::string& text) {
   std::vector<std::string> longer;
   for (const std::string& name : names)
     if (text.size() > 3 && name.find(text) != std::string::npos) longer.push_back(name);
-  throw scene::toml::UsageError(
-      "--stage", "there is no stage \"" + text + "\"",
-      longer.size() == 1 ? "did you mean " + longer.front() + "? expected " + joined(names, ", ")
-                         : names_advice(text, names));
+  throw UsageError("--stage", "there is no stage \"" + text + "\"",
+                   longer.size() == 1
+                       ? "did you mean " + longer.front() + "? expected " + joined(names, ", ")
+                       : names_advice(text, names));
 }
 
 Probe parse_probe(const std::string& text) {
@@ -54,18 +54,16 @@ Probe parse_probe(const std::string& text) {
     begin = comma + 1;
   }
   if (begin <= text.size() || numbers.size() != 3)
-    throw scene::toml::UsageError(
-        "--probe", "cannot use \"" + text + "\"",
-        "expected the id of a particle, or a place as in --probe 0,0.5,0");
+    throw UsageError("--probe", "cannot use \"" + text + "\"",
+                     "expected the id of a particle, or a place as in --probe 0,0.5,0");
   return sim::Vec3d(numbers[0], numbers[1], numbers[2]);
 }
 
 DumpFormat parse_format(const std::string& text) {
   if (text == "table") return DumpFormat::table;
   if (text == "vtk") return DumpFormat::vtk;
-  throw scene::toml::UsageError(
-      "--format", "cannot use \"" + text + "\"",
-      "expected table or vtk; neve export writes ply, vtp, bgeo, usda, npz and csv");
+  throw UsageError("--format", "cannot use \"" + text + "\"",
+                   "expected table or vtk; neve export writes ply, vtp, bgeo, usda, npz and csv");
 }
 
 }  // namespace neve::app::dump

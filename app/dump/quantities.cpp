@@ -8,7 +8,7 @@
 
 #include "app/health/expected.h"
 #include "app/scene/search.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "sim/health/diagnostics.h"
 
 namespace neve::app::dump {
@@ -280,8 +280,8 @@ void keep_only(Listing& listing, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
-      throw scene::toml::UsageError("--field", "there is no \"" + name + "\" here",
-                                    stage_advice(name) + scene::attribute_advice(name, known));
+      throw UsageError("--field", "there is no \"" + name + "\" here",
+                       stage_advice(name) + scene::attribute_advice(name, known));
     kept.push_back(listing.quantities[static_cast<std::size_t>(found - known.begin())]);
   }
   listing.quantities = std::move(kept);

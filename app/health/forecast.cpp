@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "app/scene/coarsen.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/clock.h"
+#include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
 #include "sim/health/diagnostics.h"
@@ -115,7 +115,7 @@ std::optional<scene::Scene> coarse_copy(const scene::Scene& scene, double partic
     try {
       scene::coarsen(copy, factor);
       return copy;
-    } catch (const scene::toml::UsageError&) {
+    } catch (const UsageError&) {
       if (factor == 1) return std::nullopt;
       factor = std::max(1.0, 0.7 * factor);
     }

@@ -6,7 +6,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/pick/page.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/sweep/read/read_sweep.h"
 
@@ -20,8 +20,8 @@ Game::Game(const PickOptions& options) : options_(options) {
   const sweep::read::Sweep sweep =
       sweep::read::read_sweep(options.runs.file, {axes, options.runs.overrides});
   if (!sweep.file.empty())
-    throw scene::toml::UsageError("pick", options.runs.file + " is a sweep",
-                                  "give its scene, and the axes with -p");
+    throw UsageError("pick", options.runs.file + " is a sweep",
+                     "give its scene, and the axes with -p");
   scene_ = {options.runs.file, sweep.fixed, axes_of(sweep)};
   // Complains about settings, and both ends of the axes, before anything is written.
   for (const double end : {0., 1.}) picked_scene(scene_, search::Point::Constant(dimension(), end));
@@ -35,9 +35,8 @@ void Game::resume() {
   if (!fs::exists(own_clicks_, error)) return;
   const std::string text = text_of_file(own_clicks_);
   if (!text.starts_with(clicks_text({}, comment())))
-    throw scene::toml::UsageError(folder_.string(),
-                                  "has another search: " + text.substr(2, text.find('\n') - 2),
-                                  "choose another folder with --out, or remove the old one");
+    throw UsageError(folder_.string(), "has another search: " + text.substr(2, text.find('\n') - 2),
+                     "choose another folder with --out, or remove the old one");
   for (const Click& click : parse_clicks(text, own_clicks_.string()))
     if (!is_over()) take(click);
 }
@@ -45,10 +44,9 @@ void Game::resume() {
 void Game::check_is_beginning_of(const std::vector<Click>& list) const {
   for (std::size_t k = 0; k < rounds_.size(); ++k)
     if (k >= list.size() || rounds_[k].chosen != list[k])
-      throw scene::toml::UsageError(
-          options_.clicks,
-          fmt::format("{} has other clicks from round {} on", folder_.string(), k + 1),
-          "choose another folder with --out, or remove the old one");
+      throw UsageError(options_.clicks,
+                       fmt::format("{} has other clicks from round {} on", folder_.string(), k + 1),
+                       "choose another folder with --out, or remove the old one");
 }
 
 sweep::plan::SweepOptions Game::begin_round() {

@@ -12,7 +12,6 @@
 #include "app/run/run_json.h"
 #include "app/run/state_source.h"
 #include "app/scene/check.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -32,7 +31,7 @@ void check_exports(const scene::Scene& scene) {
   for (const char* key : {"attributes", "format", "surface"})
     if (problem->address.ends_with(std::string(".") + key)) flag = std::string("--") + key;
   if (problem->address.ends_with(".carried")) flag = "--attributes";
-  throw scene::toml::UsageError(flag, problem->message, problem->hint);
+  throw UsageError(flag, problem->message, problem->hint);
 }
 
 /// Cameras that frame the snow, for formats that have cameras.

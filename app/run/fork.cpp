@@ -10,7 +10,6 @@
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -143,9 +142,8 @@ void require_live(const scene::Scene& before, const scene::Scene& after, const c
   if (restart.empty()) return;
   std::vector<std::string> names;
   for (const scene::Difference& d : restart) names.push_back(d.address);
-  throw scene::toml::UsageError(flag,
-                                joined(names, ", ") + " cannot change while a simulation runs",
-                                "parameters that can: " + live_addresses());
+  throw UsageError(flag, joined(names, ", ") + " cannot change while a simulation runs",
+                   "parameters that can: " + live_addresses());
 }
 
 void require_whole_frame(const scene::Scene& scene, double time, const char* flag) {
@@ -153,7 +151,7 @@ void require_whole_frame(const scene::Scene& scene, double time, const char* fla
   if (scene.solver.on_divergence != sim::OnDivergence::retry ||
       !(time > frame_end * typed_rounding))
     return;
-  throw scene::toml::UsageError(
+  throw UsageError(
       flag,
       fmt::format("{} s is between two frames, where a run with solver.on_divergence = "
                   "\"retry\" does not take another way",
@@ -179,7 +177,7 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   const int first = frame_before(job.fork->time, job.scene.fps) + 1;
   const int last = options.frames ? options.frames->last : forked.frames;
   if (last < first)
-    throw scene::toml::UsageError(
+    throw UsageError(
         "--from",
         fmt::format("{} s is at or after frame {}, the last one", rough_text(job.fork->time), last),
         "expected an earlier time, or a later frame with --frames");
@@ -187,8 +185,8 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   if (options.out.empty()) job.folder = out_folder() / default_folder(job, options.scene);
   std::error_code error;
   if (is_run && fs::equivalent(job.folder, options.scene, error))
-    throw scene::toml::UsageError("--out", job.folder.string() + " is the run that is forked",
-                                  "name another folder");
+    throw UsageError("--out", job.folder.string() + " is the run that is forked",
+                     "name another folder");
 }
 
 scene::Scene scene_before_fork(const RenderJob& job) {

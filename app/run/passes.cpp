@@ -7,8 +7,8 @@
 #include "app/exports/columns.h"
 #include "app/picture/attributes.h"
 #include "app/scene/names.h"
-#include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::run {
@@ -120,8 +120,7 @@ PassList pass_list(const std::vector<std::string>& names) {
     else if (const auto attribute = scene::value_named<scene::ExportAttribute>(name))
       list.attributes.push_back(*attribute);
     else
-      throw scene::toml::UsageError("--passes", "unknown pass \"" + name + "\"",
-                                    advice_on_pass(name));
+      throw UsageError("--passes", "unknown pass \"" + name + "\"", advice_on_pass(name));
   }
   return list;
 }

@@ -9,7 +9,6 @@
 #include "app/output/sequence.h"
 #include "app/run/render_job.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
 
@@ -24,11 +23,11 @@ bool is_folder(const std::string& path) {
 
 RenderJob job_from_run(const RenderOptions& options) {
   if (!options.overrides.empty() || options.coarsening || options.is_fast)
-    throw scene::toml::UsageError(!options.overrides.empty() ? "--set"
-                                  : options.coarsening       ? "--coarsen"
-                                                             : "--fast",
-                                  "a run has the scene it was made from",
-                                  "give the scene file instead of the folder to write another run");
+    throw UsageError(!options.overrides.empty() ? "--set"
+                     : options.coarsening       ? "--coarsen"
+                                                : "--fast",
+                     "a run has the scene it was made from",
+                     "give the scene file instead of the folder to write another run");
   const fs::path file = output::run_json_path(options.scene);
   RenderJob job;
   try {

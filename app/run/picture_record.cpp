@@ -11,7 +11,6 @@
 #include "app/run/passes.h"
 #include "app/run/render_job.h"
 #include "app/run/run_json.h"
-#include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -79,7 +78,7 @@ class TextReader {
   std::vector<std::string> passes(const char* key) const {
     try {
       return parse_passes(text(key));
-    } catch (const scene::toml::UsageError& error) {
+    } catch (const UsageError& error) {
       fail(error.what());
     }
   }

@@ -90,7 +90,7 @@ void check_changes(const RenderJob& job) {
   try {
     with_changes({scene::write_scene(job.scene), job.scene_file, {}, {}},
                  changes_of(job.scene, job.changes));
-  } catch (const scene::toml::UsageError& error) {
+  } catch (const UsageError& error) {
     throw Error(exit_invalid_scene, job.scene_file + ": error: " + error.what(), job.scene_file,
                 "its text neve:changes was not written by neve");
   }
@@ -163,10 +163,10 @@ RenderJob job_of_source(const RenderOptions& options) {
 
 RenderJob make_job(const RenderOptions& options) {
   if (options.from && (options.coarsening || options.is_fast))
-    throw scene::toml::UsageError(options.coarsening ? "--coarsen" : "--fast",
-                                  "cannot be combined with --from: a run keeps its cells and "
-                                  "settings while it runs",
-                                  "coarsen the run that is forked");
+    throw UsageError(options.coarsening ? "--coarsen" : "--fast",
+                     "cannot be combined with --from: a run keeps its cells and "
+                     "settings while it runs",
+                     "coarsen the run that is forked");
   RenderJob job = job_of_source(options);
   if (options.coarsening) {
     scene::coarsen(job.scene, *options.coarsening);
@@ -191,8 +191,7 @@ RenderJob make_job(const RenderOptions& options) {
     for (const auto& [flag, value] :
          {std::pair{"--passes", joined(options.passes, ",")}, std::pair{"--plate", options.plate}})
       if (!value.empty())
-        throw scene::toml::UsageError(flag, "cannot be used with a mosaic",
-                                      "name one of its views with --view");
+        throw UsageError(flag, "cannot be used with a mosaic", "name one of its views with --view");
     job.passes.clear();
     job.plate.clear();
   }

@@ -8,7 +8,7 @@
 #include "app/run/verify.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "sim/base/hash.h"
@@ -97,7 +97,7 @@ void Checkpoints::write(int frame, const sim::AdvanceReport& advance,
 
 void Checkpoints::check_identity(const output::Checkpoint& checkpoint) {
   if (checkpoint.identity != identity_)
-    throw scene::toml::UsageError(
+    throw UsageError(
         "--resume",
         "the run in " + folder_.string() + " is a different run: " + other_thing(folder_, picture_),
         "remove --resume to replace it, or choose another folder with --out");

@@ -10,8 +10,8 @@
 #include "app/run/picture_record.h"
 #include "app/run/state_source.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/resolve.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 #include "render/frame/compose.h"
 #include "render/gl/context.h"
@@ -175,7 +175,7 @@ StripJob make_strip_job(const StripOptions& options) {
   job.run = is_run ? job_from_run(run) : make_job(run);
   if (is_run) job.past = {run.scene, read_frame_records(run.scene)};
   if (!job.run.scene.mosaics.empty() && !run.views.empty() && job.run.scene.views.size() > 1)
-    throw scene::toml::UsageError("--view", "a mosaic has no strip", "give one of its views");
+    throw UsageError("--view", "a mosaic has no strip", "give one of its views");
   job.run.scene.mosaics.clear();
   job.run.scene.views.resize(1);
   const scene::Scene& scene = job.run.scene;

@@ -10,6 +10,7 @@
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_layout.h"
 #include "app/scene/toml/toml_source.h"
+#include "app/support/errors.h"
 
 namespace neve::app::scene {
 
@@ -408,9 +409,8 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
     // A text that cannot be read is not returned, for any reason.
   }
   if (is_right) return edited;
-  throw toml::UsageError(name,
-                         "the changed values cannot be written into this file in its present form",
-                         "save the scene under another name, or change the file by hand");
+  throw UsageError(name, "the changed values cannot be written into this file in its present form",
+                   "save the scene under another name, or change the file by hand");
 }
 
 }  // namespace neve::app::scene

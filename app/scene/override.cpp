@@ -10,6 +10,7 @@
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/scene/toml/toml_text.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -249,17 +250,17 @@ bool takes_away(const Override& change) {
 void Override::fail(toml::Location where, const std::string& message,
                     const std::string& hint) const {
   if (!file.empty()) throw toml::SceneError(file, where.line, where.column, message, hint);
-  throw toml::UsageError(flag + " " + address + "=" + value, message, hint);
+  throw UsageError(flag + " " + address + "=" + value, message, hint);
 }
 
 Override parse_override(std::string_view text) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos || trimmed(text.substr(0, equals)).empty()) {
     if (text.starts_with("--"))
-      throw toml::UsageError("--set", "has no value: the flag " + std::string(text) + " follows it",
-                             "expected ADDRESS=VALUE, as in --set material.snow.hardening=5");
-    throw toml::UsageError("--set " + std::string(text), "expected ADDRESS=VALUE",
-                           "for example --set material.snow.hardening=5");
+      throw UsageError("--set", "has no value: the flag " + std::string(text) + " follows it",
+                       "expected ADDRESS=VALUE, as in --set material.snow.hardening=5");
+    throw UsageError("--set " + std::string(text), "expected ADDRESS=VALUE",
+                     "for example --set material.snow.hardening=5");
   }
   return {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))};
 }

@@ -7,6 +7,7 @@
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/scene/toml/toml_text.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -155,7 +156,7 @@ View find_view(const Scene& scene, const std::string& name) {
   }
   const std::string nearest = nearest_name(name, names);
   const bool is_list = name.find(',') != std::string::npos;
-  throw toml::UsageError(
+  throw UsageError(
       "--view " + name, "the scene has no such view",
       std::string(is_list ? "each view has a --view of its own; " : "") + "expected " +
           list_of(names) +

@@ -5,7 +5,7 @@
 #include <regex>
 #include <utility>
 
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/support/lower_text.h"
 #include "app/support/text.h"
 
@@ -52,17 +52,16 @@ FrameRange parse_frames(const std::string& text) {
   const auto first = dash == std::string::npos ? 0 : number_of<int>(text.substr(0, dash));
   const auto last = number_of<int>(dash == std::string::npos ? text : text.substr(dash + 1));
   if (!first || !last || *first < 0 || *last < *first || *last > last_possible)
-    throw scene::toml::UsageError(
-        "--frames", "cannot use \"" + text + "\"",
-        range_meant(text) + "expected A-B with 0 <= A <= B <= 100000, or N for 0-N");
+    throw UsageError("--frames", "cannot use \"" + text + "\"",
+                     range_meant(text) + "expected A-B with 0 <= A <= B <= 100000, or N for 0-N");
   return {*first, *last};
 }
 
 double parse_coarsening(const std::string& text) {
   const auto value = finite_number(text);
   if (!value)
-    throw scene::toml::UsageError("--coarsen", "cannot use \"" + text + "\"",
-                                  "expected a number of at least 1, as in --coarsen 2");
+    throw UsageError("--coarsen", "cannot use \"" + text + "\"",
+                     "expected a number of at least 1, as in --coarsen 2");
   return *value;
 }
 
@@ -76,9 +75,9 @@ scene::PictureSize parse_size(const std::string& text) {
   if (!width || !height || *width < smallest || *height < smallest || *width > largest ||
       *height > largest) {
     const std::string meant = size_meant(text);
-    throw scene::toml::UsageError("--size", "cannot use \"" + text + "\"",
-                                  (meant.empty() ? "" : "did you mean " + meant + "? ") +
-                                      "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
+    throw UsageError("--size", "cannot use \"" + text + "\"",
+                     (meant.empty() ? "" : "did you mean " + meant + "? ") +
+                         "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
   }
   return {*width, *height};
 }
@@ -88,9 +87,8 @@ double parse_time(const std::string& text, const char* flag) {
   const bool has_unit = text.size() > 1 && text.back() == 's';
   const auto value = finite_number(has_unit ? text.substr(0, text.size() - 1) : text);
   if (!value || *value < 0 || *value > longest)
-    throw scene::toml::UsageError(
-        flag, "cannot use \"" + text + "\"",
-        std::string("expected seconds from 0 to 1000000, as in ") + flag + " 0.25s");
+    throw UsageError(flag, "cannot use \"" + text + "\"",
+                     std::string("expected seconds from 0 to 1000000, as in ") + flag + " 0.25s");
   return *value;
 }
 
@@ -99,8 +97,8 @@ std::vector<double> parse_times(const std::string& text) {
   for (const std::string& word : comma_separated(text)) {
     const double time = parse_time(word);
     if (!times.empty() && !(time > times.back()))
-      throw scene::toml::UsageError("--at", "\"" + word + "\" is not after the time before it",
-                                    "expected times that increase, as in --at 0.1,0.2,0.5");
+      throw UsageError("--at", "\"" + word + "\" is not after the time before it",
+                       "expected times that increase, as in --at 0.1,0.2,0.5");
     times.push_back(time);
   }
   if (times.empty()) parse_time(text);

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "app/scene/leaf.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/setup/command_text.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::setup {
@@ -23,19 +23,19 @@ double memory_of(const std::string& text, const std::string& where) {
   // Nothing runs in less: 16 is 16GiB without its unit.
   constexpr double least = 1e6;
   if (bytes && *bytes > 0 && *bytes < least)
-    throw scene::toml::UsageError(where, "\"" + text + "\" is less than a run needs: bytes",
-                                  "did you mean " + rough_text(*bytes) + "GiB?");
+    throw UsageError(where, "\"" + text + "\" is less than a run needs: bytes",
+                     "did you mean " + rough_text(*bytes) + "GiB?");
   if (!bytes || !(*bytes >= 1))
-    throw scene::toml::UsageError(where, "cannot use \"" + text + "\"",
-                                  "expected bytes, or a size such as 8GiB or 500MB");
+    throw UsageError(where, "cannot use \"" + text + "\"",
+                     "expected bytes, or a size such as 8GiB or 500MB");
   return *bytes;
 }
 
 double particles_of(const std::string& text, const std::string& where) {
   const std::optional<double> count = finite_number(text);
   if (!count || !(*count >= 1))
-    throw scene::toml::UsageError(where, "cannot use \"" + text + "\"",
-                                  "expected a number of particles, such as 2000000 or 2e6");
+    throw UsageError(where, "cannot use \"" + text + "\"",
+                     "expected a number of particles, such as 2000000 or 2e6");
   return *count;
 }
 

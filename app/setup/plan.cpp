@@ -7,7 +7,6 @@
 
 #include "app/output/picture_writer.h"
 #include "app/scene/coarsen.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/caps.h"
 #include "app/setup/mosaic_layout.h"
 #include "app/setup/seed_scene.h"
@@ -194,9 +193,9 @@ Quality quality_named(const std::string& name) {
         is_best    ? "final"
         : is_quick ? "draft"
                    : nearest_name(name, {quality_names.begin(), quality_names.end()});
-    throw scene::toml::UsageError("--quality", "unknown quality \"" + name + "\"",
-                                  (meant.empty() ? "" : "did you mean " + meant + "? ") +
-                                      std::string("expected draft, preview or final"));
+    throw UsageError("--quality", "unknown quality \"" + name + "\"",
+                     (meant.empty() ? "" : "did you mean " + meant + "? ") +
+                         std::string("expected draft, preview or final"));
   }
   return static_cast<Quality>(found - quality_names.begin());
 }

@@ -216,8 +216,8 @@ TEST(CameraErrors, KeyframesAreSetTogether) {
   };
   EXPECT_EQ(scene_set("camera.orbit=45").camera->orbit, 45);
   EXPECT_EQ(scene_set("camera.keyframes=[{time = 1}, {time = 2}]").camera->keyframes.size(), 2u);
-  EXPECT_THROW(scene_set("camera.keyframes[N].time=1"), app::scene::toml::UsageError);
-  EXPECT_THROW(scene_set("camera.keyframes[0].time=1"), app::scene::toml::UsageError);
+  EXPECT_THROW(scene_set("camera.keyframes[N].time=1"), app::UsageError);
+  EXPECT_THROW(scene_set("camera.keyframes[0].time=1"), app::UsageError);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include "app/run/changes.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
 
 namespace neve::app {
 namespace {
@@ -98,7 +98,7 @@ TEST(LiveChanges, ChangesUpToAStepMakeItsScene) {
   try {
     app::run::with_changes(source, {{7, "solver.cfl", "-1"}});
     FAIL() << "a bad value was taken";
-  } catch (const app::scene::toml::UsageError& error) {
+  } catch (const app::UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("change at step 7: solver.cfl=-1"), std::string::npos)
         << error.what();
   }

@@ -8,9 +8,9 @@
 
 #include "app/run/picture_record.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
 #include "sim/engine/time_step.h"
 
 namespace neve::app {
@@ -27,7 +27,7 @@ app::scene::Scene coarse_ball(const std::string& solver = "") {
 std::string message_of(app::scene::Scene scene, double factor) {
   try {
     app::scene::coarsen(scene, factor);
-  } catch (const app::scene::toml::UsageError& error) {
+  } catch (const app::UsageError& error) {
     return error.what();
   }
   return "";

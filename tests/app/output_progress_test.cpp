@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "app/picture/frame_builder.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 
@@ -70,14 +70,14 @@ TEST(FrameArguments, FrameArgumentsAreRangesOrALastFrame) {
   EXPECT_EQ(app::setup::parse_frames("48").first, 0);
   EXPECT_EQ(app::setup::parse_frames("48").last, 48);
   for (const char* wrong : {"", "-", "5-", "-5", "7-3", "a", "1-b", "1 - 2", "99999999999"})
-    EXPECT_THROW(app::setup::parse_frames(wrong), app::scene::toml::UsageError) << wrong;
+    EXPECT_THROW(app::setup::parse_frames(wrong), app::UsageError) << wrong;
 }
 
 TEST(SizeArguments, SizeArgumentsAreTwoSides) {
   EXPECT_EQ(app::setup::parse_size("1280x720").width, 1280);
   EXPECT_EQ(app::setup::parse_size("1280x720").height, 720);
   for (const char* wrong : {"", "x", "1280", "1280x", "0x720", "-5x9", "1280X720", "99999999x9"})
-    EXPECT_THROW(app::setup::parse_size(wrong), app::scene::toml::UsageError) << wrong;
+    EXPECT_THROW(app::setup::parse_size(wrong), app::UsageError) << wrong;
 }
 
 TEST(Caption, CaptionNamesOverridesOfTheSnowShortly) {

@@ -123,7 +123,7 @@ TEST(Preset, PresetOfAnUnknownNameIsRefusedWithTheNearest) {
   try {
     preset_snow("", {"material.snow.preset=ice"});
     ADD_FAILURE() << "was set";
-  } catch (const app::scene::toml::UsageError& error) {
+  } catch (const app::UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("did you mean \"icy\"?"), std::string::npos)
         << error.what();
   }

@@ -207,9 +207,9 @@ TEST(SetNone, SettingNoneRemovesOptionalValuesOnly) {
   EXPECT_FALSE(read({"camera=none"}).camera);
   EXPECT_EQ(read({"solver=none"}).solver.cfl, 0.4);
   EXPECT_EQ(read({"title=none"}).title, "none");
-  EXPECT_THROW(read({"solver.cfl=none"}), app::scene::toml::UsageError);
+  EXPECT_THROW(read({"solver.cfl=none"}), app::UsageError);
   EXPECT_THROW(read({"body.ball.shape=none"}), std::runtime_error);
-  EXPECT_THROW(read({"body=none"}), app::scene::toml::UsageError);
+  EXPECT_THROW(read({"body=none"}), app::UsageError);
 }
 
 }  // namespace

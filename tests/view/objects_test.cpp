@@ -4,7 +4,6 @@
 
 #include "app/output/atomic_file.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "tests/support/needs.h"
 #include "tests/view/view_support.h"
@@ -92,7 +91,7 @@ TEST(Objects, ACopyHasTheEditsOfItsOriginalAndAnotherPlace) {
   EXPECT_EQ(view::session::copy_of(document, "body.ball_2").address, "body.ball_3");
   Document unnamed("scene.toml", "[[body]]\nshape = { sphere = { radius = 0.1 } }\n", {}, 1);
   EXPECT_EQ(view::session::copy_of(unnamed, "body.1").address, "body.body_2");
-  EXPECT_THROW(view::session::copy_of(unnamed, "body.2"), scene::toml::UsageError);
+  EXPECT_THROW(view::session::copy_of(unnamed, "body.2"), UsageError);
 }
 
 TEST(Objects, ARemovedObjectTakesItsEditsAlongAndUndoBringsBoth) {

@@ -9,8 +9,8 @@
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
 #include "app/sweep/read/read_sweep.h"
 #include "app/view/panels/orbit.h"
 #include "app/view/panels/pick.h"
@@ -85,8 +85,8 @@ TEST(Document, OneDragIsOneUndo) {
 TEST(Document, DocumentRefusesInvalidEditsAndStaysTheSame) {
   view::session::Document document("scene.toml", tiny_scene, {}, 1);
   document.set("material.snow.hardening", "5");
-  EXPECT_THROW(document.set("material.snow.poisson_ratio", "0.7"), scene::toml::UsageError);
-  EXPECT_THROW(document.set("material.snow.poison_ratio", "0.1"), scene::toml::UsageError);
+  EXPECT_THROW(document.set("material.snow.poisson_ratio", "0.7"), UsageError);
+  EXPECT_THROW(document.set("material.snow.poison_ratio", "0.1"), UsageError);
   EXPECT_EQ(document.changes().size(), 1u);
   EXPECT_DOUBLE_EQ(document.scene()->materials[0].poisson_ratio, 0.2);
 }
@@ -203,8 +203,8 @@ TEST(Document, DocumentKeepsAPresetAsTheNumbersThatItChanges) {
   document.redo();
   document.forget("material.snow.preset");
   EXPECT_TRUE(document.changes().empty());
-  EXPECT_THROW(document.set("material.snow.preset", "icey"), scene::toml::UsageError);
-  EXPECT_THROW(document.set("material.ice.preset", "icy"), scene::toml::UsageError);
+  EXPECT_THROW(document.set("material.snow.preset", "icey"), UsageError);
+  EXPECT_THROW(document.set("material.ice.preset", "icy"), UsageError);
 }
 
 TEST(Document, DocumentKnowsTheNumbersOfAPresetInTheFile) {

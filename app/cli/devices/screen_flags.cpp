@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 
 namespace neve::app::cli::devices {
 
@@ -11,8 +11,8 @@ namespace {
 /// "127.0.0.1", "0.0.0.0:8080", ":8080", "[::1]:8080"
 void parse_listen(const std::string& text, view::ScreenOptions& options) {
   const auto fail = [&]() -> void {
-    throw scene::toml::UsageError("--listen", "cannot use \"" + text + "\"",
-                                  "expected an address, a :PORT, or both, as in 127.0.0.1:8080");
+    throw UsageError("--listen", "cannot use \"" + text + "\"",
+                     "expected an address, a :PORT, or both, as in 127.0.0.1:8080");
   };
   std::string port;
   const std::size_t bracket = text.find(']');
@@ -62,10 +62,10 @@ void finish_screen(view::ScreenOptions& options, const std::optional<std::string
     options.is_web = true;
   }
   if (options.is_web && options.is_window)
-    throw scene::toml::UsageError("--window", "and --web exclude each other", "choose one");
+    throw UsageError("--window", "and --web exclude each other", "choose one");
   if (!options.replay.empty() && (options.is_web || options.is_window || !options.record.empty()))
-    throw scene::toml::UsageError("--replay", "cannot be combined with --window, --web or --record",
-                                  "remove the others");
+    throw UsageError("--replay", "cannot be combined with --window, --web or --record",
+                     "remove the others");
 }
 
 }  // namespace neve::app::cli::devices

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "app/scene/params.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/command_text.h"
+#include "app/support/errors.h"
 
 namespace neve::app::sweep::plan {
 
@@ -86,8 +86,8 @@ scene::toml::Value value_of(const scene::FlatParam& param, double x) {
 }
 
 [[noreturn]] void refuse(const scene::FlatParam& param, const std::string& why) {
-  throw scene::toml::UsageError(param.address, "no values can be chosen around it: " + why,
-                                "choose a number, a choice, or a vector other than zero");
+  throw UsageError(param.address, "no values can be chosen around it: " + why,
+                   "choose a number, a choice, or a vector other than zero");
 }
 
 std::vector<scene::toml::Value> vectors_around(const scene::FlatParam& param,

@@ -13,9 +13,9 @@
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/argument_text.h"
 #include "app/setup/auto_ranges.h"
+#include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/plan/sweep_options.h"
@@ -45,7 +45,7 @@ scene::View chosen_view(const read::Sweep& sweep, const scene::Scene& scene) {
   if (sweep.sheet.view.empty()) return scene.views.front();
   try {
     return scene::find_view(scene, sweep.sheet.view);
-  } catch (const scene::toml::UsageError& error) {
+  } catch (const UsageError& error) {
     sweep.fail("sheet.view", "sheet.view = \"" + sweep.sheet.view + "\": " + error.message,
                error.hint);
   }
@@ -120,8 +120,8 @@ void refuse_two_frames(const SweepOptions& options, const read::Sweep& sweep) {
   const scene::Override* setting = frames_setting(sweep);
   if (!setting) return;
   if (options.frames)
-    throw scene::toml::UsageError("--frames", "the sweep varies frames",
-                                  "remove --frames, or remove frames from the axes and runs");
+    throw UsageError("--frames", "the sweep varies frames",
+                     "remove --frames, or remove frames from the axes and runs");
   if (!sweep.settings.frames.empty())
     sweep.fail("sweep.frames", "sweep.frames is for all runs, and the sweep varies frames",
                "remove one of them");
@@ -150,7 +150,7 @@ std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& 
   if (sweep.settings.fork.empty()) return std::nullopt;
   try {
     return setup::parse_time(sweep.settings.fork);
-  } catch (const scene::toml::UsageError& error) {
+  } catch (const UsageError& error) {
     sweep.fail("sweep.fork", "sweep.fork = \"" + sweep.settings.fork + "\" is no time",
                "expected seconds, as in fork = \"0.8s\"");
   }
@@ -167,16 +167,15 @@ PlannedRun planned(Run run, scene::Scene scene) {
 /// The job of the run or picture that the runs leave. @throws UsageError where it is none
 run::RenderJob source_job(const SweepOptions& options) {
   if (options.fork)
-    throw scene::toml::UsageError("--fork", "cannot be combined with --from",
-                                  "--from forks a run or picture that is there, --fork a scene");
+    throw UsageError("--fork", "cannot be combined with --from",
+                     "--from forks a run or picture that is there, --fork a scene");
   std::error_code error;
   if (!std::filesystem::exists(options.file, error))
-    throw scene::toml::UsageError("--from", options.file + " is not there",
-                                  "expected the folder of a run, or a picture made by neve");
+    throw UsageError("--from", options.file + " is not there",
+                     "expected the folder of a run, or a picture made by neve");
   if (!run::is_folder(options.file) && !run::is_picture(options.file))
-    throw scene::toml::UsageError(
-        "--from", options.file + " is no folder of a run and no picture made by neve",
-        fmt::format("for a scene or a sweep file, give --fork {}s", *options.from));
+    throw UsageError("--from", options.file + " is no folder of a run and no picture made by neve",
+                     fmt::format("for a scene or a sweep file, give --fork {}s", *options.from));
   run::RenderOptions render;
   render.scene = options.file;
   render.from = options.from;
@@ -224,10 +223,10 @@ void share_beginning(double time, SweepPlan& plan) {
     run::require_live(plan.base, item.scene, flag);
     setup::FrameRange& frames = item.run.frames;
     if (frames.last <= frame)
-      throw scene::toml::UsageError(flag,
-                                    "the runs part at frame " + std::to_string(frame) +
-                                        ", and their last frame is " + std::to_string(frames.last),
-                                    "expected an earlier time, or later frames with --frames");
+      throw UsageError(flag,
+                       "the runs part at frame " + std::to_string(frame) +
+                           ", and their last frame is " + std::to_string(frames.last),
+                       "expected an earlier time, or later frames with --frames");
     item.run.work *= static_cast<double>(frames.last - frame) / frames.last;
     frames.first = std::max(frames.first, frame + 1);
   }

@@ -11,7 +11,6 @@
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
 #include "app/sweep/read/sweep_leaf.h"
@@ -289,7 +288,7 @@ void check_folder(const plan::SweepPlan& plan) {
   const std::optional<std::vector<std::string>> before = axis_addresses(*earlier);
   const std::vector<std::string> now = axis_addresses(plan.sweep);
   if (!before || *before == now) return;
-  throw scene::toml::UsageError(
+  throw UsageError(
       plan.folder.string(),
       fmt::format("has a sweep of {}; this one varies {}", axes_text(*before), axes_text(now)),
       "choose another folder with --out, or remove the old one");

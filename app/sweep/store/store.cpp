@@ -10,7 +10,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
 #include "app/scene/leaf.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 
 namespace neve::app::sweep::store {
 
@@ -117,15 +117,13 @@ Retry parse_retry(const std::string& text) {
   for (std::string word; std::getline(words, word, ',');) {
     const auto found = std::find(failures.begin(), failures.end(), word);
     if (found == failures.end())
-      throw scene::toml::UsageError("--retry-failed",
-                                    "no failed run has the state \"" + word + "\"",
-                                    "expected " + scene::list_of(failures));
+      throw UsageError("--retry-failed", "no failed run has the state \"" + word + "\"",
+                       "expected " + scene::list_of(failures));
     retry.insert(
         static_cast<RunState>(std::find(states.begin(), states.end(), word) - states.begin()));
   }
   if (retry.empty())
-    throw scene::toml::UsageError("--retry-failed", "names no state",
-                                  "expected " + scene::list_of(failures));
+    throw UsageError("--retry-failed", "names no state", "expected " + scene::list_of(failures));
   return retry;
 }
 

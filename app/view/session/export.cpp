@@ -12,8 +12,8 @@
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/command_text.h"
+#include "app/support/errors.h"
 #include "app/sweep/plan/around.h"
 
 namespace neve::app::view::session {
@@ -85,7 +85,7 @@ void write_sweep_around(const std::filesystem::path& file, const Document& docum
                                                        document.coarsening(), set_later));
     return;
   }
-  throw scene::toml::UsageError("", "nothing has the address " + address);
+  throw UsageError("", "nothing has the address " + address);
 }
 
 }  // namespace neve::app::view::session

@@ -8,7 +8,6 @@
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
 #include "app/output/sequence.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/command_text.h"
 #include "app/support/errors.h"
 #include "app/sweep/plan/sweep_options.h"
@@ -76,10 +75,8 @@ std::string last_line(const fs::path& log) {
 
 void Study::start(const fs::path& folder, const run::Moment& moment, double time,
                   const StudyRequest& request, const std::vector<std::string>& longer_steps) {
-  if (is_running())
-    throw scene::toml::UsageError("", "a study is in progress", "wait for it, or stop it");
-  if (request.axes.empty())
-    throw scene::toml::UsageError("", "no parameter is chosen", "find one to vary");
+  if (is_running()) throw UsageError("", "a study is in progress", "wait for it, or stop it");
+  if (request.axes.empty()) throw UsageError("", "no parameter is chosen", "find one to vary");
   const fs::path here = new_folder(folder, moment.frame);
   sweep::plan::SweepOptions options;
   options.file = (here / "start").string();
@@ -95,9 +92,8 @@ void Study::start(const fs::path& folder, const run::Moment& moment, double time
     // A wrong request is refused here, before a process starts.
     runs = static_cast<int>(sweep::plan::plan_sweep(options).runs.size());
     if (runs > most_study_runs)
-      throw scene::toml::UsageError("",
-                                    fmt::format("{} runs are more than {}", runs, most_study_runs),
-                                    "give fewer values, or use neve sweep in a terminal");
+      throw UsageError("", fmt::format("{} runs are more than {}", runs, most_study_runs),
+                       "give fewer values, or use neve sweep in a terminal");
     const std::vector<std::string> words = arguments_of(options);
     log_ = here / "log";
     std::vector<std::string> quiet = words;

@@ -15,6 +15,7 @@
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_source.h"
+#include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/version.h"
 #include "app/sweep/plan/around.h"
@@ -27,7 +28,7 @@ namespace {
 constexpr std::size_t max_messages = 100;
 
 std::string text_of(const std::exception& error) {
-  if (const auto* usage = dynamic_cast<const scene::toml::UsageError*>(&error))
+  if (const auto* usage = dynamic_cast<const UsageError*>(&error))
     return usage->message + (usage->hint.empty() ? "" : "; " + usage->hint);
   return error.what();
 }
@@ -167,9 +168,9 @@ void Workbench::require_allowed(const std::string& address, const std::string& v
   const char* hint = "edit the scene file on the machine where neve runs";
   const std::optional<scene::ParamInfo> info = scene::param_at(address);
   if (info ? info->valid.is_path() : names_file(value))
-    throw scene::toml::UsageError("", address + " names a file: fixed over the web", hint);
+    throw UsageError("", address + " names a file: fixed over the web", hint);
   if (address == "limits" || address.starts_with("limits."))
-    throw scene::toml::UsageError("", address + " is fixed over the web", hint);
+    throw UsageError("", address + " is fixed over the web", hint);
 }
 
 void Workbench::undo() {
@@ -300,7 +301,7 @@ void Workbench::keep_file() {
 bool Workbench::save_scene(const std::filesystem::path& file) {
   try {
     if (options_.is_remote && file.parent_path() != options_.folder)
-      throw scene::toml::UsageError(
+      throw UsageError(
           "", "over the web, files are written into " + options_.folder.string() + " alone");
     const std::string text =
         scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
@@ -363,7 +364,7 @@ std::string Workbench::values_around(const scene::FlatParam& param) {
   try {
     for (const scene::toml::Value& value : sweep::plan::values_around(param))
       text += (text.empty() ? "" : ", ") + scene::toml::toml_literal(value);
-  } catch (const scene::toml::UsageError&) {
+  } catch (const UsageError&) {
     return {};
   }
   return text;
@@ -376,8 +377,8 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
     run::Moment moment = session_->moment();
     if (!live->is_frame_end || live->is_running || moment.frame != live->frame ||
         moment.steps != live->steps)
-      throw scene::toml::UsageError("", "the run is between two frames",
-                                    "pause, and go to a frame on the time line");
+      throw UsageError("", "the run is between two frames",
+                       "pause, and go to a frame on the time line");
     const run::PictureRecord record = picture_record(*live, view);
     moment.record.scene = record.scene;
     moment.record.scene_file = document_.file();
@@ -391,7 +392,7 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
                                  study_.progress().folder.string() + "; " +
                                  study_.progress().command + " makes it again");
     return {};
-  } catch (const scene::toml::UsageError& error) {
+  } catch (const UsageError& error) {
     const bool is_value = error.where.starts_with("-p ");
     return (is_value ? error.where.substr(3) + ": " : "") + text_of(error);
   } catch (const std::exception& error) {
