@@ -2,7 +2,9 @@
 
 #include <fcntl.h>
 
-#include <iostream>
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "app/cli/command_line.h"
 #include "app/cli/report_error.h"
@@ -20,14 +22,15 @@ void hold_standard_streams() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   using namespace neve::app;
   hold_standard_streams();
   output::ignore_write_signals();
   try {
-    const int code = cli::run_command_line(argc, argv);
+    const int code = cli::run_command_line(words);
     cli::finish_output();
     return code;
   } catch (...) {
-    return cli::report_current_error(cli::error_output(argc, argv));
+    return cli::report_current_error(cli::error_output(words));
   }
 }

@@ -49,9 +49,9 @@ void check_smoke(const Smoke& smoke) {
 
 void check_plot(const Plot& plot) {
   for (const PlotSeries& series : plot.series) {
-    if (series.time.size() != series.value.size())
-      throw std::invalid_argument("Frame: a plot has " + std::to_string(series.time.size()) +
-                                  " times and " + std::to_string(series.value.size()) + " values");
+    if (series.x.size() != series.value.size())
+      throw std::invalid_argument("Frame: a plot has " + std::to_string(series.x.size()) +
+                                  " places and " + std::to_string(series.value.size()) + " values");
   }
 }
 

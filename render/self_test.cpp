@@ -25,7 +25,7 @@ Frame ball_over_ground() {
       for (int k = -n; k <= n; ++k) {
         const Vec3f p = Vec3f{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)} *
                         frame.points.spacing;
-        if (length(p) <= ball_radius) frame.points.position.push_back(p);
+        if (length(p) <= ball_radius) frame.points.position.edit().push_back(p);
       }
     }
   }

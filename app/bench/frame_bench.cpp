@@ -9,7 +9,7 @@
 
 #include "app/bench/measure.h"
 #include "app/bench/scratch_folder.h"
-#include "app/bench/window.h"
+#include "app/bench/timed_run.h"
 #include "app/output/process.h"
 #include "app/picture/frame_builder.h"
 #include "app/scene/coarsen.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/bench/measure.h"
-#include "app/bench/window.h"
+#include "app/bench/timed_run.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 

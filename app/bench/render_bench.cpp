@@ -99,7 +99,7 @@ double phase_seconds(const std::vector<render::PhaseTime>& times, const std::str
 /// The picture as users get it, and only its spheres, once by OpenGL and once by the CPU.
 void RenderBench::measure_particles(const std::string& size, render::Frame& frame) {
   // Another state than before, so that nothing of the last picture can be used again.
-  frame.points.position.front().x = -frame.points.position.front().x;
+  frame.points.position.edit().front().x *= -1;
   const Stopwatch watch;
   render::Image image = renderer_.draw(frame);
   add("particles_" + size, watch.wall(), frame);
@@ -113,9 +113,9 @@ void RenderBench::measure_particles(const std::string& size, render::Frame& fram
 
 /// Another state than before in every layer, so that nothing of the last picture can be used again.
 void change_state(render::Frame& frame) {
-  frame.points.position.front().x *= -1;
-  for (render::Arrows& arrows : frame.arrows) arrows.vector.front().y += 1e-3f;
-  for (float& density : frame.smoke.density) density *= 1.001f;
+  frame.points.position.edit().front().x *= -1;
+  for (render::Arrows& arrows : frame.arrows) arrows.vector.edit().front().y += 1e-3f;
+  for (float& density : frame.smoke.density.edit()) density *= 1.001f;
 }
 
 void RenderBench::measure_all_layers(render::Frame& frame) {
@@ -147,7 +147,7 @@ void RenderBench::measure_snow(render::Frame& frame) {
   const std::string name = std::string("snow_") + main_size;
   frame.has_snow_surface = true;
   // Another state than ever before.
-  frame.points.position.front().y += 1e-5f;
+  frame.points.position.edit().front().y += 1e-5f;
   const Stopwatch watch;
   renderer_.draw(frame);
   add(name, watch.wall(), frame);

@@ -37,8 +37,8 @@ void add_snow(render::Points& points, double particles) {
         const Vec3f lattice{static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)};
         const Vec3f p = points.spacing * lattice - Vec3f{slab_half, slab_half, slab_half};
         if (!is_snow(p)) continue;
-        points.id.push_back(static_cast<std::uint32_t>(points.position.size()));
-        points.position.push_back(p + jitter(site, points.spacing));
+        points.id.edit().push_back(static_cast<std::uint32_t>(points.position.size()));
+        points.position.edit().push_back(p + jitter(site, points.spacing));
       }
     }
   }
@@ -59,7 +59,7 @@ void add_smoke(render::Smoke& smoke) {
                      static_cast<float>(4 * block.y + node / 4 % 4),
                      static_cast<float>(4 * block.z + node % 4)};
       const float distance = length(nodes->origin + nodes->spacing * at);
-      smoke.density.push_back(30 * std::exp(-8 * std::abs(distance - 0.65f)));
+      smoke.density.edit().push_back(30 * std::exp(-8 * std::abs(distance - 0.65f)));
     }
   }
   smoke.nodes = nodes;
@@ -82,9 +82,9 @@ void add_slice(render::Frame& frame) {
         return slab_half * (2 * (static_cast<float>(k) + 0.5f) / n - 1);
       };
       const Vec3f p{place(i), 0, place(j)}, v{-p.z, 0, p.x};
-      arrows.position.push_back(p);
-      arrows.vector.push_back(v);
-      map.value.push_back(length(v));
+      arrows.position.edit().push_back(p);
+      arrows.vector.edit().push_back(v);
+      map.value.edit().push_back(length(v));
     }
   }
   frame.arrows.push_back(arrows);

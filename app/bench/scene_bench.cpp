@@ -9,8 +9,7 @@
 #include "app/bench/measure.h"
 #include "app/bench/scratch_folder.h"
 #include "app/output/process.h"
-#include "app/run/run_json.h"
-#include "app/scene/toml/error.h"
+#include "app/record/run_json.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
@@ -48,8 +47,8 @@ std::vector<fs::path> chosen_scenes(const BenchOptions& options) {
         (options.only.empty() || entry.path().stem() == options.only))
       scenes.push_back(entry.path());
   if (scenes.empty())
-    throw scene::toml::UsageError("--only", "there is no scene " + options.only,
-                                  "expected the name of a file in " + folder.string());
+    throw UsageError("--only", "there is no scene " + options.only,
+                     "expected the name of a file in " + folder.string());
   std::sort(scenes.begin(), scenes.end());
   return scenes;
 }
@@ -76,14 +75,14 @@ void take_sample(const fs::path& scene, const Way& way, const BenchOptions& opti
   const double wall = watch.wall();
   if (result.exit_code != exit_ok)
     throw Error(exit_internal, scene.string() + ": neve render failed: " + result.errors);
-  const std::vector<run::FrameRecord> frames = run::read_frame_records(folder.path() / "out");
+  const std::vector<record::FrameRecord> frames = record::read_frame_records(folder.path() / "out");
   double simulated = 0, work = 0, steps = 0, slowest = 0;
-  for (const run::FrameRecord& frame : frames) {
+  for (const record::FrameRecord& frame : frames) {
     if (frame.advance.steps == 0 || frame.summary.particles == 0) continue;
     simulated += frame.seconds_sim;
-    work += run::particle_steps(frame);
+    work += record::particle_steps(frame);
     steps += static_cast<double>(frame.advance.steps);
-    const double throughput = 1e-6 * run::particle_steps(frame) / frame.seconds_sim;
+    const double throughput = 1e-6 * record::particle_steps(frame) / frame.seconds_sim;
     slowest = slowest > 0 ? std::min(slowest, throughput) : throughput;
     samples.particles = std::max(samples.particles, frame.summary.particles);
   }

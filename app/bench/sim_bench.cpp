@@ -7,7 +7,7 @@
 #include "app/bench/bench_case.h"
 #include "app/bench/measure.h"
 #include "app/bench/race.h"
-#include "app/bench/window.h"
+#include "app/bench/timed_run.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
@@ -98,7 +98,7 @@ class SimBench {
   int rounds_, threads_, cells_;
   std::size_t particles_ = 0;
   std::string simd_;
-  std::map<std::string, Samples> windows_;  ///< by name: one for each round
+  std::map<std::string, Samples> runs_;  ///< by name: one for each round
   std::map<BenchMethod, Race> races_;
   std::vector<BenchRow> rows_;
 };
@@ -144,7 +144,7 @@ std::vector<BenchRow> SimBench::run() {
 void SimBench::measure_variants() {
   for (const Variant& variant : variants) {
     const BenchCase c = packed_case(cells_, variant.method, variant.precision);
-    windows_[variant_name(variant)].add(time_window(c, threads_, variant_name(variant)));
+    runs_[variant_name(variant)].add(time_run(c, threads_, variant_name(variant)));
   }
 }
 
@@ -152,7 +152,7 @@ void SimBench::measure_spray() {
   for (const BenchMethod method : main_methods) {
     // Twice as many cells a side: eight times the cells for the same particles.
     const auto add = [&](const std::string& name, const BenchCase& c) {
-      windows_[name_for(name, method)].add(time_window(c, threads_, name));
+      runs_[name_for(name, method)].add(time_run(c, threads_, name));
     };
     const auto single = sim::Precision::single;
     add("spray", spray_case(2 * cells_, 1, SprayPlaces::at_random, method, single));
@@ -166,8 +166,8 @@ void SimBench::measure_spray() {
 void SimBench::measure_flow() {
   for (const BenchMethod method : main_methods)
     for (const bool flows : {false, true})
-      windows_[name_for(flows ? "flow" : "stream", method)].add(
-          time_window(stream_case(cells_, method, flows), threads_, "flow"));
+      runs_[name_for(flows ? "flow" : "stream", method)].add(
+          time_run(stream_case(cells_, method, flows), threads_, "flow"));
 }
 
 void SimBench::measure_scaling() {
@@ -175,12 +175,12 @@ void SimBench::measure_scaling() {
     const BenchCase c = packed_case(cells_, method, sim::Precision::single);
     const std::string name = variant_name({method, sim::Precision::single});
     // Reuses the result of measure_variants() with the same number of threads.
-    const Window& measured = windows_.at(name).windows().back();
+    const TimedRun& measured = runs_.at(name).runs().back();
     const auto with = [&](int threads) {
-      return threads == threads_ ? measured : time_window(c, threads, name);
+      return threads == threads_ ? measured : time_run(c, threads, name);
     };
-    windows_[name + "_1_thread"].add(with(1));
-    if (threads_ > 1) windows_[name + "_2_threads"].add(with(2));
+    runs_[name + "_1_thread"].add(with(1));
+    if (threads_ > 1) runs_[name + "_2_threads"].add(with(2));
   }
 }
 
@@ -202,8 +202,8 @@ BenchRow SimBench::row(const std::string& name, int threads, const std::string& 
 void SimBench::add_throughput(const Variant& variant) {
   const std::string name = variant_name(variant);
   BenchRow r = row(name, threads_, throughput_unit);
-  r.value = windows_.at(name).throughput();
-  r.phases = windows_.at(name).phases();
+  r.value = runs_.at(name).throughput();
+  r.phases = runs_.at(name).phases();
   const auto race = races_.find(variant.method);
   if (race != races_.end()) r.ratio_to_naive = race->second.ratio(variant.precision);
   rows_.push_back(r);
@@ -219,8 +219,8 @@ void SimBench::add_naive(BenchMethod method) {
 void SimBench::add_one_thread(BenchMethod method) {
   const std::string name = variant_name({method, sim::Precision::single}) + "_1_thread";
   BenchRow r = row(name, 1, throughput_unit);
-  r.value = windows_.at(name).throughput();
-  r.phases = windows_.at(name).phases();
+  r.value = runs_.at(name).throughput();
+  r.phases = runs_.at(name).phases();
   r.ratio_to_naive = races_.at(method).ratio(sim::Precision::single);
   rows_.push_back(r);
 }
@@ -228,13 +228,13 @@ void SimBench::add_one_thread(BenchMethod method) {
 void SimBench::add_scaling(BenchMethod method) {
   const std::string name = variant_name({method, sim::Precision::single});
   BenchRow r = row(name_for("scaling_2_threads", method), 2, "x one thread");
-  r.value = time_ratio(windows_.at(name + "_1_thread"), windows_.at(name + "_2_threads"));
+  r.value = time_ratio(runs_.at(name + "_1_thread"), runs_.at(name + "_2_threads"));
   rows_.push_back(r);
 }
 
 void SimBench::add_memory_and_spray(BenchMethod method) {
-  const Samples& packed = windows_.at(variant_name({method, sim::Precision::single}));
-  const Samples& spray = windows_.at(name_for("spray", method));
+  const Samples& packed = runs_.at(variant_name({method, sim::Precision::single}));
+  const Samples& spray = runs_.at(name_for("spray", method));
   BenchRow memory = row(name_for("memory_per_particle", method), threads_, "B");
   memory.value = packed.bytes_per_particle();
   BenchRow time = row(name_for("spray_time", method), threads_, "x packed");
@@ -244,13 +244,13 @@ void SimBench::add_memory_and_spray(BenchMethod method) {
   bytes.value = memory_ratio(spray, packed);
   rows_.insert(rows_.end(), {memory, time, bytes});
   for (const ThinSpray& thin : thin_sprays) {
-    const Samples& samples = windows_.at(name_for(thin.name, method));
+    const Samples& samples = runs_.at(name_for(thin.name, method));
     BenchRow thin_time =
         row(name_for(std::string(thin.name) + "_time", method), threads_, "x packed");
-    thin_time.value = time_ratio(samples, windows_.at(name_for("packed", method)));
+    thin_time.value = time_ratio(samples, runs_.at(name_for("packed", method)));
     BenchRow thin_bytes = row(name_for(std::string(thin.name) + "_memory", method), threads_, "B");
     thin_bytes.value = samples.bytes_per_particle();
-    thin_time.particles = thin_bytes.particles = samples.windows().back().particles;
+    thin_time.particles = thin_bytes.particles = samples.runs().back().particles;
     thin_time.phases = samples.phases();
     rows_.insert(rows_.end(), {thin_time, thin_bytes});
   }
@@ -258,8 +258,7 @@ void SimBench::add_memory_and_spray(BenchMethod method) {
 
 void SimBench::add_flow(BenchMethod method) {
   BenchRow time = row(name_for("flow_time", method), threads_, "x without");
-  time.value =
-      time_ratio(windows_.at(name_for("flow", method)), windows_.at(name_for("stream", method)));
+  time.value = time_ratio(runs_.at(name_for("flow", method)), runs_.at(name_for("stream", method)));
   rows_.push_back(time);
 }
 
@@ -300,8 +299,7 @@ std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progres
       const std::string name = "curve_" + variant_name({method, sim::Precision::single});
       const BenchCase c = packed_case(cells, method, sim::Precision::single);
       Samples samples;
-      for (int round = 0; round < rounds; ++round)
-        samples.add(time_window(c, options.threads, name));
+      for (int round = 0; round < rounds; ++round) samples.add(time_run(c, options.threads, name));
       rows.push_back(samples.throughput_row(name));
       progress.note(name + ": " + fixed_text(particles, 0) + " particles, " +
                     fixed_text(rows.back().value.median, 2) + " " + throughput_unit);

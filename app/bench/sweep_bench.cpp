@@ -3,7 +3,7 @@
 #include "app/bench/measure.h"
 #include "app/bench/scratch_folder.h"
 #include "app/output/atomic_file.h"
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/sweep/jobs/local.h"
@@ -40,8 +40,8 @@ struct Round {
 /// Seconds that a run spent on simulating and drawing.
 double seconds_of_work(const std::filesystem::path& folder, const sweep::Run& run) {
   double seconds = 0;
-  for (const run::FrameRecord& frame :
-       run::read_frame_records(sweep::store::runs_folder(folder) / run.folder))
+  for (const record::FrameRecord& frame :
+       record::read_frame_records(sweep::store::runs_folder(folder) / run.folder))
     seconds += frame.seconds_sim + frame.seconds_render;
   return seconds;
 }

@@ -110,7 +110,8 @@ ViewRound measure_view(const std::string& file, const BenchOptions& options, boo
   BenchFrontend front(options.is_quick ? 30 : 150);
   view::session::WorkbenchOptions bench_options;
   bench_options.session.threads = options.threads;
-  view::session::Workbench bench(view::session::open_document(file, {}, 1), bench_options, {});
+  view::session::Workbench bench(view::session::open_document(file, {}, 1).document, bench_options,
+                                 {});
   view::ViewerOptions viewer_options;
   viewer_options.is_running = is_running;
   view::Viewer viewer(bench, front, screen, renderer, viewer_options);

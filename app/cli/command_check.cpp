@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "app/cli/commands.h"
-#include "app/health/checkup.h"
+#include "app/health/check.h"
 #include "app/run/render_job.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/override.h"
@@ -33,57 +33,56 @@ std::string seconds_text(double seconds) {
   return seconds < 0.95 ? fixed_text(seconds, 2) + " s" : duration_text(seconds);
 }
 
-const health::FrameForecast& busiest(const health::Checkup& checkup) {
-  return *std::max_element(checkup.forecast.begin(), checkup.forecast.end(),
-                           [](const health::FrameForecast& a, const health::FrameForecast& b) {
+const forecast::FrameForecast& busiest(const std::vector<forecast::FrameForecast>& frames) {
+  return *std::max_element(frames.begin(), frames.end(),
+                           [](const forecast::FrameForecast& a, const forecast::FrameForecast& b) {
                              return a.steps * a.cost < b.steps * b.cost;
                            });
 }
 
-Json range_json(const scene::Range& range) {
-  return {range.min, range.max};
+Json range_json(const forecast::Cost& cost) {
+  return {cost.least, cost.most};
 }
 
-Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job,
-                  const health::FastLook& look) {
-  Json json = setup::to_json(checkup.plan);
-  json["cells"] = count_json(std::round(checkup.cells));
+Json check_json(const health::Check& check, const run::RenderJob& job,
+                const forecast::FastLook& look) {
+  Json json = setup::to_json(check.plan);
+  json["cells"] = count_json(std::round(check.cells));
   json["cell_size"] = job.scene.solver.cell_size;
   json["coarsen"] = job.coarsening;
-  json["impact_speed"] = checkup.impact_speed;
-  json["sound_speed"] = checkup.start.max_sound_speed;
-  json["dt"] = checkup.dt_start;
-  json["dt_limit"] = sim::name(checkup.limit_start);
+  json["impact_speed"] = check.impact_speed;
+  json["sound_speed"] = check.start.max_sound_speed;
+  json["dt"] = check.dt_start;
+  json["dt_limit"] = sim::name(check.limit_start);
   json["dt_limits"] = Json::object();
   for (int k = 0; k < sim::dt_limit_count; ++k)
-    if (const double dt = checkup.start.dt[static_cast<std::size_t>(k)];
-        std::isfinite(dt) && dt > 0)
+    if (const double dt = check.start.dt[static_cast<std::size_t>(k)]; std::isfinite(dt) && dt > 0)
       json["dt_limits"][sim::name(static_cast<sim::DtLimit>(k))] = dt;
   json["frames"] = Json::array();
-  for (const health::FrameForecast& frame : checkup.forecast)
+  for (const forecast::FrameForecast& frame : check.foreseen.frames)
     json["frames"].push_back({{"frame", frame.frame},
                               {"dt", frame.dt},
                               {"steps", count_json(frame.steps)},
                               {"limit", sim::name(frame.limit)}});
-  json["steps"] = count_json(checkup.steps());
-  json["steps_range"] = range_json(checkup.steps_range());
-  const double frames = std::max<double>(1, static_cast<double>(checkup.forecast.size()));
-  json["steps_per_frame"] = checkup.steps() / frames;
-  json["seconds_per_frame"] = checkup.seconds() / frames;
-  json["seconds_per_step"] = checkup.seconds_per_step;
-  json["solve_iterations"] =
-      job.scene.solver.is_implicit() ? Json(checkup.solve.iterations) : Json();
-  json["seconds"] = checkup.seconds();
-  json["seconds_range"] = range_json(checkup.seconds_range());
+  const forecast::Cost steps = check.foreseen.steps(), seconds = check.seconds();
+  json["steps"] = count_json(steps.expected);
+  json["steps_range"] = range_json(steps);
+  const double frames = std::max<double>(1, static_cast<double>(check.foreseen.frames.size()));
+  json["steps_per_frame"] = steps.expected / frames;
+  json["seconds_per_frame"] = seconds.expected / frames;
+  json["seconds_per_step"] = check.seconds_per_step;
+  json["solve_iterations"] = job.scene.solver.is_implicit() ? Json(check.solve.iterations) : Json();
+  json["seconds"] = seconds.expected;
+  json["seconds_range"] = range_json(seconds);
   json["fast"] = {
       {"is_set", job.fast.has_value()},
       {"overrides", look.overrides},
       {"work", look.work && look.work_before ? Json(*look.work / *look.work_before) : Json()}};
   json["warnings"] = Json::array();
-  for (const health::Finding& finding : checkup.findings)
+  for (const health::Finding& finding : check.findings)
     if (finding.severity != health::Severity::note) json["warnings"].push_back(finding.what);
   json["findings"] = Json::array();
-  for (const health::Finding& finding : checkup.findings)
+  for (const health::Finding& finding : check.findings)
     json["findings"].push_back({{"severity", name(finding.severity)},
                                 {"address", finding.address},
                                 {"what", finding.what},
@@ -91,72 +90,71 @@ Json checkup_json(const health::Checkup& checkup, const run::RenderJob& job,
   return json;
 }
 
-void print_limits(const health::Checkup& checkup) {
-  if (checkup.dt_start <= 0) return;
-  std::cout << "sound      " << rough_text(checkup.start.max_sound_speed)
-            << " m/s in the stiffest particle; impact at about " << rough_text(checkup.impact_speed)
+void print_limits(const health::Check& check) {
+  if (check.dt_start <= 0) return;
+  std::cout << "sound      " << rough_text(check.start.max_sound_speed)
+            << " m/s in the stiffest particle; impact at about " << rough_text(check.impact_speed)
             << " m/s\n"
-            << "first step " << rough_text(checkup.dt_start) << " s, ruled by "
-            << sim::name(checkup.limit_start) << "; allowed:";
+            << "first step " << rough_text(check.dt_start) << " s, ruled by "
+            << sim::name(check.limit_start) << "; allowed:";
   for (int k = 0; k < sim::dt_limit_count; ++k)
-    if (const double dt = checkup.start.dt[static_cast<std::size_t>(k)];
-        std::isfinite(dt) && dt > 0)
+    if (const double dt = check.start.dt[static_cast<std::size_t>(k)]; std::isfinite(dt) && dt > 0)
       std::cout << " " << sim::name(static_cast<sim::DtLimit>(k)) << " " << rough_text(dt);
   std::cout << "\n";
 }
 
-void print_forecast(const health::Checkup& checkup) {
-  if (checkup.forecast.empty()) return;
-  const health::FrameForecast& worst = busiest(checkup);
-  const scene::Range steps = checkup.steps_range(), seconds = checkup.seconds_range();
-  std::cout << "steps      about " << about_count_text(checkup.steps()) << " ("
-            << about_count_text(steps.min) << " to " << about_count_text(steps.max) << ") in "
-            << checkup.forecast.size() << " frames: ";
-  if (worst.frame != 1)
-    std::cout << about_count_text(checkup.forecast.front().steps) << " in frame 1, ";
+void print_forecast(const health::Check& check) {
+  const std::vector<forecast::FrameForecast>& frames = check.foreseen.frames;
+  if (frames.empty()) return;
+  const forecast::FrameForecast& worst = busiest(frames);
+  const forecast::Cost steps = check.foreseen.steps(), seconds = check.seconds();
+  std::cout << "steps      about " << about_count_text(steps.expected) << " ("
+            << about_count_text(steps.least) << " to " << about_count_text(steps.most) << ") in "
+            << frames.size() << " frames: ";
+  if (worst.frame != 1) std::cout << about_count_text(frames.front().steps) << " in frame 1, ";
   std::cout << about_count_text(worst.steps)
             << (worst.frame == 1 ? ", the most, in frame " : " in frame ") << worst.frame << " ("
             << sim::name(worst.limit) << ")";
-  if (checkup.coarse_particles >= 1)
-    std::cout << ", from a copy of " << about_count_text(checkup.coarse_particles) << " particles";
+  if (check.foreseen.particles >= 1)
+    std::cout << ", from a copy of " << about_count_text(check.foreseen.particles) << " particles";
   std::cout << "\n";
-  if (checkup.seconds_per_step <= 0) return;
-  std::cout << "time       about " << seconds_text(checkup.seconds()) << " ("
-            << seconds_text(seconds.min) << " to " << seconds_text(seconds.max)
-            << ") of simulation, " << seconds_text(checkup.seconds_of(worst))
-            << " for the busiest frame; " << rough_text(1000 * checkup.seconds_per_step)
+  if (check.seconds_per_step <= 0) return;
+  std::cout << "time       about " << seconds_text(seconds.expected) << " ("
+            << seconds_text(seconds.least) << " to " << seconds_text(seconds.most)
+            << ") of simulation, "
+            << seconds_text(worst.steps * worst.cost * check.seconds_per_step)
+            << " for the busiest frame; " << rough_text(1000 * check.seconds_per_step)
             << " ms a step, measured now on this machine\n";
 }
 
-void print_checkup(const health::Checkup& checkup, const run::RenderJob& job,
-                   const health::FastLook& look) {
+void print_check(const health::Check& check, const run::RenderJob& job,
+                 const forecast::FastLook& look) {
   const double h = job.scene.solver.cell_size;
   std::cout << "scene      " << job.scene_file
             << (job.coarsening > 1 ? ", coarsened " + scene::coarsening_text(job.coarsening) : "")
             << "\n"
-            << "particles  " << fixed_text(checkup.plan.particles, 0) << " in "
-            << fixed_text(checkup.cells, 0) << " cells of " << scene::toml::number_text(h) << " m, "
-            << fixed_text(checkup.plan.particles / std::max(checkup.cells, 1e-9), 1)
-            << " per cell\n"
-            << "memory     about " << bytes_text(checkup.plan.memory) << " of "
-            << bytes_text(checkup.plan.memory_limit) << " allowed\n";
-  print_limits(checkup);
-  print_forecast(checkup);
+            << "particles  " << fixed_text(check.plan.particles, 0) << " in "
+            << fixed_text(check.cells, 0) << " cells of " << scene::toml::number_text(h) << " m, "
+            << fixed_text(check.plan.particles / std::max(check.cells, 1e-9), 1) << " per cell\n"
+            << "memory     about " << bytes_text(check.plan.memory) << " of "
+            << bytes_text(check.plan.memory_limit) << " allowed\n";
+  print_limits(check);
+  print_forecast(check);
   std::cout << (job.fast ? "fast       " : "faster     ") << look.sentence() << "\n";
-  if (!checkup.findings.empty()) std::cout << "\n";
+  if (!check.findings.empty()) std::cout << "\n";
 }
 
-void print_findings(const health::Checkup& checkup, bool has_notes) {
-  for (const health::Finding& finding : checkup.findings)
+void print_findings(const health::Check& check, bool has_notes) {
+  for (const health::Finding& finding : check.findings)
     if (has_notes || finding.severity != health::Severity::note)
       std::cout << name(finding.severity) << ": " << health::sentence(finding) << "\n";
 }
 
 /// The gain of --fast, for who has not asked for it.
-health::FastLook possible_look(const run::RenderOptions& options, const run::RenderJob& job) {
+forecast::FastLook possible_look(const run::RenderOptions& options, const run::RenderJob& job) {
   if (job.fast) return *job.fast;
-  return health::fast_look(job.scene, job.frames.last,
-                           scene::addresses_of(scene::parse_overrides(options.overrides)));
+  return forecast::fast_look(job.scene, job.frames.last,
+                             scene::addresses_of(scene::parse_overrides(options.overrides)));
 }
 
 }  // namespace
@@ -165,20 +163,20 @@ int run_check(const run::RenderOptions& options) {
   const run::RenderJob job = run::make_job(options);
   const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
   catch_interrupts();
-  const health::Checkup checkup = health::examine(job.scene, plan, options.threads, job.coarsening);
-  const health::FastLook look = possible_look(options, job);
+  const health::Check check = health::examine(job.scene, plan, options.threads, job.coarsening);
+  const forecast::FastLook look = possible_look(options, job);
   // A forecast that was cut short is another one.
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the end of the forecast");
   const bool is_quiet = options.verbosity == Verbosity::quiet;
   if (options.is_json)
-    std::cout << to_text(checkup_json(checkup, job, look)) << "\n";
+    std::cout << to_text(check_json(check, job, look)) << "\n";
   else if (!is_quiet)
-    print_checkup(checkup, job, look);
-  if (!options.is_json) print_findings(checkup, !is_quiet);
+    print_check(check, job, look);
+  if (!options.is_json) print_findings(check, !is_quiet);
   std::cout.flush();
-  setup::check_limits(job.scene, checkup.plan, job.coarsening);
+  setup::check_limits(job.scene, check.plan, job.coarsening);
   const bool has_error =
-      std::any_of(checkup.findings.begin(), checkup.findings.end(),
+      std::any_of(check.findings.begin(), check.findings.end(),
                   [](const health::Finding& f) { return f.severity == health::Severity::error; });
   return has_error ? exit_check_failed : exit_ok;
 }

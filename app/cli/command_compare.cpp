@@ -15,8 +15,7 @@
 #include "app/compare/compare_run.h"
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
-#include "app/run/picture_record.h"
-#include "app/scene/toml/error.h"
+#include "app/record/picture_record.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/json.h"
@@ -119,8 +118,8 @@ void check_run_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(output::run_json_path(folder), error)) return;
   const FolderAdvice advice = advice_on_folder(folder);
-  throw scene::toml::UsageError("", folder.string() + " " + advice.what,
-                                advice.hint + "; neve compare takes two pictures or two runs");
+  throw UsageError("", folder.string() + " " + advice.what,
+                   advice.hint + "; neve compare takes two pictures or two runs");
 }
 
 /// Whether a file is a picture with pixels alone, without the scene that made it.
@@ -129,7 +128,7 @@ bool has_only_pixels(const std::string& file) {
   if (fs::is_directory(file, error)) return false;
   require_picture(file, "neve compare");
   try {
-    run::read_picture_record(file);
+    record::read_picture_record(file);
   } catch (const UnreadableError&) {
     throw;
   } catch (const Error&) {
@@ -190,8 +189,8 @@ int run_compare(const CompareOptions& options) {
     return draw_pair(options);
   }
   if (is_a_run != is_b_run)
-    throw scene::toml::UsageError("", "one is a folder and the other is not",
-                                  "compare two pictures or two run folders");
+    throw UsageError("", "one is a folder and the other is not",
+                     "compare two pictures or two run folders");
   if (!is_a_run) return compare_pictures(options);
   check_run_folder(options.a);
   check_run_folder(options.b);

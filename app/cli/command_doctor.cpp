@@ -73,14 +73,14 @@ void print_line(const sim::checks::SelfTestResult& result) {
 
 }  // namespace
 
-int run_doctor(bool is_json) {
+int run_doctor(const PlainOptions& options) {
   std::vector<Examination> examinations;
   for (const render::gl::Attempt& attempt : render::gl::try_all_backends())
     examinations.push_back(examine(attempt));
   const std::vector<sim::checks::SelfTestResult> physics =
       sim::checks::self_tests(sim::checks::all_self_test_cases());
 
-  if (is_json) {
+  if (options.is_json) {
     Json json;
     json["backends"] = Json::array();
     for (const Examination& examination : examinations)

@@ -11,22 +11,20 @@
 #include "app/dump/write.h"
 #include "app/health/expected.h"
 #include "app/output/named_file.h"
-#include "app/run/late_times.h"
+#include "app/record/run_json.h"
 #include "app/run/render_job.h"
-#include "app/run/run_json.h"
-#include "app/run/walk.h"
 #include "app/scene/names.h"
-#include "app/scene/toml/error.h"
-#include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
+#include "app/timeline/origin.h"
+#include "app/timeline/times.h"
 
 namespace neve::app::cli {
 
 namespace {
 
-std::string force_line(const run::ColliderForce& force) {
+std::string force_line(const record::ColliderForce& force) {
   const auto vector = [](const sim::Vec3d& v) {
     return rough_text(v.x()) + " " + rough_text(v.y()) + " " + rough_text(v.z());
   };
@@ -50,8 +48,8 @@ std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOpti
                      " are left out of the summary, lighter than " +
                      rough_text(health::Expected::negligible_share()) + " rho h^3"
                : std::string(" particles")),
-      "state " + run::hash_text(inside.simulation.state_hash())};
-  for (const run::ColliderForce& force : dump::forces_in_step(inside))
+      "state " + record::hash_text(inside.simulation.state_hash())};
+  for (const record::ColliderForce& force : dump::forces_in_step(inside))
     if (force.force != sim::Vec3d::Zero() || force.max_pressure > 0)
       lines.push_back(force_line(force));
   return lines;
@@ -70,21 +68,20 @@ std::size_t probed_row(const dump::StepInspection& inside, const dump::Listing& 
                        const dump::Probe& probe) {
   if (const auto* place = std::get_if<sim::Vec3d>(&probe)) {
     if (listing.place.empty())
-      throw scene::toml::UsageError("--probe", "there is nothing", "there is no snow at this time");
+      throw UsageError("--probe", "there is nothing", "there is no snow at this time");
     return nearest_row(listing, *place);
   }
   const std::size_t id = std::get<std::size_t>(probe);
   if (listing.is_of_nodes)
-    throw scene::toml::UsageError("--probe", "nodes have no id " + std::to_string(id),
-                                  "expected a place, as in --probe 0,0.5,0");
+    throw UsageError("--probe", "nodes have no id " + std::to_string(id),
+                     "expected a place, as in --probe 0,0.5,0");
   const std::optional<std::size_t> row = inside.step.after.index_of(id);
   if (row) return *row;
   const std::string particle = "particle " + std::to_string(id);
   const std::size_t ids = inside.before.x.size() + inside.simulation.flow_totals().removed;
   if (id < ids)
-    throw scene::toml::UsageError("--probe", particle + " was removed",
-                                  "a sink removed it before this time");
-  throw scene::toml::UsageError(
+    throw UsageError("--probe", particle + " was removed", "a sink removed it before this time");
+  throw UsageError(
       "--probe",
       inside.scene.emitters.empty() ? "there is no " + particle : particle + " is not emitted yet",
       ids == 0 ? "there were none so far" : "expected 0 to " + std::to_string(ids - 1));
@@ -115,11 +112,11 @@ Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
   json["dt"] = inside.dt;
   json["dt_limit"] = sim::name(inside.limit);
   json["stage"] = options.stage ? Json(sim::name(*options.stage)) : Json();
-  json["state_hash"] = run::hash_text(inside.simulation.state_hash());
+  json["state_hash"] = record::hash_text(inside.simulation.state_hash());
   json[listing.is_of_nodes ? "nodes" : "particles"] = listing.place.size();
   json["forces"] = Json::array();
-  for (const run::ColliderForce& force : dump::forces_in_step(inside))
-    json["forces"].push_back(run::to_json(force));
+  for (const record::ColliderForce& force : dump::forces_in_step(inside))
+    json["forces"].push_back(record::to_json(force));
   json["quantities"] = dump::summary_json(listing);
   json["probes"] = Json::array();
   for (const std::size_t row : probed) json["probes"].push_back(dump::probe_json(listing, row));
@@ -198,11 +195,11 @@ class DumpOutput {
 void check_dump_output(const dump::DumpOptions& options) {
   if (options.format != dump::DumpFormat::vtk || !options.file.empty()) return;
   if (options.at.size() > 1)
-    throw scene::toml::UsageError("--format", "vtk has one time in a file",
-                                  "give a file with --out, as in --out fields.vtp");
+    throw UsageError("--format", "vtk has one time in a file",
+                     "give a file with --out, as in --out fields.vtp");
   if (::isatty(STDOUT_FILENO))
-    throw scene::toml::UsageError("--format", "vtk is binary and standard output is a terminal",
-                                  "give a file with --out, as in --out fields.vtp");
+    throw UsageError("--format", "vtk is binary and standard output is a terminal",
+                     "give a file with --out, as in --out fields.vtp");
 }
 
 dump::Listing listing_of(const dump::DumpOptions& options, const dump::StepInspection& inside) {
@@ -223,24 +220,22 @@ int run_dump(const dump::DumpOptions& options) {
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
                     options.run.progress);
-  sim::Simulation simulation = setup::make_simulation(
-      job.scene, setup::seed_scene(job.scene).particles, options.run.threads);
-  run::warn_of_late_time("--at " + rough_text(options.at.back()) + " s", options.at.back(),
-                         job.scene, progress);
-  run::ChangePlayer player(job.scene, job.changes, simulation);
-  player.begin();
-  run::Walk walk(job.scene.fps, simulation, player, progress);
-  progress.start(static_cast<int>(std::floor(options.at.back() * job.scene.fps)));
+  timeline::warn_of_late_time("--at " + rough_text(options.at.back()) + " s", options.at.back(),
+                              job.scene, progress);
+  timeline::Timeline timeline = timeline::open(job, options.run.threads, progress);
+  const sim::Simulation& simulation = timeline.simulation();
+  progress.start(timeline::frame_at(options.at.back(), job.scene.fps));
   DumpOutput out(job, options);
   for (const double at : options.at) {
-    walk.go_to(at);
+    timeline.go_to(at);
     progress.clear();
     if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the requested time");
     if (simulation.divergence())
       progress.warning(simulation.divergence()->sentence + "; this is its last state");
-    const double left = walk.frame_end() - simulation.time();
+    const double left = timeline.frame_end() - simulation.time();
+    const scene::Scene& scene = *timeline.here().scene;
     const dump::StepInspection inside =
-        dump::inspect_step(player.scene(), simulation, left > 0 ? left : 1 / job.scene.fps);
+        dump::inspect_step(scene, simulation, left > 0 ? left : 1 / job.scene.fps);
     const dump::Listing listing = listing_of(options, inside);
     warn_of_far_probes(options, inside, listing, progress);
     out.add(inside, listing);

@@ -6,7 +6,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/scene/coarsen.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string strip_line(const run::StripRecord& strip, const std::string& path) {
+std::string strip_line(const record::StripRecord& strip, const std::string& path) {
   return "strip       " + std::to_string(strip.times.size()) + " moments, " +
          fixed_text(strip.times.front(), 3) + " to " + fixed_text(strip.times.back(), 3) +
          " s; neve strip " + path + " makes it again\n";
 }
 
 /// Prints the record as plain text: the file may be from anyone.
-void print_picture(const run::PictureRecord& record, const std::string& picture) {
+void print_picture(const record::PictureRecord& record, const std::string& picture) {
   std::ostringstream out;
   out << "neve        " << record.version << (record.build.empty() ? "" : " (" + record.build + ")")
       << "\n"
@@ -124,7 +124,8 @@ void print_run(const Json& run, const fs::path& folder, std::ostream& out) {
 
 }  // namespace
 
-int run_info(const std::string& path, bool is_json) {
+int run_info(const PlainOptions& options) {
+  const std::string& path = options.name;
   std::error_code error;
   if (fs::is_directory(path, error) && !fs::exists(output::run_json_path(path), error)) {
     const FolderAdvice advice = advice_on_folder(path);
@@ -134,7 +135,7 @@ int run_info(const std::string& path, bool is_json) {
     const fs::path file =
         fs::is_directory(path, error) ? output::run_json_path(path) : fs::path(path);
     const Json run = read_run(file);
-    if (is_json) {
+    if (options.is_json) {
       std::cout << to_text(run) << "\n";
     } else {
       std::ostringstream out;
@@ -144,9 +145,9 @@ int run_info(const std::string& path, bool is_json) {
     return exit_ok;
   }
   require_picture(path, "neve info");
-  const run::PictureRecord record = run::read_picture_record(path);
-  if (is_json) {
-    std::cout << to_text(run::to_json(record)) << "\n";
+  const record::PictureRecord record = record::read_picture_record(path);
+  if (options.is_json) {
+    std::cout << to_text(record::to_json(record)) << "\n";
   } else {
     print_picture(record, path);
   }

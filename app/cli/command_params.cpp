@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <iostream>
 
+#include "app/advice/suggest.h"
+#include "app/advice/wishes.h"
 #include "app/cli/commands.h"
 #include "app/scene/params.h"
 #include "app/scene/search.h"
-#include "app/scene/toml/error.h"
-#include "app/scene/wishes.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/sweep/read/read_sweep.h"
@@ -22,32 +22,33 @@ std::string nearest_filter(const std::string& filter, const std::vector<scene::P
     names.push_back(info.address.substr(info.address.rfind('.') + 1));
     names.push_back(info.address.substr(0, info.address.find('.')));
   }
-  for (const scene::Wish& wish : scene::wishes())
-    for (const std::string& word : scene::words_in(std::string(wish.name) + " " + wish.words))
+  for (const advice::Wish& wish : advice::wishes())
+    for (const std::string& word : advice::words_in(std::string(wish.name) + " " + wish.words))
       names.push_back(word);
-  for (const scene::EverydayName& name : scene::everyday_names())
-    for (const std::string& word : scene::words_in(name.words)) names.push_back(word);
-  return nearest_name(filter, names);
+  for (const advice::Entry& entry : advice::entries_of("parameter"))
+    for (const std::string& word : advice::words_in(joined(entry.words, " ")))
+      names.push_back(word);
+  return advice::nearest_name(filter, names);
 }
 
 [[noreturn]] void fail_unfound(const std::string& what, const std::string& filter,
                                const std::string& nearest, const std::string& otherwise) {
-  throw scene::toml::UsageError("params", what + " \"" + filter + "\"",
-                                nearest.empty() ? otherwise : "did you mean " + nearest + "?");
+  throw UsageError("params", what + " \"" + filter + "\"",
+                   nearest.empty() ? otherwise : advice::did_you_mean(nearest));
 }
 
 void print_wishes(const ParamsOptions& options) {
-  std::vector<const scene::Wish*> wishes = scene::wishes_for(options.filter);
+  std::vector<const advice::Wish*> wishes = advice::wishes_for(options.filter);
   if (options.filter.empty())
-    for (const scene::Wish& wish : scene::wishes()) wishes.push_back(&wish);
+    for (const advice::Wish& wish : advice::wishes()) wishes.push_back(&wish);
   if (wishes.empty()) {
     std::vector<std::string> names;
-    for (const scene::Wish& wish : scene::wishes()) names.emplace_back(wish.name);
+    for (const advice::Wish& wish : advice::wishes()) names.emplace_back(wish.name);
     fail_unfound("no wish is called", options.filter, "", "expected " + joined(names, ", "));
   }
-  std::cout << (options.is_json       ? scene::wishes_json(wishes)
-                : options.is_markdown ? scene::wishes_markdown(wishes)
-                                      : scene::wishes_table(wishes));
+  std::cout << (options.is_json       ? advice::wishes_json(wishes)
+                : options.is_markdown ? advice::wishes_markdown(wishes)
+                                      : advice::wishes_table(wishes));
 }
 
 }  // namespace
@@ -70,9 +71,9 @@ int run_params(const ParamsOptions& options) {
   std::stable_partition(list.begin(), list.end(),
                         [&](const scene::ParamInfo& info) { return search.names(info.address); });
   std::cout << (options.is_json ? scene::params_json(list) : scene::params_table(list));
-  const std::vector<const scene::Wish*> wishes = scene::wishes_for(options.filter);
+  const std::vector<const advice::Wish*> wishes = advice::wishes_for(options.filter);
   if (!options.is_json && !options.is_sweep && !wishes.empty())
-    std::cout << "\n" << scene::wishes_table(wishes);
+    std::cout << "\n" << advice::wishes_table(wishes);
   return exit_ok;
 }
 

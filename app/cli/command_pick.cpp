@@ -10,11 +10,10 @@
 #include "app/cli/commands.h"
 #include "app/cli/devices/place.h"
 #include "app/cli/devices/terminal_lines.h"
+#include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
 #include "app/pick/game.h"
-#include "app/scene/toml/error.h"
-#include "app/setup/command_text.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/json.h"
@@ -36,8 +35,8 @@ std::optional<std::string> wait_for_line(devices::TerminalLines& lines) {
 }
 
 /// Asks until the answer is one. @param click is set for Answer::click
-Answer ask(const pick::Game& game, const pick::RoundRuns& runs, devices::TerminalLines& lines,
-           pick::Click& click) {
+Answer ask(const pick::Game& game, const sweep::jobs::SweepProgress& runs,
+           devices::TerminalLines& lines, pick::Click& click) {
   for (const std::string& line : game.lesson().lines) std::cerr << "  " << line << "\n";
   std::cerr << fmt::format("round {} of {}: {} has the nine tiles, moving; {} their last frame\n",
                            game.answered() + 1, game.most_rounds(),
@@ -81,16 +80,16 @@ void print_pick(const pick::Game& game, const pick::PickOptions& options,
   for (const scene::Override& value : values)
     std::cout << "  " << value.address << " = " << value.value << "\n";
   for (const std::string& line : game.lesson().lines) std::cout << line << "\n";
-  std::cout << "next:\n  neve render " << setup::shell_word(scene) << "\n  neve sweep "
-            << setup::shell_word((game.folder() / "picked_sweep.toml").string()) << "\n";
+  std::cout << "next:\n  neve render " << options::shell_word(scene) << "\n  neve sweep "
+            << options::shell_word((game.folder() / "picked_sweep.toml").string()) << "\n";
 }
 
 /// Makes the nine runs, their sheet and their page. @return exit code
-int make_round(pick::Game& game, pick::RoundRuns& runs) {
+int make_round(pick::Game& game, sweep::jobs::SweepProgress& runs) {
   const int code = run_sweep(game.begin_round());
   // Tiles of runs that failed say so; the other ones can be chosen.
   if (code != exit_ok && code != exit_runs_failed) return code;
-  runs = pick::read_round(game.folder());
+  runs = sweep::jobs::progress_of(game.folder());
   game.write_page(runs);
   return exit_ok;
 }
@@ -101,7 +100,7 @@ int play_rounds(pick::Game& game, std::vector<pick::Click> list, bool asks) {
   while (!game.is_over()) {
     const auto next = static_cast<std::size_t>(game.answered());
     if (next >= list.size() && !asks) return exit_ok;
-    pick::RoundRuns runs;
+    sweep::jobs::SweepProgress runs;
     if (const int code = make_round(game, runs); code != exit_ok) return code;
     pick::Click click;
     Answer answer = Answer::click;
@@ -186,26 +185,24 @@ int play(pick::Game& game, const pick::PickOptions& options, const view::ScreenO
   return play_on(*place, game, options, !screen.replay.empty());
 }
 
-}  // namespace
-
-namespace {
-
 /// What a sweep takes and a search does not. @throws UsageError
 void check_axes(const std::vector<std::string>& axes) {
   if (axes.empty())
-    throw scene::toml::UsageError("pick", "nothing varies",
-                                  "name what to find, and between which two values: -p "
-                                  "material.snow.hardening=5,20");
+    throw UsageError("pick", "nothing varies",
+                     "name what to find, and between which two values: -p "
+                     "material.snow.hardening=5,20");
 }
 
 }  // namespace
 
-int run_pick(const pick::PickOptions& options, const view::ScreenOptions& screen) {
+int run_pick(const PickCommand& command) {
+  const pick::PickOptions& options = command.pick;
+  const view::ScreenOptions& screen = command.screen;
   check_axes(options.runs.axes);
   pick::Game game(options);
   if (options.clicks.empty() && !wants_screen(options, screen) &&
       !devices::TerminalLines::is_there())
-    throw scene::toml::UsageError(
+    throw UsageError(
         "pick", "there is no terminal to ask for the best tile",
         "call it in a terminal, or give --web for a page, --window, or --clicks FILE with one "
         "choice a line: a tile from 1 to 9, two of them, or 0 for none");

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -11,10 +12,9 @@
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
+#include "app/record/picture_record.h"
 #include "app/run/fork.h"
 #include "app/run/passes.h"
-#include "app/run/past_run.h"
-#include "app/run/picture_record.h"
 #include "app/run/plate.h"
 #include "app/run/render_job.h"
 #include "app/run/render_run.h"
@@ -23,11 +23,11 @@
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/resolve.h"
-#include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
+#include "app/timeline/origin.h"
 #include "render/gl/context.h"
 
 namespace neve::app::cli {
@@ -42,14 +42,17 @@ render::Image read_reference(const std::string& file) {
   }
 }
 
-/// A strip shows many frames: one of them has to be named.
-void refuse_strip(const run::RenderOptions& options) {
-  if (options.scene.empty() || options.frames || options.from || run::is_folder(options.scene) ||
-      !run::is_picture(options.scene))
-    return;
-  if (const auto strip = run::read_picture_record(options.scene).strip)
-    throw scene::toml::UsageError(
-        options.scene, "is a strip of " + std::to_string(strip->times.size()) + " moments",
+/// A run has its pictures, and a strip shows many frames: one of them has to be named.
+void refuse_origin(const run::RenderOptions& options, const run::RenderJob& job) {
+  if (options.from) return;
+  if (!job.run.empty())
+    throw scene::toml::SceneError(job.scene_file, 0, 0, "is the folder of a run, not a scene",
+                                  "--from TIME takes another way from a moment of it; its scene "
+                                  "file makes it again");
+  if (job.picture && job.picture->strip && !options.frames)
+    throw UsageError(
+        options.scene,
+        "is a strip of " + std::to_string(job.picture->strip->times.size()) + " moments",
         "neve strip " + options.scene + " makes it again; --frames renders frames of its scene");
 }
 
@@ -150,7 +153,7 @@ int compare_with_reference(const run::RenderOptions& options, const run::RenderJ
 void print_result(const run::RenderJob& job, const run::RenderRun& run,
                   const run::RenderResult& result, int code) {
   Json json;
-  json["status"] = run::name(result.status);
+  json["status"] = record::name(result.status);
   json["exit_code"] = code;
   json["out"] = job.folder.string();
   json["run_json"] = output::run_json_path(job.folder).string();
@@ -159,7 +162,7 @@ void print_result(const run::RenderJob& job, const run::RenderRun& run,
   json["movies"] = Json::array();
   for (const auto& movie : result.movies) json["movies"].push_back(movie.string());
   if (!run.record().frames.empty())
-    json["state_hash"] = run::hash_text(run.record().frames.back().state_hash);
+    json["state_hash"] = record::hash_text(run.record().frames.back().state_hash);
   std::cout << to_text(json) << "\n";
 }
 
@@ -176,11 +179,28 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
   }
 }
 
-void report_validation(const run::Validation& validation, Progress& progress) {
-  if (validation.has_held())
-    progress.note(validation.summary());
-  else if (!validation.has_errors())  // those become the error that the run ends with
-    progress.warning(validation.summary());
+/// "validation: 18 checks at 12 steps, all held", or which did not.
+std::string text_of_laws(const sim::checks::Watch& laws) {
+  std::string broken;
+  for (const sim::checks::WatchRecord& record : laws.records()) {
+    if (record.times == 0) continue;
+    broken += (broken.empty() ? "" : "; ") + std::string(sim::checks::name(record.check)) +
+              " broken at " + std::to_string(record.times) + ", first at step " +
+              std::to_string(record.first_step) + ", worst " + rough_text(record.worst) +
+              (record.is_below ? " (at least " : " (at most ") + rough_text(record.threshold) + ")";
+  }
+  return fmt::format("validation: {} checks at {} step{}, {}", laws.records().size(), laws.looks(),
+                     laws.looks() == 1 ? "" : "s", broken.empty() ? "all held" : broken);
+}
+
+/// Errors become the one that the run ends with.
+void report_laws(const sim::checks::Watch& laws, Progress& progress) {
+  const bool have_held = std::ranges::all_of(
+      laws.records(), [](const sim::checks::WatchRecord& record) { return record.times == 0; });
+  if (have_held)
+    progress.note(text_of_laws(laws));
+  else if (!laws.has_errors())
+    progress.warning(text_of_laws(laws));
 }
 
 void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t particles,
@@ -198,13 +218,13 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
 int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,
            const run::RenderResult& result, Progress& progress) {
   progress.clear();
-  if (result.status == run::RunStatus::diverged) {
+  if (result.status == record::RunStatus::diverged) {
     Error error(exit_diverged, health::sentence(*run.record().divergence, *result.diagnosis),
                 job.scene_file, "incident.json and diverged_*.png are in " + job.folder.string());
     error.warnings = run.record().warnings;
     throw error;
   }
-  const bool is_interrupted = result.status == run::RunStatus::interrupted;
+  const bool is_interrupted = result.status == record::RunStatus::interrupted;
   const int code = !is_interrupted         ? exit_ok
                    : result.has_checkpoint ? exit_resumable
                                            : exit_interrupted;
@@ -224,8 +244,8 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
 }  // namespace
 
 int run_render(const run::RenderOptions& options) {
-  refuse_strip(options);
   run::RenderJob job = run::make_job(options);
+  refuse_origin(options, job);
   const double channel_bytes =
       job.passes.empty() ? 0 : run::bytes_of_pixel(run::pass_list(job.passes));
   const setup::Plan plan =
@@ -239,7 +259,7 @@ int run_render(const run::RenderOptions& options) {
   std::optional<render::Image> reference;
   if (!options.reference.empty()) reference = read_reference(options.reference);
 
-  if (job.has_movies) output::require_movie(job.movie, job.scene.fps);
+  if (job.has_movies()) output::require_movie(options.movie, job.scene.fps);
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
@@ -253,27 +273,27 @@ int run_render(const run::RenderOptions& options) {
   // Before anything else of the run: another one may be writing there.
   const output::FolderLock lock(job.folder, "neve render");
 
-  const setup::SeededScene seeded = setup::seed_scene(job.scene);
-  warn_about_start(job, seeded, progress);
-  setup::resolve(job.scene, seeded.planned);
+  const auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(job.scene));
+  warn_about_start(job, *seeded, progress);
+  setup::resolve(job.scene, seeded->planned);
   // A framing that was cut short is another one: nothing may be written with it.
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first frame");
-  sim::Simulation simulation = setup::make_simulation(job.scene, seeded.particles, options.threads);
-  note_start(job, plan, seeded.particles.x.size(), progress);
+  timeline::Timeline timeline = timeline::open(job, seeded, options.threads, progress);
+  note_start(job, plan, seeded->particles.x.size(), progress);
 
-  std::optional<run::ForkPoint> fork;
-  if (job.fork) fork = run::go_to_fork(job, simulation, progress);
-  run::RenderRun run(job, simulation, *context, renderer, seeded, progress,
-                     fork ? &*fork : nullptr);
+  Json forked;
+  if (job.fork) forked = run::go_to_fork(job, timeline, progress);
+  run::RenderRun run(job, timeline, *context, renderer, progress, forked);
   const run::RenderResult result = run.run();
+  const sim::Simulation& simulation = timeline.simulation();
   for (const std::string& warning : run::step_warnings(job.scene, simulation))
     progress.warning(warning);
   if (const std::size_t trials = simulation.warnings().inverted_trials; trials > 0)
     progress.detail(fmt::format("{} trial deformations were inverted and repaired", trials));
-  if (run.validation()) report_validation(*run.validation(), progress);
+  if (run.laws()) report_laws(*run.laws(), progress);
   const int code = finish(options, job, run, result, progress);
-  if (code == exit_ok && run.validation() && run.validation()->has_errors())
-    throw Error(exit_check_failed, run.validation()->summary(), job.scene_file,
+  if (code == exit_ok && run.laws() && run.laws()->has_errors())
+    throw Error(exit_check_failed, text_of_laws(*run.laws()), job.scene_file,
                 "the pictures are in " + job.folder.string());
   if (code == exit_ok && reference && !run.record().frames.empty()) {
     // A resumed run that was complete has drawn nothing.

@@ -12,17 +12,17 @@
 
 #include "app/cli/commands.h"
 #include "app/health/findings.h"
+#include "app/options/arguments.h"
 #include "app/output/folder_lock.h"
 #include "app/output/movie.h"
 #include "app/output/named_file.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/caps.h"
-#include "app/setup/command_text.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
+#include "app/sweep/jobs/background.h"
 #include "app/sweep/jobs/local.h"
 #include "app/sweep/jobs/slurm.h"
 #include "app/sweep/jobs/source.h"
@@ -61,8 +61,12 @@ sweep::store::Retry retry_of(const std::string& states) {
 /// One command a line, each makes one run that is not finished.
 void emit_commands(const sweep::plan::SweepOptions& options, const std::filesystem::path& folder,
                    const sweep::store::Manifest& manifest, Progress& progress) {
-  const std::string program = setup::shell_word(this_program().string()),
-                    where = setup::shell_word(std::filesystem::absolute(folder).string());
+  sweep::plan::SweepRunOptions one;
+  one.folder = std::filesystem::absolute(folder).string();
+  one.threads = 1;
+  one.verbosity = Verbosity::quiet;
+  one.retry_failed = options.retry_failed;
+  one.caps = setup::cap_texts();
   std::string text;
   int count = 0;
   const sweep::store::Retry retry = retry_of(options.retry_failed);
@@ -71,9 +75,8 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
     const sweep::store::RunState state =
         sweep::store::read_status(sweep::store::runs_folder(folder) / run->folder).state;
     if (sweep::store::is_finished(state) && !retry.contains(state)) continue;
-    text += fmt::format("{} sweep run {} --index {} --threads 1 --quiet{}{}\n", program, where,
-                        run->index, retry.empty() ? "" : " --retry-failed=" + options.retry_failed,
-                        setup::cap_flags());
+    one.index = run->index;
+    text += options::shell_line(options::words_of(one), this_program()) + "\n";
     ++count;
   }
   output::write_named_file(options.emit, text);
@@ -264,18 +267,19 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     manifest.runs[k].work = forecast.cost(k);
     cost += forecast.cost(k);
-    seconds += forecast.seconds(k);
+    seconds += forecast.seconds(k).expected;
   }
   if (forecast.seconds_per_work > 0) manifest.seconds_per_work = seconds / cost;
   sweep::store::write_manifest(plan.folder, manifest);
   if (forecast.seconds_per_work > 0)
     progress.note(sweep::plan::forecast_text(plan, runs, forecast, cores, options.budget));
-  return forecast.seconds_of_all(runs, cores);
+  return forecast.seconds_of_all(runs, cores).expected;
 }
 
 }  // namespace
 
 int run_sweep(const sweep::plan::SweepOptions& options) {
+  retry_of(options.retry_failed);  // a wrong word is refused before anything is planned
   sweep::plan::SweepPlan plan = sweep::plan::plan_sweep(options);
   const int cores = core_count(options.threads);
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
@@ -339,12 +343,11 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
                     options.progress);
   const sweep::store::Manifest manifest = sweep::store::read_manifest(options.folder);
   if (options.is_beginning && !manifest.beginning)
-    throw scene::toml::UsageError("--beginning", "the runs have no beginning in common",
-                                  "give --index N for one of them");
-  if (options.index < 0 || options.index >= static_cast<int>(manifest.runs.size()))
-    throw scene::toml::UsageError(
-        "--index", fmt::format("there is no run {}", options.index),
-        fmt::format("expected a number from 0 to {}", manifest.runs.size() - 1));
+    throw UsageError("--beginning", "this sweep has no fork", "give --index N for one of them");
+  const int index = options.index.value_or(0);
+  if (index >= static_cast<int>(manifest.runs.size()))
+    throw UsageError("--index", fmt::format("there is no run {}", index),
+                     fmt::format("expected a number from 0 to {}", manifest.runs.size() - 1));
   sweep::jobs::LocalOptions engine;
   engine.cores = core_count(options.threads);
   engine.jobs = 1;
@@ -353,7 +356,7 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   engine.program = this_program();
   engine.makes_beginning = options.is_beginning;
   const std::vector<int> indices =
-      options.is_beginning ? std::vector<int>{} : std::vector<int>{options.index};
+      options.is_beginning ? std::vector<int>{} : std::vector<int>{index};
   const sweep::jobs::JobsResult result =
       sweep::jobs::run_local(options.folder, manifest, indices, engine, progress);
   if (result.failure) fail_by_machine(*result.failure, options.folder);
@@ -361,26 +364,6 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   if (options.is_json) std::cout << to_text(result_json(options.folder, result)) << "\n";
   return exit_code_of(result);
 }
-
-namespace {
-
-struct SweepCounts {
-  int runs = 0, ok = 0, failed = 0;
-  int finished() const { return ok + failed; }
-};
-
-SweepCounts counts_in(const std::filesystem::path& folder) {
-  SweepCounts counts;
-  for (const sweep::Run& run : sweep::store::read_manifest(folder).runs) {
-    const sweep::store::RunStatus status = sweep::store::read_status(folder / "runs" / run.folder);
-    ++counts.runs;
-    if (status.key != run.key || !sweep::store::is_finished(status.state)) continue;
-    ++(status.state == sweep::store::RunState::ok ? counts.ok : counts.failed);
-  }
-  return counts;
-}
-
-}  // namespace
 
 int run_sweep_collect(const sweep::plan::CollectOptions& options) {
   catch_interrupts();
@@ -390,19 +373,19 @@ int run_sweep_collect(const sweep::plan::CollectOptions& options) {
   sweep::sheet::collect_sweep(options.folder, options.movie, options.backend,
                               core_count(options.threads), progress);
   if (is_interrupted()) return exit_interrupted;
-  const SweepCounts counts = counts_in(options.folder);
+  const RunCounts counts = sweep::jobs::progress_of(options.folder).counts();
+  const int unfinished = counts.all - counts.finished;
   progress.note("collected in " + options.folder);
-  if (counts.finished() < counts.runs)
+  if (unfinished > 0)
     progress.warning(fmt::format("{} of {} runs {} not finished; neve sweep continues them",
-                                 counts.runs - counts.finished(), counts.runs,
-                                 counts.runs - counts.finished() == 1 ? "is" : "are"));
+                                 unfinished, counts.all, unfinished == 1 ? "is" : "are"));
   if (options.is_json)
     std::cout << to_text({{"out", options.folder},
                           {"exit_code", exit_ok},
-                          {"runs", counts.runs},
-                          {"ok", counts.ok},
+                          {"runs", counts.all},
+                          {"ok", counts.finished - counts.failed},
                           {"failed", counts.failed},
-                          {"unfinished", counts.runs - counts.finished()}})
+                          {"unfinished", unfinished}})
               << "\n";
   return exit_ok;
 }

@@ -7,7 +7,7 @@
 #include "app/cli/folder_advice.h"
 #include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
-#include "app/run/verify.h"
+#include "app/record/verify.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/sweep/store/manifest.h"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct Findings {
   std::string status;
   std::size_t files = 0;
-  std::vector<run::Flaw> flaws;
+  std::vector<record::Flaw> flaws;
   /// Why a folder without flaws is not finished; "" where it is.
   std::string unfinished;
   bool is_in_use = false;  ///< by a process that goes on
@@ -31,7 +31,7 @@ struct Findings {
 };
 
 Findings verify_run_folder(const fs::path& folder) {
-  run::Verification found = run::verify_run(folder);
+  record::Verification found = record::verify_run(folder);
   Findings findings{found.status, found.files, std::move(found.flaws), {}, false};
   if (found.status == "ok" || found.status == "diverged" || found.status.empty()) return findings;
   findings.is_in_use = output::FolderLock::is_held(folder);
@@ -44,7 +44,7 @@ Findings verify_run_folder(const fs::path& folder) {
 }
 
 /// The folder of `neve export --out`.
-Findings verify_export_folder(const run::Verification& found) {
+Findings verify_export_folder(const record::Verification& found) {
   Findings findings{found.status, found.files, found.flaws, {}, false};
   if (found.status == "interrupted") findings.unfinished = "the export is not finished";
   return findings;
@@ -53,7 +53,7 @@ Findings verify_export_folder(const run::Verification& found) {
 Findings verify_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(output::run_json_path(folder), error)) return verify_run_folder(folder);
-  const std::optional<run::Verification> found = run::verify_export(folder);
+  const std::optional<record::Verification> found = record::verify_export(folder);
   return found ? verify_export_folder(*found) : verify_run_folder(folder);
 }
 
@@ -69,9 +69,9 @@ Findings verify_sweep_folder(const fs::path& folder) {
     const bool is_made = status.state == sweep::store::RunState::ok ||
                          status.state == sweep::store::RunState::diverged;
     if (status.key != item.key || !is_made) continue;
-    const run::Verification found = run::verify_run(folder / place);
+    const record::Verification found = record::verify_run(folder / place);
     findings.files += found.files;
-    for (const run::Flaw& flaw : found.flaws)
+    for (const record::Flaw& flaw : found.flaws)
       findings.flaws.push_back({(place / flaw.file).generic_string(), flaw.what});
     if (status.state == sweep::store::RunState::ok && found.flaws.empty() &&
         found.last_frame < item.frames.last)
@@ -112,13 +112,13 @@ void print_json(const std::string& folder, const Findings& findings) {
   json["whole"] = findings.is_whole();
   json["files"] = findings.files;
   json["flaws"] = Json::array();
-  for (const run::Flaw& flaw : findings.flaws)
+  for (const record::Flaw& flaw : findings.flaws)
     json["flaws"].push_back({{"file", flaw.file}, {"what", flaw.what}});
   std::cout << to_text(json) << "\n";
 }
 
 void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const Findings& findings) {
-  for (const run::Flaw& flaw : findings.flaws)
+  for (const record::Flaw& flaw : findings.flaws)
     std::cout << printable_text((fs::path(folder) / flaw.file).string()) << " "
               << printable_text(flaw.what) << "\n";
   if (!findings.unfinished.empty()) std::cout << folder << ": " << findings.unfinished << "\n";
@@ -132,17 +132,18 @@ void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const F
 
 }  // namespace
 
-int run_verify(const std::string& folder, bool is_quiet, bool is_json) {
+int run_verify(const PlainOptions& options) {
+  const std::string& folder = options.name;
   std::error_code error;
   if (!fs::is_directory(folder, error))
     throw IoError(folder + ": is no folder", folder, "name the output folder of a run or a sweep");
   const bool is_sweep = fs::exists(fs::path(folder) / "manifest.json", error);
   if (!is_sweep) require_run(folder);
   const Findings findings = is_sweep ? verify_sweep_folder(folder) : verify_folder(folder);
-  if (is_json)
+  if (options.is_json)
     print_json(folder, findings);
   else
-    print_text(folder, is_sweep, is_quiet, findings);
+    print_text(folder, is_sweep, options.is_quiet, findings);
   return findings.is_whole() ? exit_ok : exit_check_failed;
 }
 

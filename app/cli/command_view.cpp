@@ -6,7 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/devices/place.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/run/render_job.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
@@ -14,6 +14,8 @@
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/out_folder.h"
+#include "app/timeline/origin.h"
+#include "app/timeline/times.h"
 #include "app/view/viewer.h"
 
 namespace neve::app::cli {
@@ -26,25 +28,27 @@ devices::PlaceOptions place_options(const view::ViewOptions& options) {
   return place;
 }
 
-/// @return the scene to open next, if there is one
-std::optional<view::session::Document> look_at(view::session::Document document,
-                                               const std::vector<std::string>& overrides,
-                                               const view::ViewOptions& options,
-                                               devices::Place& place) {
-  const std::string file = document.file();
+/// @return what to open next, if there is anything
+std::optional<view::session::Opened> look_at(view::session::Opened opened,
+                                             const view::ViewOptions& options,
+                                             devices::Place& place) {
+  const std::string file = opened.document.file();
   view::session::WorkbenchOptions bench_options;
   bench_options.session.threads = options.run.threads;
   bench_options.session.kept_budget = options.kept_memory;
-  bench_options.overrides = overrides;
+  bench_options.session.past = std::move(opened.past);
+  bench_options.overrides = std::move(opened.overrides);
   bench_options.is_remote = place.web != nullptr;
   bench_options.folder = options.run.out.empty()
                              ? out_folder() / (scene::name_of_scene(file) + "-view")
                              : std::filesystem::path(options.run.out);
-  view::session::Workbench bench(std::move(document), std::move(bench_options),
+  view::session::Workbench bench(std::move(opened.document), std::move(bench_options),
                                  [&place] { place.front->wake(); });
   ThreadPool pool(options.run.threads);
   render::Renderer renderer(*place.context, options.run.shader_dir, &pool);
   render::Screen screen(*place.context, options.run.shader_dir);
+  if (options.at)
+    bench.session().show_frame(timeline::frame_at(*options.at, bench.document().scene()->fps));
   const std::string title = std::filesystem::path(file).filename().string() + " - neve";
   place.set_title(title);
   view::ViewerOptions viewer_options;
@@ -70,7 +74,7 @@ int run_view(const view::ViewOptions& given) {
   catch_interrupts();
   view::ViewOptions options = given;
   if (options.run.is_fast) {
-    const health::FastLook look = *run::make_job(options.run).fast;
+    const forecast::FastLook look = *run::make_job(options.run).fast;
     if (options.run.verbosity != Verbosity::quiet)
       std::cerr << "neve: " << look.sentence() << std::endl;
     options.run.overrides.insert(options.run.overrides.end(), look.overrides.begin(),
@@ -78,19 +82,22 @@ int run_view(const view::ViewOptions& given) {
   }
   const std::string file = options.run.scene.empty() ? default_scene().string() : options.run.scene;
   // A scene that cannot be read is told before a window opens.
-  std::optional<view::session::Document> document =
+  std::optional<view::session::Opened> opened =
       view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
-  if (run::is_picture(file))
-    if (const std::size_t changes = run::read_picture_record(file).changes.size(); changes > 0)
+  if (timeline::is_folder(file) && !opened->past)
+    std::cerr << "neve: warning: " << file
+              << " has no checkpoint that this program can continue: the view starts at frame 0"
+              << std::endl;
+  if (record::is_picture(file))
+    if (const std::size_t changes = record::read_picture_record(file).changes.size(); changes > 0)
       std::cerr
           << "neve: warning: " << changes
           << " changes were made while the run of this picture ran; the view starts without them"
           << std::endl;
   devices::Place place = devices::open_place(place_options(options));
   devices::announce(place, options.run.is_json, options.run.verbosity == Verbosity::quiet);
-  document = look_at(*std::move(document), options.run.overrides, options, place);
   // Overrides belong to the first scene only; the coarsening applies to later scenes too.
-  while (document) document = look_at(*std::move(document), {}, options, place);
+  while (opened) opened = look_at(*std::move(opened), options, place);
   if (place.recording) place.recording->save();
   return exit_ok;
 }

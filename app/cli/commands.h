@@ -2,6 +2,7 @@
 /// One function per subcommand. Each returns an exit code.
 
 #include <string>
+#include <vector>
 
 #include "app/bench/bench_options.h"
 #include "app/compare/pair_options.h"
@@ -9,6 +10,7 @@
 #include "app/pick/pick_options.h"
 #include "app/run/export_run.h"
 #include "app/run/render_options.h"
+#include "app/run/strip_run.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/view/view_options.h"
 
@@ -20,6 +22,27 @@ struct CompareOptions {
   double local_threshold = 255;  ///< of the mean over any 8x8 pixels
   bool is_json = false;
   compare::PairOptions pictures;  ///< its a and b are those above; without out: none
+};
+
+/// Of neve export: the run, and what all formats have in common.
+struct ExportCommand {
+  run::RenderOptions run;
+  std::vector<double> at;
+  std::vector<scene::ExportFormat> formats;
+  scene::Export common;
+};
+
+struct PickCommand {
+  pick::PickOptions pick;
+  view::ScreenOptions screen;
+};
+
+/// Of commands that take little: new, info, verify, doctor, schema, manual, version, help.
+struct PlainOptions {
+  std::string name;                ///< of a file or folder, or a kind
+  std::vector<std::string> names;  ///< of commands
+  bool is_quiet = false;
+  bool is_json = false;
 };
 
 struct ParamsOptions {
@@ -34,26 +57,20 @@ int run_render(const run::RenderOptions& options);
 /// Reads only the options that choose the scene: scene, overrides, coarsening, threads.
 int run_check(const run::RenderOptions& options);
 int run_dump(const dump::DumpOptions& options);
+int run_strip_command(const run::StripOptions& options);
 int run_export_command(const run::ExportOptions& options);
 int run_view(const view::ViewOptions& options);
 int run_compare(const CompareOptions& options);
-int run_bench_sim(const bench::BenchOptions& options);
-int run_bench_frame(const bench::BenchOptions& options);
-int run_bench_render(const bench::BenchOptions& options);
-int run_bench_sweep(const bench::BenchOptions& options);
-int run_bench_scenes(const bench::BenchOptions& options);
-int run_bench_surface(const bench::BenchOptions& options);
-int run_bench_view(const bench::BenchOptions& options);
-int run_info(const std::string& path, bool is_json);
-/// @param folder  of a run or a sweep
-/// @param is_quiet  print only what is wrong
-int run_verify(const std::string& folder, bool is_quiet, bool is_json);
-int run_doctor(bool is_json);
+int run_info(const PlainOptions& options);
+int run_verify(const PlainOptions& options);
+int run_doctor(const PlainOptions& options);
+int run_new(const PlainOptions& options);
+int run_schema(const PlainOptions& options);
 /// @throws UsageError if nothing has the filter in it
 int run_params(const ParamsOptions& options);
 int run_sweep(const sweep::plan::SweepOptions& options);
 int run_sweep_run(const sweep::plan::SweepRunOptions& options);
 int run_sweep_collect(const sweep::plan::CollectOptions& options);
-int run_pick(const pick::PickOptions& options, const view::ScreenOptions& screen);
+int run_pick(const PickCommand& command);
 
 }  // namespace neve::app::cli

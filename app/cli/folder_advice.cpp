@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/output/sequence.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 
@@ -72,7 +72,7 @@ FolderAdvice advice_on_folder(const fs::path& typed) {
 
 void require_picture(const fs::path& file, const std::string& command) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error) || run::is_picture(file)) return;
+  if (!fs::is_regular_file(file, error) || record::is_picture(file)) return;
   const std::string hint = advice_on_file(file, command);
   throw Error(exit_invalid_scene, file.string() + ": error: is no PNG picture; " + hint,
               file.string(), hint);

@@ -3,17 +3,16 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <new>
 #include <string>
 #include <vector>
 
+#include "app/options/common.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
-#include "app/support/lower_text.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"
@@ -71,7 +70,7 @@ Report describe_current_error() {
         error.line > 0 ? ":" + std::to_string(error.line) + ":" + std::to_string(error.column) : "";
     return {exit_invalid_scene, error.what(), error.message, error.file + place,
             error.hint,         error.file,   error.line,    error.column};
-  } catch (const scene::toml::UsageError& error) {
+  } catch (const UsageError& error) {
     const std::string hint = error.hint.empty() ? "" : "; " + error.hint;
     const std::string where = error.where.empty() ? "" : error.where + ": ";
     Report report = plain_report(exit_usage, where + error.message + hint, error.where, error.hint);
@@ -99,13 +98,6 @@ Report describe_current_error() {
 
 }  // namespace
 
-bool is_log_name(const std::string& file) {
-  const std::string suffix = lower_text(std::filesystem::path(file).extension().string());
-  for (const char* other : {".toml", ".png", ".json", ".exr", ".obj", ".ply", ".stl", ".csv"})
-    if (suffix == other) return false;
-  return true;
-}
-
 int report_current_error(const ErrorOutput& output) {
   const Report report = describe_current_error();
   Json json;
@@ -124,7 +116,7 @@ int report_current_error(const ErrorOutput& output) {
   } else {
     std::cerr << printable_text(report.line) << std::endl;
   }
-  if (!output.log.empty() && is_log_name(output.log))
+  if (!output.log.empty() && options::is_log_name(output.log))
     std::ofstream(output.log, std::ios::app) << time_text() << "  " << report.line << std::endl;
   if (output.is_json) std::cout << to_text(json) << std::endl;
   return report.code;

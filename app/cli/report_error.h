@@ -12,10 +12,6 @@ struct ErrorOutput {
   std::string log;                ///< of --log; empty: none
 };
 
-/// False for the names of scenes, pictures and geometry, to which no message is appended: in
-/// `neve render --log scene.toml` the name of the log was forgotten.
-bool is_log_name(const std::string& file);
-
 /// Call it while an exception is handled. Prints one message on stderr and, if wanted, a JSON
 /// object on stdout. @return the exit code
 int report_current_error(const ErrorOutput& output);

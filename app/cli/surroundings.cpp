@@ -7,6 +7,7 @@
 #include <cctype>
 #include <iostream>
 
+#include "app/advice/suggest.h"
 #include "app/support/machine.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
@@ -27,24 +28,12 @@ std::string flag_like(std::string variable) {
   return "--" + variable;
 }
 
-const CLI::App& innermost(const CLI::App& app) {
-  const auto called = app.get_subcommands();
-  return called.empty() ? app : innermost(*called.front());
-}
-
-std::vector<std::string> flags_of(const CLI::App& command) {
-  std::vector<std::string> flags;
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& flag : option->get_lnames()) flags.push_back("--" + flag);
-  return flags;
-}
-
 /// "" where the number fits the machine.
-std::string many_threads(const CLI::App& command) {
+std::string many_threads(const options::Command& command) {
   constexpr int worth_a_word = 4;
-  const CLI::Option* option = command.get_option_no_throw("--threads");
-  if (!option || option->count() == 0) return {};
-  const int threads = option->as<int>(), cores = core_count(0);
+  const options::Option* option = command.find("--threads");
+  if (!option || !option->is_given()) return {};
+  const int threads = number_of<int>(option->given.front()).value_or(0), cores = core_count(0);
   if (threads <= worth_a_word * cores) return {};
   return fmt::format(
       "--threads {}: this machine has {} {}; more threads take memory and time and gain nothing",
@@ -60,20 +49,19 @@ std::vector<std::string> misnamed_variables(const std::vector<std::string>& envi
     const std::string name = variable.substr(0, variable.find('='));
     if (!name.starts_with("NEVE_") || std::find(known.begin(), known.end(), name) != known.end())
       continue;
-    const std::string nearest = nearest_name(name, known), flag = flag_like(name);
+    const std::string question = advice::suggest(name, {"", known}), flag = flag_like(name);
     if (std::find(flags.begin(), flags.end(), flag) != flags.end())
       sentences.push_back(name + " in the environment is not read; use " + flag);
-    else if (!nearest.empty())
-      sentences.push_back(name + " in the environment is not read; did you mean " + nearest + "?");
+    else if (!question.empty())
+      sentences.push_back(name + " in the environment is not read; " + question);
   }
   return sentences;
 }
 
-void warn_of_surroundings(const CLI::App& app, const ErrorOutput& output) {
-  const CLI::App& command = innermost(app);
+void warn_of_surroundings(const options::Command& command, const ErrorOutput& output) {
   std::vector<std::string> environment;
   for (char** variable = environ; *variable; ++variable) environment.emplace_back(*variable);
-  std::vector<std::string> sentences = misnamed_variables(environment, flags_of(command));
+  std::vector<std::string> sentences = misnamed_variables(environment, command.flags());
   if (std::string threads = many_threads(command); !threads.empty())
     sentences.push_back(std::move(threads));
   if (sentences.empty()) return;

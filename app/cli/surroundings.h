@@ -1,11 +1,11 @@
 #pragma once
 /// Warnings about what surrounds a command: the environment and the machine.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "app/cli/report_error.h"
+#include "app/options/option.h"
 
 namespace neve::app::cli {
 
@@ -16,6 +16,6 @@ std::vector<std::string> misnamed_variables(const std::vector<std::string>& envi
                                             const std::vector<std::string>& flags);
 
 /// Warns of misnamed variables, and of many more threads than cores, on standard error.
-void warn_of_surroundings(const CLI::App& app, const ErrorOutput& output);
+void warn_of_surroundings(const options::Command& command, const ErrorOutput& output);
 
 }  // namespace neve::app::cli

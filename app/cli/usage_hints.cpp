@@ -1,218 +1,128 @@
 #include "app/cli/usage_hints.h"
 
 #include <algorithm>
-#include <utility>
 
-#include "app/scene/toml/error.h"
-#include "app/setup/foreign_flags.h"
+#include "app/advice/suggest.h"
+#include "app/scene/search.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::cli {
 
 namespace {
 
-std::string suggestion(const std::string& wrong, const std::vector<std::string>& names,
-                       const std::string& otherwise) {
-  const std::string nearest = nearest_name(wrong, names);
-  return nearest.empty() ? otherwise : "did you mean " + nearest + "?";
+bool has_flag(const std::vector<std::string>& flags, const std::string& flag) {
+  return std::find(flags.begin(), flags.end(), flag) != flags.end();
 }
 
-/// Names in other programs, with the options here; the first existing option wins.
-constexpr std::pair<const char*, const char*> names_elsewhere[] = {{"-o", "--out"},
-                                                                   {"--output", "--out"},
-                                                                   {"--output-dir", "--out"},
-                                                                   {"-j", "--jobs"},
-                                                                   {"-j", "--threads"},
-                                                                   {"--jobs", "--threads"},
-                                                                   {"-t", "--threads"},
-                                                                   {"--cores", "--threads"},
-                                                                   {"-f", "--frames"},
-                                                                   {"-s", "--set"},
-                                                                   {"-n", "--dry-run"},
-                                                                   {"-V", "--version"},
-                                                                   {"--resolution", "--size"},
-                                                                   {"--port", "--listen"}};
+/// @param value that was typed; "VALUE" where it is not known
+std::string as_setting(const std::string& word, const std::string& value,
+                       const std::vector<std::string>& flags) {
+  if (!has_flag(flags, "--set")) return {};
+  const std::vector<std::string> addresses = scene::parameters_named(word);
+  if (addresses.empty()) return {};
+  if (addresses.size() == 1) return "it is a parameter: --set " + addresses.front() + "=" + value;
+  return "several parameters have this name; neve params " + word + " lists them, for --set";
+}
 
-std::string hint_for(const std::string& word, const std::vector<std::string>& flags,
-                     const std::string& otherwise) {
-  const auto is_flag = [&](const std::string& name) {
-    return std::find(flags.begin(), flags.end(), name) != flags.end();
-  };
-  // Sweeps, collects and exports go on by themselves.
-  if (word == "--resume" && !is_flag(word)) return "the same command continues; leave it away";
-  for (const auto& [other, ours] : names_elsewhere)
-    if (word == other && is_flag(ours)) return std::string("did you mean ") + ours + "?";
-  if (std::string advice = setup::foreign_flag_advice(word, flags); !advice.empty()) return advice;
-  const std::string nearest = nearest_name(word, flags);
-  if (!nearest.empty()) return "did you mean " + nearest + "?";
-  // The beginning of exactly one.
+/// The first line of the table that the command has a flag for; "": none.
+std::string from_table(const std::string& word, const std::vector<std::string>& flags) {
+  for (const advice::Entry& entry : advice::entries_of("flag")) {
+    if (!entry.has(word) || (!entry.flag.empty() && !has_flag(flags, entry.flag))) continue;
+    if (!entry.sentence.empty()) return entry.sentence;
+    for (const std::string& name : entry.names)
+      if (has_flag(flags, name)) return advice::did_you_mean(name);
+  }
+  return {};
+}
+
+/// The only flag that begins so.
+std::string longer_flag(const std::string& word, const std::vector<std::string>& flags) {
   std::vector<std::string> longer;
   for (const std::string& flag : flags)
     if (word.size() > 3 && flag.starts_with(word)) longer.push_back(flag);
-  return longer.size() == 1 ? "did you mean " + longer.front() + "?" : otherwise;
+  return longer.size() == 1 ? longer.front() : "";
 }
 
-struct Expected {
-  const char *flag, *text;
-};
-
-/// Where "a number" says too little.
-constexpr Expected expectations[] = {
-    {"--threads", "a whole number; 0 is one thread per core, the default"},
-    {"--jobs", "a whole number; 0 is as many as keep the cores busy, the default"},
-    {"--checkpoint-every", "a whole number of frames"},
-    {"--shutter", "degrees without a unit, as in --shutter 180"},
-    {"--scale", "a number: units per metre, as in --scale 100 for centimetres"},
-    {"--surface-cell", "a number of particle spacings, as in --surface-cell 0.5"},
-    {"--surface-smoothing", "a number of particle spacings, as in --surface-smoothing 1"},
-    {"--wipe", "a share of the width, as in --wipe 0.3"},
-    {"--range", "a number of metres, as in --range 0.1"}};
-
-std::string expectation_of(const std::string& option, bool is_fraction) {
-  for (const Expected& known : expectations)
-    if (option == known.flag) return known.text;
-  return is_fraction ? "a number" : "a whole number";
-}
-
-/// The innermost command that was called, with those above it in its name.
-std::pair<const CLI::App*, std::string> called(const CLI::App& app) {
-  std::pair<const CLI::App*, std::string> inner{&app, app.get_name()};
-  while (!inner.first->get_subcommands().empty()) {
-    const CLI::App* next = inner.first->get_subcommands().front();
-    inner = {next, inner.second + " " + next->get_name()};
+/// What an unknown flag is here, and how to write it.
+/// @param word   "--motion-blur", without a value
+/// @param flags  of the command
+std::string flag_advice(const std::string& word, const std::vector<std::string>& flags,
+                        const std::string& otherwise) {
+  if (std::string known = from_table(word, flags); !known.empty()) return known;
+  if (word.starts_with("--")) {
+    std::string name = word.substr(2);
+    std::replace(name.begin(), name.end(), '-', '_');
+    if (std::string setting = as_setting(name, "VALUE", flags); !setting.empty()) return setting;
   }
-  return inner;
+  std::string nearest = advice::nearest_name(word, flags);
+  if (nearest.empty()) nearest = longer_flag(word, flags);
+  return nearest.empty() ? otherwise : advice::did_you_mean(nearest);
 }
 
-/// "$SCENE" of a shell in which SCENE is not set must not mean the default.
-void check_empty_names(const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& word : option->results())
-      if (option->get_positional() && word.empty())
-        throw scene::toml::UsageError(option->get_name(), "the name is empty",
-                                      "expected a file or folder; is a variable of the shell not "
-                                      "set?");
+/// Advice for a word that no flag takes: "hardening=5". "": nothing is known.
+std::string stray_word_advice(const std::string& word, const std::vector<std::string>& flags) {
+  const std::size_t equals = word.find('=');
+  if (equals != std::string::npos && equals > 0)
+    return as_setting(word.substr(0, equals), word.substr(equals + 1), flags);
+  if (word.ends_with(".toml") && has_flag(flags, "--set"))
+    return "one scene at a time; a loop of the shell takes several: for s in *.toml; do neve ... "
+           "$s; done";
+  return has_flag(flags, "--shard")
+             ? "values of -p have commas between them and no blanks, as in -p "
+               "ADDRESS=A,B"
+             : "";
 }
 
-/// @param name of the command with those above it
-void check_leftovers_of(const CLI::App& command, const std::string& name) {
-  for (const CLI::App* inner : command.get_subcommands())
-    check_leftovers_of(*inner, name + " " + inner->get_name());
-  check_empty_names(command);
-  std::vector<std::string> leftovers = command.remaining();
-  // What follows -- is no option; it has been taken already.
-  std::erase(leftovers, "--");
-  if (leftovers.empty()) return;
-  const std::string help = name + " --help lists its arguments";
-  std::vector<std::string> flags;
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& flag : option->get_lnames()) flags.push_back("--" + flag);
-  std::string word = leftovers.front();
-  if (!word.starts_with("-")) {
-    const std::string advice = setup::stray_word_advice(word, flags);
-    throw scene::toml::UsageError("", "unexpected argument \"" + word + "\"",
-                                  advice.empty() ? help : advice);
-  }
-  word = word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
-  throw scene::toml::UsageError("", "unknown option " + word, hint_for(word, flags, help));
+/// A word for the manual pages, or a file.
+void refuse_known_word(const std::string& word) {
+  const std::string unknown = "unknown subcommand \"" + word + "\"";
+  if (word == "completion" || word == "completions" || word == "man")
+    throw UsageError(
+        "", unknown,
+        "neve manual DIR writes the manual pages and the completions for bash, zsh and fish");
+  if (word.ends_with(".toml") || word.ends_with(".png"))
+    throw UsageError("", unknown, advice::did_you_mean("neve render " + word));
 }
 
 }  // namespace
 
-std::vector<std::string> subcommand_names(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(inner->get_name());
-  return names;
-}
-
-void check_subcommand(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2) return;
-  const std::string word = argv[1];
-  const std::vector<std::string> names = subcommand_names(app);
-  if (word.starts_with("-")) return;
-  if (word == "completion" || word == "completions" || word == "man")
-    throw scene::toml::UsageError(
+void check_command(Entry& program, const std::vector<std::string>& words) {
+  const std::string& word = words.front();
+  if (word.starts_with("-"))
+    throw UsageError("", "no command is before " + word,
+                     "flags follow the command, as in neve render SCENE --quiet");
+  Entry* entry = program.part(word);
+  if (!entry) {
+    refuse_known_word(word);
+    throw UsageError(
         "", "unknown subcommand \"" + word + "\"",
-        "neve manual DIR writes the manual pages and the completions for bash, zsh and fish");
-  const bool is_file = word.ends_with(".toml") || word.ends_with(".png");
-  const std::string meant = is_file ? "neve render " + word : setup::command_meant(word);
-  if (!meant.empty())
-    throw scene::toml::UsageError("", "unknown subcommand \"" + word + "\"",
-                                  "did you mean " + meant + "?");
-  if (std::find(names.begin(), names.end(), word) == names.end())
-    throw scene::toml::UsageError("", "unknown subcommand \"" + word + "\"",
-                                  suggestion(word, names, "neve --help lists them"));
-  const CLI::App& command = *app.get_subcommand(word);
-  const std::vector<std::string> parts = subcommand_names(command);
-  if (command.get_require_subcommand_min() == 0) return;
-  const std::string known = joined(parts, ", ");
-  const std::string part = argc < 3 ? "" : argv[2];
-  if (part == "-h" || part == "--help" ||
-      std::find(parts.begin(), parts.end(), part) != parts.end())
-    return;
-  if (part.empty() || part.starts_with("-"))
-    throw scene::toml::UsageError(word, "which part?", "expected one of " + known);
-  throw scene::toml::UsageError(word + " " + part, "unknown part", "expected one of " + known);
-}
-
-void fail_parse(const CLI::App& app, const CLI::ParseError& error) {
-  const auto [command, name] = called(app);
-  const std::string help = "see " + name + " --help", conversion = "Could not convert: ";
-  std::string text = error.what();
-  // "--at: At Most 1 required but received 2"
-  const std::string too_many = ": At Most 1 required but received ";
-  if (const std::size_t at = text.find(too_many); at != std::string::npos)
-    throw scene::toml::UsageError(
-        text.substr(0, at), "takes one value and was given " + text.substr(at + too_many.size()),
-        help);
-  // "fast was given a disallowed flag override": --fast=no
-  if (const std::size_t at = text.find(" was given a disallowed flag"); at != std::string::npos)
-    throw scene::toml::UsageError("--" + text.substr(0, at), "takes no value",
-                                  "it is on where it is given; " + help);
-  // "--progress: 1 required NAME missing"
-  if (const std::size_t at = text.find(": 1 required "); at != std::string::npos)
-    throw scene::toml::UsageError(
-        text.substr(0, at), "has no value",
-        "expected " + text.substr(at + 13, text.rfind(" missing") - at - 13) + "; " + help);
-  // "NAME is required"
-  if (const std::size_t at = text.find(" is required"); at != std::string::npos)
-    throw scene::toml::UsageError("", name + " needs " + text.substr(0, at), help);
-  // "The following argument was not expected: --json"
-  const std::string unexpected = "not expected: ";
-  if (const std::size_t at = text.find(unexpected); at != std::string::npos)
-    throw scene::toml::UsageError("", "no command is before " + text.substr(at + unexpected.size()),
-                                  "flags follow the command, as in neve render SCENE --quiet");
-  if (!text.starts_with(conversion)) throw scene::toml::UsageError("", text, help);
-  // "Could not convert: --threads = x"
-  text.erase(0, conversion.size());
-  const std::size_t equals = text.find(" = ");
-  const std::string option = text.substr(0, equals);
-  const std::string value = equals == std::string::npos ? "" : text.substr(equals + 3);
-  const CLI::Option* found = command->get_option_no_throw(option);
-  // Only MEAN is a fraction.
-  const bool is_fraction = found && found->get_type_name() == "MEAN";
-  throw scene::toml::UsageError(option, "cannot use \"" + value + "\"",
-                                "expected " + expectation_of(option, is_fraction) + "; " + help);
-}
-
-void check_leftovers(const CLI::App& app) {
-  check_leftovers_of(app, app.get_name());
-}
-
-std::string help_of(const CLI::App& app, const std::vector<std::string>& words) {
-  const CLI::App* command = &app;
-  std::string name;
-  for (const std::string& word : words) {
-    if (word.starts_with("-")) continue;  // neve help --help
-    const std::vector<std::string> names = subcommand_names(*command);
-    name += (name.empty() ? "" : " ") + command->get_name();
-    if (std::find(names.begin(), names.end(), word) == names.end())
-      throw scene::toml::UsageError("help", "there is no " + name + " " + word,
-                                    suggestion(word, names, name + " --help lists them"));
-    command = command->get_subcommand(word);
+        advice::suggest(word, {"command", program.part_names()}, "neve --help lists them"));
   }
-  return command->help(name);
+  const std::string part = words.size() > 1 ? words[1] : "";
+  if (entry->run || part == "-h" || part == "--help" || entry->part(part)) return;
+  const std::string known = "expected one of " + joined(entry->part_names(), ", ");
+  if (part.empty() || part.starts_with("-")) throw UsageError(word, "which part?", known);
+  throw UsageError(word + " " + part, "unknown part", known);
+}
+
+void refuse_leftover(const Entry& entry, const std::string& word) {
+  const std::vector<std::string> flags = entry.command.flags();
+  const std::string help = entry.command.full_name() + " --help lists its arguments";
+  if (word.starts_with("-")) {
+    const std::string flag =
+        word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    throw UsageError("", "unknown option " + flag, flag_advice(flag, flags, help));
+  }
+  const std::string hint = stray_word_advice(word, flags);
+  throw UsageError("", "unexpected argument \"" + word + "\"", hint.empty() ? help : hint);
+}
+
+void refuse_help(const Entry& entry, const std::string& word) {
+  const std::string name = entry.command.full_name();
+  throw UsageError(
+      "help", "there is no " + name + " " + word,
+      advice::suggest(word, {"command", entry.part_names()}, name + " --help lists them"));
 }
 
 }  // namespace neve::app::cli

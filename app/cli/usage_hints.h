@@ -1,26 +1,21 @@
 #pragma once
-/// Messages for a command line that cannot be parsed.
+/// Messages for a command line that names what there is not.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "app/cli/command_line.h"
+
 namespace neve::app::cli {
 
-/// Names of all subcommands, called or not.
-std::vector<std::string> subcommand_names(const CLI::App& command);
-
-/// CLI11 says of a misspelt subcommand only that one is required. @throws UsageError
-void check_subcommand(const CLI::App& app, int argc, char** argv);
-
-/// Reports an error of CLI11, with the expected value and the help to read. @throws UsageError
-[[noreturn]] void fail_parse(const CLI::App& app, const CLI::ParseError& error);
-
-/// Options and arguments that no command takes. @throws UsageError
-void check_leftovers(const CLI::App& app);
-
-/// The help of the command that these words name; of `app` where there are none.
+/// The words have to start with a command, and with a part of one that does nothing without.
 /// @throws UsageError
-std::string help_of(const CLI::App& app, const std::vector<std::string>& words);
+void check_command(Entry& program, const std::vector<std::string>& words);
+
+/// Refuses a word that no option of the command takes. @throws UsageError
+[[noreturn]] void refuse_leftover(const Entry& entry, const std::string& word);
+
+/// Refuses to help with what is no part of a command. @throws UsageError
+[[noreturn]] void refuse_help(const Entry& entry, const std::string& word);
 
 }  // namespace neve::app::cli

@@ -5,8 +5,7 @@
 #include "app/compare/pair_pictures.h"
 #include "app/compare/target.h"
 #include "app/output/atomic_file.h"
-#include "app/run/picture_record.h"
-#include "app/run/state_source.h"
+#include "app/record/picture_record.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "render/gl/context.h"
@@ -20,24 +19,23 @@ bool is_explicit(const PairOptions& options, Mode mode) {
 }
 
 /// A mode that these runs cannot have: an error where it was asked for, or is the only one.
-void refuse_mode(const PairOptions& options, Mode mode,
-                 const std::optional<scene::toml::UsageError>& problem, Target& target,
-                 PairResult& result) {
+void refuse_mode(const PairOptions& options, Mode mode, const std::optional<UsageError>& problem,
+                 Target& target, PairResult& result) {
   if (!problem || !target.has(mode)) return;
   if (is_explicit(options, mode) || target.kind() != TargetKind::folder) throw *problem;
   target.leave_out(mode);
   result.warnings.push_back(std::string("no ") + name(mode) + ": " + problem->message);
 }
 
-std::optional<scene::toml::UsageError> metrics_problem(const Pair& pair) {
-  if (!pair.a.is_picture && !pair.b.is_picture) return std::nullopt;
-  return scene::toml::UsageError("--mode metrics", "a picture has no metrics over time",
-                                 "compare the folders of two runs");
+std::optional<UsageError> metrics_problem(const Pair& pair) {
+  if (!pair.a.job.picture && !pair.b.job.picture) return std::nullopt;
+  return UsageError("--mode metrics", "a picture has no metrics over time",
+                    "compare the folders of two runs");
 }
 
 void check_costs(const Side& side, int threads) {
   const setup::Plan plan =
-      setup::make_plan(side.job.scene, side.frames, setup::Quality::draft, threads);
+      setup::make_plan(side.job.scene, side.job.frames, setup::Quality::draft, threads);
   setup::check_limits(side.job.scene, plan, side.job.coarsening);
 }
 
@@ -82,7 +80,7 @@ class PairRun {
 
  private:
   PairMoment moment(int frame) const {
-    return moment_of(frame, pair_.a.job.scene.fps, pair_.a.past.frames, pair_.b.past.frames);
+    return moment_of(frame, pair_.a.job.scene.fps, pair_.a.job.run_frames, pair_.b.job.run_frames);
   }
 
   void list_moments() {
@@ -95,9 +93,8 @@ class PairRun {
     check_costs(pair_.a, options_.threads);
     check_costs(pair_.b, options_.threads);
     const setup::FrameRange frames = drawn_frames(pair_, target_);
-    const double fps = pair_.a.job.scene.fps, first = frames.first / fps;
-    run::StateSource a(pair_.a.job, pair_.a.past, first, options_.threads, progress_);
-    run::StateSource b(pair_.b.job, pair_.b.past, first, options_.threads, progress_);
+    timeline::Timeline a = timeline::open(pair_.a.job, options_.threads, progress_);
+    timeline::Timeline b = timeline::open(pair_.b.job, options_.threads, progress_);
     refuse_mode(options_, Mode::displacement, id_problem(pair_, a.seeded(), b.seeded()), target_,
                 result_);
     PairPainter painter(options_, pair_, renderer);
@@ -116,21 +113,22 @@ class PairRun {
   }
 
   /// @return false where it was interrupted
-  bool advance(run::StateSource& source, const Side& side, int frame) {
-    if (!source.go_to(frame / side.job.scene.fps)) {
-      if (source.simulation().divergence())
-        throw Error(exit_diverged, side.title + ": " + source.simulation().divergence()->sentence,
-                    side.title);
+  bool advance(timeline::Timeline& timeline, const Side& side, int frame) {
+    if (!timeline.go_to(frame / side.job.scene.fps)) {
+      if (timeline.simulation().divergence())
+        throw Error(exit_diverged,
+                    side.job.scene_file + ": " + timeline.simulation().divergence()->sentence,
+                    side.job.scene_file);
       return false;
     }
-    run::compare_with_past(side.past, frame, source.simulation().state_hash(), progress_);
+    timeline::compare_with_run(side.job, frame, timeline.simulation().state_hash(), progress_);
     return true;
   }
 
   void add_metrics(render::Renderer* renderer) {
     std::optional<render::Image> picture;
     const auto named = [](const Side& side) {
-      return side.values.empty() ? side.title : side.title + "   " + side.values;
+      return side.values.empty() ? side.job.scene_file : side.job.scene_file + "   " + side.values;
     };
     if (renderer) picture = draw_series(result_.moments, named(pair_.a), named(pair_.b), *renderer);
     target_.add_metrics(series_csv(result_.moments), picture);
@@ -169,7 +167,7 @@ PairResult compare_plain_pictures(const PairOptions& options) {
   const Mode mode = options.modes.empty() ? Mode::beside : target.modes().front();
   const bool is_of_pixels = mode == Mode::beside || mode == Mode::wipe;
   if (!is_of_pixels || target.modes().size() > 1 || target.kind() != TargetKind::picture)
-    throw scene::toml::UsageError(
+    throw UsageError(
         "--mode", "these pictures hold no scene of neve, only pixels",
         "give --out x.png with --mode beside or wipe, or pictures that neve render wrote");
   const render::Image a = read_plain(options.a), b = read_plain(options.b);

@@ -53,21 +53,23 @@ Displacement displacement(const sim::ParticleArrays& a, const sim::ParticleArray
 }
 
 void color_by_displacement(const sim::ParticleArrays& other, double range, render::Points& points) {
-  std::size_t kept = 0;
-  points.value.clear();
+  std::vector<Vec3f> position;
+  std::vector<std::uint32_t> id;
+  std::vector<float> value;
   for (std::size_t p = 0; p < points.position.size(); ++p) {
     const auto index = other.index_of(points.id[p]);
     if (!index) continue;
     const sim::Vec3d& x = other.x[*index];
     const Vec3f there{static_cast<float>(x.x()), static_cast<float>(x.y()),
                       static_cast<float>(x.z())};
-    points.position[kept] = points.position[p];
-    points.id[kept++] = points.id[p];
-    const float distance = length(points.position[kept - 1] - there);
-    points.value.push_back(std::isfinite(distance) ? distance : static_cast<float>(range));
+    position.push_back(points.position[p]);
+    id.push_back(points.id[p]);
+    const float distance = length(position.back() - there);
+    value.push_back(std::isfinite(distance) ? distance : static_cast<float>(range));
   }
-  points.position.resize(kept);
-  points.id.resize(kept);
+  points.position = std::move(position);
+  points.id = std::move(id);
+  points.value = std::move(value);
   points.range_min = 0;
   points.range_max = static_cast<float>(range);
 }
@@ -86,8 +88,8 @@ MassDifference mass_difference(const picture::FieldSamples& a, const picture::Fi
       const double more = (nodes.second ? static_cast<double>(nodes.second[n]) : 0) -
                           (nodes.first ? static_cast<double>(nodes.first[n]) : 0);
       (more > 0 ? result.more_in_b : result.more_in_a) += std::abs(more) * volume;
-      result.smoke.density.push_back(static_cast<float>(std::abs(more)));
-      result.smoke.value.push_back(static_cast<float>(more));
+      result.smoke.density.edit().push_back(static_cast<float>(std::abs(more)));
+      result.smoke.value.edit().push_back(static_cast<float>(more));
     }
   }
   result.smoke.nodes = lattice;

@@ -1,11 +1,14 @@
 #pragma once
 /// Pictures of two runs against each other: what `neve compare A B --out` takes.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/output/movie_format.h"
+#include "app/scene/names.h"
+#include "app/setup/caps.h"
 #include "app/setup/plan.h"
 #include "app/support/progress.h"
 
@@ -18,11 +21,14 @@ enum class Mode {
   mass,          ///< snow that only one run has, as red and blue smoke
   metrics        ///< curves over time
 };
-const char* name(Mode mode);
 /// In the order in which they are listed everywhere.
-const std::vector<Mode>& all_modes();
-/// @throws UsageError for an unknown name
-Mode mode_named(const std::string& text);
+constexpr auto names(Mode) {
+  using enum Mode;
+  return std::array{scene::Name{beside, "beside"}, scene::Name{wipe, "wipe"},
+                    scene::Name{displacement, "displacement"}, scene::Name{mass, "mass"},
+                    scene::Name{metrics, "metrics"}};
+}
+using scene::name;
 
 struct PairOptions {
   std::string a, b;         ///< folders of runs, or pictures
@@ -35,6 +41,7 @@ struct PairOptions {
   output::MovieStyle movie;
   std::optional<double> range;  ///< m, displacement that has the last colour
   int threads = 0;              ///< 0: one per core
+  setup::CapTexts caps;
   std::string backend = "auto";
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress{};

@@ -70,11 +70,11 @@ scene::View PairPainter::view_for(Mode mode) const {
   return view;
 }
 
-PairPainter::Taken PairPainter::take_side(const run::StateSource& source,
+PairPainter::Taken PairPainter::take_side(const timeline::Timeline& timeline,
                                           const std::vector<Mode>& modes) const {
   Taken taken;
-  taken.scene = looked_at_as(pair_.a.job.scene, source.scene());
-  taken.seeded = &source.seeded();
+  taken.scene = looked_at_as(pair_.a.job.scene, timeline.scene());
+  taken.seeded = &timeline.seeded();
   std::vector<scene::View> views{view_};
   if (has_mode(modes, Mode::mass)) {
     scene::View mass = view_;
@@ -82,11 +82,11 @@ PairPainter::Taken PairPainter::take_side(const run::StateSource& source,
     mass.smoke.field = scene::ScalarField::mass;
     views.push_back(mass);
   }
-  taken.snapshot = picture::take_snapshot(taken.scene, views, source.simulation(), 0);
+  taken.snapshot = picture::take_snapshot(taken.scene, views, timeline.simulation(), 0);
   return taken;
 }
 
-void PairPainter::take(const run::StateSource& a, const run::StateSource& b,
+void PairPainter::take(const timeline::Timeline& a, const timeline::Timeline& b,
                        const std::vector<Mode>& modes, PairMoment& moment) {
   a_ = take_side(a, modes);
   b_ = take_side(b, modes);
@@ -123,8 +123,8 @@ std::array<render::Frame, 2> PairPainter::frames_for(Mode mode) const {
 }
 
 std::array<StripWords, 2> words_of(const Pair& pair) {
-  return {StripWords{"A   " + pair.a.title, pair.a.values},
-          StripWords{"B   " + pair.b.title, pair.b.values}};
+  return {StripWords{"A   " + pair.a.job.scene_file, pair.a.values},
+          StripWords{"B   " + pair.b.job.scene_file, pair.b.values}};
 }
 
 std::string PairPainter::line_for(Mode mode) const {

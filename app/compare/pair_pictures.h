@@ -7,7 +7,7 @@
 #include "app/compare/sides.h"
 #include "app/compare/strip.h"
 #include "app/picture/frame_builder.h"
-#include "app/run/state_source.h"
+#include "app/timeline/timeline.h"
 #include "render/renderer.h"
 
 namespace neve::app::compare {
@@ -20,8 +20,8 @@ class PairPainter {
 
   /// Takes both states at a frame, and adds to the moment what is measured on them.
   /// @param modes  that will be drawn
-  void take(const run::StateSource& a, const run::StateSource& b, const std::vector<Mode>& modes,
-            PairMoment& moment);
+  void take(const timeline::Timeline& a, const timeline::Timeline& b,
+            const std::vector<Mode>& modes, PairMoment& moment);
 
   render::Image draw(Mode mode) const;
 
@@ -35,7 +35,7 @@ class PairPainter {
     picture::Snapshot snapshot;
   };
   scene::View view_for(Mode mode) const;
-  Taken take_side(const run::StateSource& source, const std::vector<Mode>& modes) const;
+  Taken take_side(const timeline::Timeline& timeline, const std::vector<Mode>& modes) const;
   /// The frames of A and B for a mode; the camera and light are A's.
   std::array<render::Frame, 2> frames_for(Mode mode) const;
   render::Image draw_with_words(std::vector<render::Image> images, Mode mode) const;

@@ -13,7 +13,7 @@ namespace neve::app::compare {
 
 namespace {
 
-using run::FrameRecord;
+using record::FrameRecord;
 
 /// A number of a frame that is worth a curve.
 struct PairMetric {
@@ -83,7 +83,7 @@ render::PlotSeries curve_of(const std::vector<PairMoment>& moments, std::size_t 
   series.color = side == 0 ? color_a : color_b;
   for (const PairMoment& m : moments) {
     if (m.metrics[side].empty()) continue;
-    series.time.push_back(static_cast<float>(m.time));
+    series.x.push_back(static_cast<float>(m.time));
     series.value.push_back(static_cast<float>(m.metrics[side][metric]));
   }
   return series;
@@ -93,7 +93,8 @@ render::Plot plot_of_metric(const std::vector<PairMoment>& moments, std::size_t 
   render::Plot plot;
   plot.title = pair_metrics[metric].title;
   plot.unit = pair_metrics[metric].unit;
-  plot.time_end = plot.now = static_cast<float>(moments.back().time);
+  plot.x_end = static_cast<float>(moments.back().time);
+  plot.now = plot.x_end;
   double least = 0, most = 0;
   for (std::size_t side = 0; side < 2; ++side) {
     plot.series.push_back(curve_of(moments, metric, side));
@@ -120,8 +121,8 @@ render::Image draw_panel(const std::vector<PairMoment>& moments, std::size_t met
 
 }  // namespace
 
-PairMoment moment_of(int frame, double fps, const std::vector<run::FrameRecord>& a,
-                     const std::vector<run::FrameRecord>& b) {
+PairMoment moment_of(int frame, double fps, const std::vector<record::FrameRecord>& a,
+                     const std::vector<record::FrameRecord>& b) {
   PairMoment moment;
   moment.frame = frame;
   moment.time = frame / fps;

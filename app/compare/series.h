@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/compare/measures.h"
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 #include "app/support/json.h"
 #include "render/renderer.h"
 
@@ -24,8 +24,8 @@ struct PairMoment {
 };
 
 /// The metrics of a frame, as run.json lists them.
-PairMoment moment_of(int frame, double fps, const std::vector<run::FrameRecord>& a,
-                     const std::vector<run::FrameRecord>& b);
+PairMoment moment_of(int frame, double fps, const std::vector<record::FrameRecord>& a,
+                     const std::vector<record::FrameRecord>& b);
 
 /// A row a frame: "frame,time,spread_a,spread_b,...".
 std::string series_csv(const std::vector<PairMoment>& moments);

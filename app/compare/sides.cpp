@@ -6,10 +6,8 @@
 
 #include "app/output/sequence.h"
 #include "app/picture/frame_builder.h"
-#include "app/run/picture_record.h"
 #include "app/scene/flat.h"
 #include "app/scene/live_change.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 
@@ -19,31 +17,17 @@ namespace {
 
 constexpr std::size_t most_values = 4;
 
-Side side_of_run(const run::RenderOptions& options) {
-  Side side;
-  side.job = run::job_from_run(options);
-  side.past = {options.scene, run::read_frame_records(options.scene)};
-  if (side.past.frames.empty())
-    throw Error(exit_invalid_scene,
-                options.scene + ": error: the run has no frames, so there is nothing to compare",
-                options.scene, "run it again, or wait for its first frame");
-  side.frames = {side.past.frames.front().frame, side.past.frames.back().frame};
-  return side;
-}
-
-Side read_side(const std::string& path, int threads) {
+Side read_side(const std::string& path) {
   run::RenderOptions options;
   options.scene = path;
-  options.threads = threads;
-  Side side;
-  if (run::is_folder(path)) {
-    side = side_of_run(options);
-  } else {
-    side.job = run::make_job(options);
-    side.frames = side.job.frames;
-    side.is_picture = true;
-  }
-  side.title = path;
+  Side side{run::make_job(options)};
+  if (side.job.run.empty()) return side;
+  const std::vector<record::FrameRecord>& frames = side.job.run_frames;
+  if (frames.empty())
+    throw Error(exit_invalid_scene,
+                path + ": error: the run has no frames, so there is nothing to compare", path,
+                "run it again, or wait for its first frame");
+  side.job.frames = {frames.front().frame, frames.back().frame};
   return side;
 }
 
@@ -94,17 +78,16 @@ void find_differences(Pair& pair) {
 }
 
 setup::FrameRange common_frames(const PairOptions& options, const Pair& pair) {
-  const setup::FrameRange a = pair.a.frames, b = pair.b.frames;
+  const setup::FrameRange a = pair.a.job.frames, b = pair.b.job.frames;
   const setup::FrameRange both{std::max(a.first, b.first), std::min(a.last, b.last)};
-  const std::string found = fmt::format("{} has {} and {} has {}", pair.a.title, range_text(a),
-                                        pair.b.title, range_text(b));
+  const std::string found = fmt::format("{} has {} and {} has {}", pair.a.job.scene_file,
+                                        range_text(a), pair.b.job.scene_file, range_text(b));
   if (both.first > both.last)
-    throw scene::toml::UsageError("", found + ": they have no frame in common",
-                                  "compare runs, or pictures of one moment");
+    throw UsageError("", found + ": they have no frame in common",
+                     "compare runs, or pictures of one moment");
   if (!options.frames) return both;
   if (options.frames->first < both.first || options.frames->last > both.last)
-    throw scene::toml::UsageError("--frames", found,
-                                  "expected frames that both have: " + range_text(both));
+    throw UsageError("--frames", found, "expected frames that both have: " + range_text(both));
   return *options.frames;
 }
 
@@ -116,27 +99,27 @@ std::string count_text(std::size_t a, std::size_t b, const std::string& body) {
 
 Pair read_pair(const PairOptions& options) {
   Pair pair;
-  pair.a = read_side(options.a, options.threads);
-  pair.b = read_side(options.b, options.threads);
+  pair.a = read_side(options.a);
+  pair.b = read_side(options.b);
   const double fps_a = pair.a.job.scene.fps, fps_b = pair.b.job.scene.fps;
   if (fps_a != fps_b)
-    throw scene::toml::UsageError(
+    throw UsageError(
         "",
         fmt::format("{} has {} frames a second and {} has {}: their frames are of other times",
                     options.a, rough_text(fps_a), options.b, rough_text(fps_b)),
         "render one of them again with --set fps=" + rough_text(fps_a));
   pair.frames = common_frames(options, pair);
-  const bool is_shorter = pair.a.frames.last != pair.b.frames.last && !options.frames;
+  const bool is_shorter = pair.a.job.frames.last != pair.b.job.frames.last && !options.frames;
   if (is_shorter)
     pair.warnings.push_back(fmt::format("{} has {} and {} has {}: {} are compared", options.a,
-                                        range_text(pair.a.frames), options.b,
-                                        range_text(pair.b.frames), range_text(pair.frames)));
+                                        range_text(pair.a.job.frames), options.b,
+                                        range_text(pair.b.job.frames), range_text(pair.frames)));
   find_differences(pair);
   return pair;
 }
 
-std::optional<scene::toml::UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
-                                                  const setup::SeededScene& b) {
+std::optional<UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
+                                     const setup::SeededScene& b) {
   const scene::Scene &scene_a = pair.a.job.scene, &scene_b = pair.b.job.scene;
   std::string why;
   if (scene_a.seed != scene_b.seed)
@@ -149,15 +132,15 @@ std::optional<scene::toml::UsageError> id_problem(const Pair& pair, const setup:
     if (in_a != in_b) why = count_text(in_a, in_b, scene_a.bodies[k].name);
   }
   if (why.empty()) return std::nullopt;
-  return scene::toml::UsageError(
+  return UsageError(
       "--mode displacement", "no particle of A is the same piece of snow as one of B: " + why,
       "compare runs of one seed and cell size, or use --mode beside, wipe or metrics");
 }
 
-std::optional<scene::toml::UsageError> grid_problem(const Pair& pair) {
+std::optional<UsageError> grid_problem(const Pair& pair) {
   const double a = pair.a.job.scene.solver.cell_size, b = pair.b.job.scene.solver.cell_size;
   if (a == b) return std::nullopt;
-  return scene::toml::UsageError(
+  return UsageError(
       "--mode mass",
       fmt::format("solver.cell_size is {} m in A and {} m in B: their nodes lie in other places",
                   rough_text(a), rough_text(b)),

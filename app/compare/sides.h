@@ -6,21 +6,16 @@
 #include <vector>
 
 #include "app/compare/pair_options.h"
-#include "app/run/past_run.h"
 #include "app/run/render_job.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
 
 namespace neve::app::compare {
 
 /// A run, or the moment that a picture shows.
 struct Side {
-  run::RenderJob job;
-  run::PastRun past;
-  setup::FrameRange frames;  ///< that it has
-  std::string title;         ///< as named by the user
-  std::string values;        ///< of the parameters in which it differs from the other one
-  bool is_picture = false;
+  run::RenderJob job;    ///< its frames are those that there are
+  std::string values{};  ///< of the parameters in which it differs from the other one
 };
 
 struct Pair {
@@ -35,10 +30,10 @@ struct Pair {
 Pair read_pair(const PairOptions& options);
 
 /// Why an id does not mean the same piece of snow in both runs; nothing where it does.
-std::optional<scene::toml::UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
-                                                  const setup::SeededScene& b);
+std::optional<UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
+                                     const setup::SeededScene& b);
 
 /// Why the nodes of both grids lie in other places; nothing where they do not.
-std::optional<scene::toml::UsageError> grid_problem(const Pair& pair);
+std::optional<UsageError> grid_problem(const Pair& pair);
 
 }  // namespace neve::app::compare

@@ -1,13 +1,11 @@
 #include "app/compare/target.h"
 
 #include <algorithm>
-#include <new>
 
 #include "app/output/atomic_file.h"
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
 #include "app/support/version.h"
@@ -31,7 +29,7 @@ output::MovieStyle movie_for(const PairOptions& options, TargetKind kind) {
   const bool is_same =
       std::string(output::movie_suffix(movie.format)) == output::movie_suffix(format);
   if (movie.is_chosen && movie.has_format && (!is_same || !movie.is_made))
-    throw scene::toml::UsageError(
+    throw UsageError(
         std::string("--movie ") + (movie.is_made ? output::name(movie.format) : "none"),
         "does not fit " + options.out,
         std::string("leave it out, or name a file ") + output::movie_suffix(movie.format));
@@ -48,18 +46,23 @@ TargetKind kind_of(const fs::path& out) {
   return TargetKind::folder;
 }
 
+std::vector<Mode> all_modes() {
+  std::vector<Mode> modes;
+  for (const auto& each : names(Mode{})) modes.push_back(each.value);
+  return modes;
+}
+
 std::vector<Mode> modes_for(const PairOptions& options, TargetKind kind) {
   if (kind == TargetKind::folder) return options.modes.empty() ? all_modes() : options.modes;
   if (options.modes.size() > 1)
-    throw scene::toml::UsageError("--mode",
-                                  "is given more than once, and " + options.out + " holds one",
-                                  "give one --mode, or name a folder with --out");
+    throw UsageError("--mode", "is given more than once, and " + options.out + " holds one",
+                     "give one --mode, or name a folder with --out");
   const bool is_metrics = !options.modes.empty() && options.modes.front() == Mode::metrics;
   if (kind == TargetKind::table && !options.modes.empty() && !is_metrics)
-    throw scene::toml::UsageError("--mode", "a table has metrics", "leave --mode out");
+    throw UsageError("--mode", "a table has metrics", "leave --mode out");
   if (kind == TargetKind::movie && is_metrics)
-    throw scene::toml::UsageError("--mode", "metrics are one picture with all times, no movie",
-                                  "name a file .png or .csv, or a folder");
+    throw UsageError("--mode", "metrics are one picture with all times, no movie",
+                     "name a file .png or .csv, or a folder");
   if (kind == TargetKind::table) return {Mode::metrics};
   return options.modes.empty() ? std::vector<Mode>{Mode::beside} : options.modes;
 }
@@ -73,12 +76,8 @@ bool is_listed_name(const fs::path& file) {
   const auto parent = file.parent_path().string();
   const std::string stem = file.stem().string(), suffix = file.extension().string();
   const bool is_known = suffix == ".png" || suffix == ".csv" || movie_format_of(file);
-  const auto is_mode = [](const std::string& text) {
-    return std::any_of(all_modes().begin(), all_modes().end(),
-                       [&](Mode mode) { return text == name(mode); });
-  };
-  if (!is_known || !output::is_plain_name(stem)) return false;
-  return parent.empty() ? is_mode(stem) : is_mode(parent);
+  return is_known && output::is_plain_name(stem) &&
+         scene::value_named<Mode>(parent.empty() ? stem : parent).has_value();
 }
 
 void remove_earlier_files(const fs::path& folder) {
@@ -93,9 +92,8 @@ void remove_earlier_files(const fs::path& folder) {
     }
   } catch (const IoError&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     // No list of ours: nothing is removed.
   }
 }
@@ -109,8 +107,8 @@ Target::Target(const PairOptions& options)
       movie_(movie_for(options, kind_)) {
   std::error_code error;
   if (kind_ != TargetKind::folder || !fs::exists(output::run_json_path(out_), error)) return;
-  throw scene::toml::UsageError("--out", options.out + " is the folder of a run",
-                                "name another folder, or a file .png or .mp4");
+  throw UsageError("--out", options.out + " is the folder of a run",
+                   "name another folder, or a file .png or .mp4");
 }
 
 Target::~Target() {

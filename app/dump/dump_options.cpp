@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "app/advice/suggest.h"
 #include "app/scene/names.h"
-#include "app/scene/toml/error.h"
-#include "app/setup/argument_text.h"
+#include "app/scene/toml/value.h"
+#include "app/support/errors.h"
 #include "app/support/lower_text.h"
 #include "app/support/text.h"
 
@@ -14,10 +15,16 @@ namespace neve::app::dump {
 
 namespace {
 
-[[noreturn]] void fail_stage(const std::string& text, const std::string& meant,
-                             const std::vector<std::string>& names) {
-  throw scene::toml::UsageError("--stage", "there is no stage \"" + text + "\"",
-                                "did you mean " + meant + "? expected " + joined(names, ", "));
+/// A stage by its number in the paper, by a name that transfers have everywhere, by a part that
+/// only one name has, or by its spelling; "": none.
+std::string stage_meant(const std::string& text, const std::vector<std::string>& names) {
+  if (const auto number = number_of<int>(text);
+      number && *number >= 1 && *number <= static_cast<int>(names.size()))
+    return names[static_cast<std::size_t>(*number - 1)];
+  std::vector<std::string> longer;
+  for (const std::string& name : names)
+    if (text.size() > 3 && name.find(text) != std::string::npos) longer.push_back(name);
+  return longer.size() == 1 ? longer.front() : advice::meant_name(text, {"stage", names});
 }
 
 }  // namespace
@@ -25,21 +32,8 @@ namespace {
 sim::Stage parse_stage(const std::string& text) {
   if (const auto stage = scene::value_named<sim::Stage>(text)) return *stage;
   const std::vector<std::string> names(sim::stage_names.begin(), sim::stage_names.end());
-  // Numbers are those of the paper; transfers have two names everywhere.
-  if (const auto number = number_of<int>(text);
-      number && *number >= 1 && *number <= static_cast<int>(names.size()))
-    fail_stage(text, names[static_cast<std::size_t>(*number - 1)], names);
-  const std::string word = lower_text(text);
-  if (word == "p2g") fail_stage(text, "rasterize", names);
-  if (word == "g2p") fail_stage(text, "particle_velocities", names);
-  // "forces" is part of one name alone.
-  std::vector<std::string> longer;
-  for (const std::string& name : names)
-    if (text.size() > 3 && name.find(text) != std::string::npos) longer.push_back(name);
-  throw scene::toml::UsageError(
-      "--stage", "there is no stage \"" + text + "\"",
-      longer.size() == 1 ? "did you mean " + longer.front() + "? expected " + joined(names, ", ")
-                         : names_advice(text, names));
+  throw UsageError("--stage", "there is no stage \"" + text + "\"",
+                   advice::expected_one_of(names, stage_meant(text, names)));
 }
 
 Probe parse_probe(const std::string& text) {
@@ -48,24 +42,31 @@ Probe parse_probe(const std::string& text) {
   std::size_t begin = 0;
   while (begin <= text.size()) {
     const std::size_t comma = std::min(text.find(',', begin), text.size());
-    const auto value = setup::finite_number(text.substr(begin, comma - begin));
+    const auto value = finite_number(text.substr(begin, comma - begin));
     if (!value) break;
     numbers.push_back(*value);
     begin = comma + 1;
   }
   if (begin <= text.size() || numbers.size() != 3)
-    throw scene::toml::UsageError(
-        "--probe", "cannot use \"" + text + "\"",
-        "expected the id of a particle, or a place as in --probe 0,0.5,0");
+    throw UsageError("--probe", "cannot use \"" + text + "\"",
+                     "expected the id of a particle, or a place as in --probe 0,0.5,0");
   return sim::Vec3d(numbers[0], numbers[1], numbers[2]);
+}
+
+std::string probe_text(const Probe& probe) {
+  if (const auto* id = std::get_if<std::size_t>(&probe)) return std::to_string(*id);
+  const sim::Vec3d& place = std::get<sim::Vec3d>(probe);
+  std::string text;
+  for (const double x : {place.x(), place.y(), place.z()})
+    text += (text.empty() ? "" : ",") + scene::toml::number_text(x);
+  return text;
 }
 
 DumpFormat parse_format(const std::string& text) {
   if (text == "table") return DumpFormat::table;
   if (text == "vtk") return DumpFormat::vtk;
-  throw scene::toml::UsageError(
-      "--format", "cannot use \"" + text + "\"",
-      "expected table or vtk; neve export writes ply, vtp, bgeo, usda, npz and csv");
+  throw UsageError("--format", "cannot use \"" + text + "\"",
+                   "expected table or vtk; neve export writes ply, vtp, bgeo, usda, npz and csv");
 }
 
 }  // namespace neve::app::dump

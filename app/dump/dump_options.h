@@ -20,7 +20,7 @@ using Probe = std::variant<std::size_t, sim::Vec3d>;
 
 struct DumpOptions {
   run::RenderOptions run;           ///< scene, overrides, coarsening, threads, verbosity, is_json
-  std::vector<double> at;           ///< s, increasing, at least one
+  std::vector<double> at{0};        ///< s, increasing, at least one
   std::optional<sim::Stage> stage;  ///< without: the state before the step
   std::vector<std::string> fields;  ///< empty: all
   std::vector<Probe> probes;
@@ -33,8 +33,12 @@ sim::Stage parse_stage(const std::string& text);
 
 /// "17": a particle; "0.1,0.5,0": a place in metres. @throws UsageError
 Probe parse_probe(const std::string& text);
+std::string probe_text(const Probe& probe);
 
 /// "table" or "vtk". @throws UsageError
 DumpFormat parse_format(const std::string& text);
+inline const char* format_name(DumpFormat format) {
+  return format == DumpFormat::vtk ? "vtk" : "table";
+}
 
 }  // namespace neve::app::dump

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "app/advice/suggest.h"
 #include "app/health/expected.h"
-#include "app/scene/search.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "sim/health/diagnostics.h"
 
 namespace neve::app::dump {
@@ -197,11 +197,11 @@ StepInspection inspect_step(const scene::Scene& scene, const sim::Simulation& si
           simulation.particles()};
 }
 
-std::vector<run::ColliderForce> forces_in_step(const StepInspection& inside) {
+std::vector<record::ColliderForce> forces_in_step(const StepInspection& inside) {
   sim::AdvanceReport report;
   report.seconds = inside.dt;
   report.loads = inside.step.loads;
-  return run::forces_of(report, inside.simulation.summary(), inside.scene.colliders);
+  return record::forces_of(report, inside.simulation.summary(), inside.scene.colliders);
 }
 
 Listing list_state(const StepInspection& inside) {
@@ -255,23 +255,6 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage) {
   return listing;
 }
 
-namespace {
-
-/// Names the stage whose listing has a quantity that this one lacks.
-std::string stage_advice(const std::string& name) {
-  using enum sim::Stage;
-  constexpr std::pair<const char*, sim::Stage> first_shown[] = {
-      {"momentum", rasterize},          {"v_old", rasterize},        {"force", elastic_forces},
-      {"v_free", grid_velocities},      {"v_star", grid_collisions}, {"v_new", implicit_solve},
-      {"grad_v", deformation},          {"F_E_trial", deformation},  {"moved", advection},
-      {"v_before", particle_velocities}};
-  for (const auto& [quantity, stage] : first_shown)
-    if (name == quantity) return std::string("--stage ") + sim::name(stage) + " has it; ";
-  return {};
-}
-
-}  // namespace
-
 void keep_only(Listing& listing, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::vector<std::string> known;
@@ -279,9 +262,12 @@ void keep_only(Listing& listing, const std::vector<std::string>& names) {
   std::vector<Quantity> kept;
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end())
-      throw scene::toml::UsageError("--field", "there is no \"" + name + "\" here",
-                                    stage_advice(name) + scene::attribute_advice(name, known));
+    if (found == known.end()) {
+      const advice::Entry* later = advice::entry_of("quantity of another stage", name);
+      throw UsageError("--field", "there is no \"" + name + "\" here",
+                       (later ? later->sentence + "; " : "") +
+                           advice::suggest_one_of(name, {"attribute", known}));
+    }
     kept.push_back(listing.quantities[static_cast<std::size_t>(found - known.begin())]);
   }
   listing.quantities = std::move(kept);

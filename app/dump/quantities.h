@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 #include "app/scene/scene.h"
 #include "sim/simulation.h"
 #include "sim/staged.h"
@@ -46,7 +46,7 @@ StepInspection inspect_step(const scene::Scene& scene, const sim::Simulation& si
 
 /// Force, torque and pressure of the snow on each collider during the step; colliders without snow
 /// are listed too.
-std::vector<run::ColliderForce> forces_in_step(const StepInspection& inside);
+std::vector<record::ColliderForce> forces_in_step(const StepInspection& inside);
 
 /// Either nodes (place and index known) or particles (id order).
 struct Listing {

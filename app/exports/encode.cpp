@@ -65,7 +65,7 @@ constexpr double zip_limit = 4294967295.0 - 4096;
 
 }  // namespace
 
-std::string encode_ply(const Moment& moment) {
+std::string encode_ply(const ExportMoment& moment) {
   const Table& table = moment.table;
   std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment neve " + std::string(version) +
                       "\ncomment time ";
@@ -89,7 +89,7 @@ std::string encode_ply(const Moment& moment) {
   return bytes;
 }
 
-std::string encode_csv(const Moment& moment) {
+std::string encode_csv(const ExportMoment& moment) {
   const Table& table = moment.table;
   std::string text;
   for (const Column& column : table.columns)
@@ -107,7 +107,7 @@ std::string encode_csv(const Moment& moment) {
   return text;
 }
 
-std::string encode_obj(const Moment& moment) {
+std::string encode_obj(const ExportMoment& moment) {
   const Table& table = moment.table;
   const MeshRows& mesh = *table.mesh;
   std::string text = "# neve " + std::string(version) + ", time ";
@@ -133,7 +133,7 @@ std::string encode_obj(const Moment& moment) {
   return text + "\n";
 }
 
-std::string encode(const Moment& moment) {
+std::string encode(const ExportMoment& moment) {
   switch (moment.spec.format) {
     case scene::ExportFormat::ply:
       return encode_ply(moment);

@@ -37,7 +37,7 @@ void append_word(std::int32_t number, std::string& bytes) {
 
 }  // namespace
 
-std::string encode_bgeo(const Moment& moment) {
+std::string encode_bgeo(const ExportMoment& moment) {
   const Table& table = moment.table;
   constexpr std::int32_t version = 5, none = 0, details = 4;
   std::string bytes = "BgeoV";

@@ -92,7 +92,7 @@ void add_number(const char* name, double value, ZipArchive& zip) {
 
 }  // namespace
 
-std::string encode_npz(const Moment& moment) {
+std::string encode_npz(const ExportMoment& moment) {
   ZipArchive zip;
   for (const Column& column : moment.table.columns) {
     std::string numbers;

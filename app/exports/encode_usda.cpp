@@ -156,7 +156,7 @@ std::string usd_declarations(const Table& columns, UsdPrim prim, const std::stri
   return text;
 }
 
-std::string encode_usda(const Moment& moment) {
+std::string encode_usda(const ExportMoment& moment) {
   const double frame = moment.frame();
   const std::string indent(8, ' '), time = usd_number(frame);
   const Table& table = moment.table;

@@ -51,7 +51,7 @@ std::string vtk_start(const std::string& type) {
 }
 
 /// ParaView shows it as the time of the file.
-std::string vtk_time(const Moment& moment) {
+std::string vtk_time(const ExportMoment& moment) {
   std::string text =
       "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
       "format=\"ascii\">";
@@ -138,7 +138,7 @@ DenseGrid dense_grid(const sim::RasterizedNodes& nodes, const Axes& axes) {
 
 }  // namespace
 
-std::string encode_vtp(const Moment& moment) {
+std::string encode_vtp(const ExportMoment& moment) {
   const Table& table = moment.table;
   const std::size_t first = table.mesh ? table.mesh->vertices : 0;
   std::vector<std::int64_t> points(table.rows - first);
@@ -164,7 +164,7 @@ std::string encode_vtp(const Moment& moment) {
   return text + "</PointData>\n</Piece>\n</PolyData>\n" + arrays.take();
 }
 
-std::string encode_vti(const Moment& moment) {
+std::string encode_vti(const ExportMoment& moment) {
   const DenseGrid grid = dense_grid(*moment.state.nodes, Axes(moment.spec));
   AppendedArrays arrays;
   std::string extent;

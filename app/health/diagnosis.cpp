@@ -14,9 +14,9 @@
 #include "app/setup/auto_ranges.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
-#include "sim/engine/time_step.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app::health {
 
@@ -58,7 +58,7 @@ struct Case {
         h(s.solver.cell_size),
         is_fixed(s.solver.time_step == sim::TimeStep::fixed),
         dt(longest_step()),
-        stretch(sim::engine::acoustic_stretch(s.solver)),
+        stretch(sim::acoustic_stretch(s.solver)),
         material(s.materials[static_cast<std::size_t>(divergence.material)]) {}
 
   double longest_step() const {

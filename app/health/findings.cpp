@@ -13,9 +13,9 @@
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
-#include "sim/engine/time_step.h"
 #include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/solid.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app::health {
 
@@ -156,14 +156,14 @@ void check_body_overlaps(const scene::Scene& scene, const setup::SeededScene& se
   }
 }
 
-void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
+void check_fixed_steps(const sim::SolverSettings& s, const Check& check,
                        std::vector<Finding>& findings) {
   const double h = s.cell_size;
   // As an explicit step would feel it.
-  const double sound_speed = checkup.start.max_sound_speed / sim::engine::acoustic_stretch(s);
+  const double sound_speed = check.start.max_sound_speed / sim::acoustic_stretch(s);
   // One step that keeps both limits: the advice of either finding is enough.
   const double holds = std::min(line(Law::acoustic_cfl) * h / std::max(1e-9, sound_speed),
-                                s.cfl * h / std::max(1e-9, checkup.impact_speed));
+                                s.cfl * h / std::max(1e-9, check.impact_speed));
   const auto report = [&](Law law, double cfl, const char* what) {
     if (!(cfl > line(law))) return;
     const bool is_error = cfl > limits_of(law).check_error;
@@ -171,28 +171,28 @@ void check_fixed_steps(const sim::SolverSettings& s, const Checkup& checkup,
         {is_error ? Severity::error : Severity::warning, "solver.dt",
          fmt::format("fixed steps of {} s: {} crosses {} cells in a step{}", rough_text(s.dt), what,
                      rough_text(cfl), is_error ? ", the run will diverge" : ""),
-         scene::setting_text("solver.dt", holds, checkup.coarsening) +
+         scene::setting_text("solver.dt", holds, check.coarsening) +
              " holds, or time_step = \"adaptive\""});
   };
   report(Law::acoustic_cfl, sound_speed * s.dt / h, "sound");
-  report(Law::speed_cfl, checkup.impact_speed * s.dt / h, "snow at impact");
+  report(Law::speed_cfl, check.impact_speed * s.dt / h, "snow at impact");
 }
 
 /// Reports the damping of semi-implicit steps: a wave loses beta w^2 dt of its energy per second.
-void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
+void check_implicit_steps(const sim::SolverSettings& s, const Check& check,
                           std::vector<Finding>& findings) {
-  if (!s.is_implicit() || checkup.start.max_sound_speed <= 0) return;
-  const double dt = checkup.dt_start, pi = 3.14159265358979323846;
-  const double w = 2 * pi * checkup.start.max_sound_speed / (10 * s.cell_size);
+  if (!s.is_implicit() || check.start.max_sound_speed <= 0) return;
+  const double dt = check.dt_start, pi = 3.14159265358979323846;
+  const double w = 2 * pi * check.start.max_sound_speed / (10 * s.cell_size);
   findings.push_back(
       {Severity::note, "solver.beta",
        fmt::format("semi-implicit steps: a wave 10 cells long keeps {} of its energy "
                    "after a period; the first steps took {} iterations to a "
                    "residual of {}",
                    percent_text(std::exp(-s.beta * w * w * dt * 2 * pi / w)),
-                   checkup.solve.iterations, rough_text(checkup.solve.residual)),
+                   check.solve.iterations, rough_text(check.solve.residual)),
        ""});
-  if (checkup.solve.residual > s.solve_tolerance)
+  if (check.solve.residual > s.solve_tolerance)
     findings.push_back(
         {Severity::warning, "solver.solve_iterations",
          "the solve ends above solve_tolerance = " + scene::toml::number_text(s.solve_tolerance),
@@ -201,7 +201,7 @@ void check_implicit_steps(const sim::SolverSettings& s, const Checkup& checkup,
 
 /// Share of a moment's particles that a camera does not see.
 double share_outside(const scene::CameraSettings& camera, double aspect,
-                     const setup::Moment& moment) {
+                     const setup::CoarseMoment& moment) {
   const Vec3d forward = (*camera.target - *camera.eye).normalized();
   const Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
   const double half = std::tan(0.5 * camera.fov * 3.14159265358979323846 / 180);
@@ -217,7 +217,7 @@ double share_outside(const scene::CameraSettings& camera, double aspect,
 }
 
 /// Height of the snow that a camera sees, as a share of the picture's.
-double seen_height(const scene::CameraSettings& camera, const setup::Moment& moment) {
+double seen_height(const scene::CameraSettings& camera, const setup::CoarseMoment& moment) {
   const Vec3d forward = (*camera.target - *camera.eye).normalized();
   const Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
   const double half = std::tan(0.5 * camera.fov * 3.14159265358979323846 / 180);
@@ -337,22 +337,21 @@ void check_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
   check_point_masses(scene, seeded, findings);
 }
 
-void check_steps(const scene::Scene& scene, const Checkup& checkup,
-                 std::vector<Finding>& findings) {
+void check_steps(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
   if (scene.solver.time_step == sim::TimeStep::fixed)
-    check_fixed_steps(scene.solver, checkup, findings);
-  check_implicit_steps(scene.solver, checkup, findings);
-  check_transfer(scene, checkup, findings);
-  const double c = checkup.start.max_sound_speed;
-  if (c > 0 && has_something_to_hit(scene) && checkup.impact_speed > line(Law::impact_mach) * c)
+    check_fixed_steps(scene.solver, check, findings);
+  check_implicit_steps(scene.solver, check, findings);
+  check_transfer(scene, check, findings);
+  const double c = check.start.max_sound_speed;
+  if (c > 0 && has_something_to_hit(scene) && check.impact_speed > line(Law::impact_mach) * c)
     findings.push_back({Severity::warning, "",
                         fmt::format("snow hits something at {} m/s, faster than its sound of {} "
                                     "m/s: a shock will crush it",
-                                    rough_text(checkup.impact_speed), rough_text(c)),
+                                    rough_text(check.impact_speed), rough_text(c)),
                         "make it slower, or youngs_modulus larger"});
 }
 
-void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& moments,
+void check_cameras(const scene::Scene& scene, const std::vector<setup::CoarseMoment>& moments,
                    std::vector<Finding>& findings) {
   for (const scene::View& view : scene.views) {
     const scene::CameraSettings camera =
@@ -361,7 +360,7 @@ void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& 
     const scene::PictureSize size = setup::size_of(scene, view);
     const double aspect = static_cast<double>(size.width) / size.height;
     double worst = 0, when = 0, largest = 0;
-    for (const setup::Moment& moment : moments) {
+    for (const setup::CoarseMoment& moment : moments) {
       largest = std::max(largest, seen_height(camera, moment));
       const double share = share_outside(camera, aspect, moment);
       if (share > worst) worst = share, when = moment.time;

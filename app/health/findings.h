@@ -1,7 +1,7 @@
 #pragma once
 /// Questions of `neve check`; each adds its findings.
 
-#include "app/health/checkup.h"
+#include "app/health/check.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/seed_scene.h"
 #include "sim/health/limits.h"
@@ -58,18 +58,16 @@ void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene
                              std::vector<Finding>& findings);
 
 /// Colliders that cross too much of a cell in a step, or outrun sound in the snow.
-void check_motion(const scene::Scene& scene, const Checkup& checkup,
-                  std::vector<Finding>& findings);
+void check_motion(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
 
 /// Damping of the transfer per frame, spin that it stops.
-void check_transfer(const scene::Scene& scene, const Checkup& checkup,
-                    std::vector<Finding>& findings);
+void check_transfer(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
 
 /// Fixed steps against the limits, the transfer, speed against sound.
-void check_steps(const scene::Scene& scene, const Checkup& checkup, std::vector<Finding>& findings);
+void check_steps(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
 
 /// Snow that cameras named by the scene do not see. @param scene resolved
-void check_cameras(const scene::Scene& scene, const std::vector<setup::Moment>& moments,
+void check_cameras(const scene::Scene& scene, const std::vector<setup::CoarseMoment>& moments,
                    std::vector<Finding>& findings);
 
 /// False for a body that is alone in the world.

@@ -152,14 +152,13 @@ void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene
   }
 }
 
-void check_motion(const scene::Scene& scene, const Checkup& checkup,
-                  std::vector<Finding>& findings) {
+void check_motion(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
   const sim::SolverSettings& s = scene.solver;
   // Adaptive steps are short enough.
   const double dt = s.time_step == sim::TimeStep::fixed ? s.dt : 0;
   for (const sim::shapes::Collider& collider : scene.colliders) {
     const double speed = sim::shapes::largest_speed(collider), cells = speed * dt / s.cell_size;
-    const double c = checkup.start.max_sound_speed;
+    const double c = check.start.max_sound_speed;
     const std::string at = "collider." + collider.name + fastest_part(collider, speed);
     if (cells > sim::health::limits_of(sim::health::Law::collider_cfl).check_warning)
       findings.push_back(
@@ -167,7 +166,7 @@ void check_motion(const scene::Scene& scene, const Checkup& checkup,
            fmt::format("{} moves up to {} m/s: {} cells in a step and runs over snow at rest",
                        display_name("collider", collider.name), rough_text(speed),
                        rough_text(cells)),
-           scene::setting_text("solver.dt", 0.4 * s.cell_size / speed, checkup.coarsening) +
+           scene::setting_text("solver.dt", 0.4 * s.cell_size / speed, check.coarsening) +
                ", or time_step = \"adaptive\""});
     else if (c > 0 &&
              speed > sim::health::limits_of(sim::health::Law::collider_mach).check_warning * c)

@@ -21,7 +21,7 @@ using sim::Vec3d;
 constexpr double never_met = std::numeric_limits<double>::infinity();
 /// Particles of a body that stand for all of them.
 constexpr std::size_t max_sampled = 400;
-constexpr int least_looks = 24, most_looks = 240;
+constexpr int min_looks = 24, max_looks = 240;
 
 struct Box {
   Vec3d min = Vec3d::Constant(never_met), max = Vec3d::Constant(-never_met);
@@ -121,10 +121,10 @@ double distance_between(const std::vector<Vec3d>& a, const Box& box_a, const std
 
 /// Times at which bodies are looked at: none crosses another between two.
 std::vector<double> times_of(const std::vector<Flight>& flights, double end) {
-  double looks = least_looks;
+  double looks = min_looks;
   for (const Flight& flight : flights)
     looks = std::max(looks, 3 * flight.speed_at(end) * end / std::max(1e-6, flight.size()));
-  const int count = static_cast<int>(std::min<double>(looks, most_looks));
+  const int count = static_cast<int>(std::min<double>(looks, max_looks));
   std::vector<double> times;
   for (int k = 0; k <= count; ++k) times.push_back(end * k / count);
   return times;

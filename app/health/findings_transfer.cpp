@@ -9,7 +9,7 @@
 #include "app/health/findings.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
-#include "sim/engine/time_step.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app::health {
 
@@ -22,24 +22,23 @@ bool has_flip_ratio(sim::Transfer transfer) {
 }
 
 /// Share of the motion of a cell or less that a frame leaves.
-double kept_after(double seconds, const sim::SolverSettings& s, const Checkup& checkup) {
-  const double steps = std::max(1.0, seconds / std::max(checkup.dt_start, 1e-12));
-  return std::pow(sim::engine::flip_share(s, seconds / steps), steps);
+double kept_after(double seconds, const sim::SolverSettings& s, const Check& check) {
+  const double steps = std::max(1.0, seconds / std::max(check.dt_start, 1e-12));
+  return std::pow(sim::flip_share(s, seconds / steps), steps);
 }
 
-void check_damping(const scene::Scene& scene, const Checkup& checkup,
-                   std::vector<Finding>& findings) {
+void check_damping(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
   const sim::SolverSettings& s = scene.solver;
   if (!has_flip_ratio(s.transfer)) return;
   const double frame = 1 / scene.fps;
-  const double kept = kept_after(frame, s, checkup);
+  const double kept = kept_after(frame, s, check);
   if (s.flip_reference_dt == 0)
     findings.push_back(
         {Severity::warning, "solver.flip_reference_dt",
          fmt::format("flip_ratio acts per step: with about {} steps a frame {} of "
                      "the finest motion is left after a frame, and less with smaller "
                      "steps",
-                     rough_text(std::max(1.0, frame / std::max(checkup.dt_start, 1e-12))),
+                     rough_text(std::max(1.0, frame / std::max(check.dt_start, 1e-12))),
                      percent_text(kept)),
          "flip_reference_dt = 5e-4 makes damping independent of dt"});
   // The defaults are no news.
@@ -58,11 +57,11 @@ void check_damping(const scene::Scene& scene, const Checkup& checkup,
 
 /// FLIP damps rotation at the rate of its finest motion, twice over the square of the radius in
 /// cells: measured on balls of 3 to 8 cells, see docs/transfers.md.
-void check_spin(const scene::Scene& scene, const Checkup& checkup, std::vector<Finding>& findings) {
+void check_spin(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
   const sim::SolverSettings& s = scene.solver;
   if (s.transfer != sim::Transfer::flip) return;
   constexpr double second = 1, longest = 0.5;
-  const double rate = -std::log(kept_after(second, s, checkup));
+  const double rate = -std::log(kept_after(second, s, check));
   if (!(rate > 0)) return;
   for (const setup::SnowPiece& piece : setup::snow_pieces(scene)) {
     constexpr const char* body = "body.";
@@ -82,10 +81,9 @@ void check_spin(const scene::Scene& scene, const Checkup& checkup, std::vector<F
 
 }  // namespace
 
-void check_transfer(const scene::Scene& scene, const Checkup& checkup,
-                    std::vector<Finding>& findings) {
-  check_damping(scene, checkup, findings);
-  check_spin(scene, checkup, findings);
+void check_transfer(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
+  check_damping(scene, check, findings);
+  check_spin(scene, check, findings);
 }
 
 }  // namespace neve::app::health

@@ -13,10 +13,10 @@
 namespace neve::app::health {
 
 double stiffness_that_holds(const sim::Material& material, double J_P, double speed) {
-  constexpr double kept = 0.25, focus = 3, least_threshold = 0.005;
+  constexpr double kept = 0.25, focus = 3, min_threshold = 0.005;
   sim::Material unit = material;
   unit.youngs_modulus = 1;
-  const double s = 1 - std::max(least_threshold, material.critical_compression), J = kept * s;
+  const double s = 1 - std::max(min_threshold, material.critical_compression), J = kept * s;
   const sim::Mat3d F_E = sim::Vec3d(1, s, 1).asDiagonal();
   const double pressure_per_E = -sim::health::first_piola(unit, F_E, kept)(1, 1) * s / J;
   const double shock = focus * material.density * speed * speed / (1 - J);

@@ -21,7 +21,7 @@ namespace neve::app::output {
 
 namespace {
 
-constexpr std::size_t most_at_once = 16;
+constexpr std::size_t max_at_once = 16;
 
 int open_temporary(const std::filesystem::path& temporary) {
   return ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
@@ -132,7 +132,7 @@ void sync_files(const std::vector<std::filesystem::path>& files) {
   // The journal of a file system writes down together what is asked for at the same time.
   std::vector<std::thread> others;
   try {
-    while (others.size() + 1 < std::min(files.size(), most_at_once)) others.emplace_back(sync_some);
+    while (others.size() + 1 < std::min(files.size(), max_at_once)) others.emplace_back(sync_some);
   } catch (const std::system_error&) {
     // Fewer threads only take longer.
   }

@@ -7,12 +7,13 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
-#include <new>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
 
 namespace neve::app::output {
 
@@ -46,6 +47,14 @@ std::string file_name(const Checkpoint& c) {
   return name;
 }
 
+/// That a file is named after; -1 for other names.
+int frame_of(const fs::path& file) {
+  int frame = -1;
+  const std::string stem = file.stem().string();
+  const auto end = std::from_chars(stem.data(), stem.data() + stem.size(), frame);
+  return end.ec == std::errc() && frame >= 0 && frame <= max_frame ? frame : -1;
+}
+
 /// Newest first.
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -71,6 +80,21 @@ fs::path state_path(const fs::path& folder, int frame) {
   char name[32];
   std::snprintf(name, sizeof name, "%06d.ckpt", frame);
   return states_folder(folder) / name;
+}
+
+/// @return whether the file is whole; its damage is noted where it is not
+bool read_into(FoundCheckpoint& found, const fs::path& file) {
+  try {
+    found.checkpoint = parse_checkpoint(read_file(file, largest_file));
+    found.checkpoint->file = file;
+    return true;
+  } catch (const UnreadableError&) {
+    throw;
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
+    found.damaged.push_back(file.string() + ": " + error.what());
+    return false;
+  }
 }
 
 }  // namespace
@@ -143,21 +167,11 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
 
 FoundCheckpoint find_checkpoint(const fs::path& folder, int before) {
   FoundCheckpoint found;
-  for (const fs::path& file : list(folder)) {
-    try {
-      Checkpoint checkpoint = parse_checkpoint(read_file(file, largest_file));
-      checkpoint.file = file;
-      if (checkpoint.frame >= before) continue;
-      found.checkpoint = std::move(checkpoint);
-      return found;
-    } catch (const UnreadableError&) {
-      throw;
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      found.damaged.push_back(file.string() + ": " + error.what());
+  for (const fs::path& file : list(folder))
+    if (frame_of(file) < before && read_into(found, file)) {
+      if (found.checkpoint->frame < before) break;
+      found.checkpoint.reset();
     }
-  }
   return found;
 }
 
@@ -169,35 +183,30 @@ void write_state(const fs::path& folder, const Checkpoint& checkpoint) {
 
 std::vector<int> kept_states(const fs::path& folder) {
   std::vector<int> frames;
-  for (const fs::path& file : checkpoints_in(states_folder(folder))) {
-    int frame = -1;
-    const std::string stem = file.stem().string();
-    const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), frame);
-    if (error == std::errc() && frame >= 0 && file == state_path(folder, frame))
+  for (const fs::path& file : checkpoints_in(states_folder(folder)))
+    if (const int frame = frame_of(file); frame >= 0 && file == state_path(folder, frame))
       frames.push_back(frame);
-  }
   std::sort(frames.begin(), frames.end());
   return frames;
 }
 
-FoundState read_state(const fs::path& folder, int frame) {
-  FoundState found;
+std::map<int, std::size_t> checkpoint_steps(const fs::path& folder) {
+  std::map<int, std::size_t> steps;
+  for (const fs::path& file : list(folder)) {
+    const std::string name = file.stem().string();
+    const auto count = number_of<std::size_t>(std::string_view(name).substr(name.find('-') + 1));
+    if (const int frame = frame_of(file); frame >= 0 && count) steps.emplace(frame, *count);
+  }
+  return steps;
+}
+
+FoundCheckpoint read_state(const fs::path& folder, int frame) {
+  FoundCheckpoint found;
   const fs::path file = state_path(folder, frame);
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) return found;
-  try {
-    Checkpoint checkpoint = parse_checkpoint(read_file(file, largest_file));
-    if (checkpoint.frame != frame) throw std::runtime_error("is the state of another frame");
-    checkpoint.file = file;
-    found.checkpoint = std::move(checkpoint);
-  } catch (const UnreadableError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& failure) {
-    found.damage = file.string() + ": " + failure.what();
-  }
-  return found;
+  if (!fs::is_regular_file(file, error) || !read_into(found, file)) return found;
+  if (found.checkpoint->frame == frame) return found;
+  return {std::nullopt, {file.string() + ": is the state of another frame"}};
 }
 
 void remove_states(const fs::path& folder) {

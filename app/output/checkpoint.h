@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,9 +41,12 @@ Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes);
 /// returns. @throws IoError
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
+/// Frames of the checkpoints in a folder with their steps, by their names.
+std::map<int, std::size_t> checkpoint_steps(const std::filesystem::path& folder);
+
 struct FoundCheckpoint {
   std::optional<Checkpoint> checkpoint;  ///< the newest whole one
-  std::vector<std::string> damaged;      ///< newer ones: "FILE: why"
+  std::vector<std::string> damaged;      ///< those that were passed over: "FILE: why"
 };
 
 /// Nothing where the folder has none. Damaged ones are passed over and named.
@@ -58,13 +62,8 @@ void write_state(const std::filesystem::path& folder, const Checkpoint& checkpoi
 /// Frames with a kept state, in order.
 std::vector<int> kept_states(const std::filesystem::path& folder);
 
-struct FoundState {
-  std::optional<Checkpoint> checkpoint;
-  std::string damage;  ///< "FILE: why"; "" where it is whole or missing
-};
-
-/// @throws UnreadableError for one that the machine does not give
-FoundState read_state(const std::filesystem::path& folder, int frame);
+/// Nothing where the frame has none. @throws UnreadableError likewise
+FoundCheckpoint read_state(const std::filesystem::path& folder, int frame);
 
 /// Removes all kept states of a folder. Other files stay.
 void remove_states(const std::filesystem::path& folder);

@@ -23,12 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string last_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-  const std::size_t start = text.find_last_of("\r\n");
-  return start == std::string::npos ? text : text.substr(start + 1);
-}
-
 /// A frame of 16384x16384 takes about 10 s to encode on one core.
 double longest_time(const MovieRequest& request) {
   constexpr double start = 60, per_frame = 20;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr int most_links = 40;
+constexpr int max_links = 40;
 constexpr const char* access_list = "system.posix_acl_access";
 
 struct Target {
@@ -41,7 +41,7 @@ std::optional<int> open_file_named(const fs::path& path) {
 
 /// Where the links of a path lead; the file itself need not be there.
 Target follow_links(fs::path path) {
-  for (int links = 0; links < most_links; ++links) {
+  for (int links = 0; links < max_links; ++links) {
     std::error_code error;
     const fs::path folder = fs::canonical(path.has_parent_path() ? path.parent_path() : ".", error);
     if (error) return {path, std::nullopt};

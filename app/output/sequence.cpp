@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <new>
 #include <set>
 #include <system_error>
 #include <vector>
 
 #include "app/output/atomic_file.h"
 #include "app/output/descriptor.h"
+#include "app/support/errors.h"
 #include "app/support/json.h"
 
 namespace neve::app::output {
@@ -32,9 +32,8 @@ EarlierRun read_earlier_run(const fs::path& file) {
     json = parse_json(read_file(file));
   } catch (const UnreadableError&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     return run;
   }
   if (!json.is_object()) return run;

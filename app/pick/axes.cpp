@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "app/scene/params.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/sweep/plan/labels.h"
 
@@ -19,8 +19,8 @@ namespace {
 constexpr double decade = 10;
 
 [[noreturn]] void refuse_axis(const std::string& address, const std::string& why) {
-  throw scene::toml::UsageError("-p " + address, why,
-                                "expected two numbers, as in -p material.snow.hardening=5,20");
+  throw UsageError("-p " + address, why,
+                   "expected two numbers, as in -p material.snow.hardening=5,20");
 }
 
 /// Numbers of a list. @throws UsageError
@@ -94,7 +94,7 @@ std::vector<PickAxis> axes_of(const sweep::read::Sweep& sweep) {
     addresses.push_back(axes.back().address);
   }
   if (axes.size() > most_axes)
-    throw scene::toml::UsageError(
+    throw UsageError(
         "-p", fmt::format("{} parameters are too many to find by eye", axes.size()),
         fmt::format("expected at most {}; neve sweep with method = \"morris\" finds those that "
                     "matter",

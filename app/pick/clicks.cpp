@@ -6,7 +6,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/pick/search/rounds.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 
 namespace neve::app::pick {
 
@@ -48,9 +48,9 @@ std::vector<Click> parse_clicks(const std::string& text, const std::string& file
     if (line.empty() || line[0] == '#') continue;
     const std::optional<Click> click = click_of(line);
     if (!click)
-      throw scene::toml::UsageError(
-          fmt::format("{}:{}", file, number), "\"" + line.substr(0, 40) + "\" is no choice",
-          "expected a tile from 1 to 9, two of them as in 2 7, or 0 for none");
+      throw UsageError(fmt::format("{}:{}", file, number),
+                       "\"" + line.substr(0, 40) + "\" is no choice",
+                       "expected a tile from 1 to 9, two of them as in 2 7, or 0 for none");
     clicks.push_back(*click);
   }
   return clicks;

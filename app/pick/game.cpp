@@ -6,7 +6,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/pick/page.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/sweep/read/read_sweep.h"
 
@@ -20,8 +20,8 @@ Game::Game(const PickOptions& options) : options_(options) {
   const sweep::read::Sweep sweep =
       sweep::read::read_sweep(options.runs.file, {axes, options.runs.overrides});
   if (!sweep.file.empty())
-    throw scene::toml::UsageError("pick", options.runs.file + " is a sweep",
-                                  "give its scene, and the axes with -p");
+    throw UsageError("pick", options.runs.file + " is a sweep",
+                     "give its scene, and the axes with -p");
   scene_ = {options.runs.file, sweep.fixed, axes_of(sweep)};
   // Complains about settings, and both ends of the axes, before anything is written.
   for (const double end : {0., 1.}) picked_scene(scene_, search::Point::Constant(dimension(), end));
@@ -35,9 +35,8 @@ void Game::resume() {
   if (!fs::exists(own_clicks_, error)) return;
   const std::string text = text_of_file(own_clicks_);
   if (!text.starts_with(clicks_text({}, comment())))
-    throw scene::toml::UsageError(folder_.string(),
-                                  "has another search: " + text.substr(2, text.find('\n') - 2),
-                                  "choose another folder with --out, or remove the old one");
+    throw UsageError(folder_.string(), "has another search: " + text.substr(2, text.find('\n') - 2),
+                     "choose another folder with --out, or remove the old one");
   for (const Click& click : parse_clicks(text, own_clicks_.string()))
     if (!is_over()) take(click);
 }
@@ -45,10 +44,9 @@ void Game::resume() {
 void Game::check_is_beginning_of(const std::vector<Click>& list) const {
   for (std::size_t k = 0; k < rounds_.size(); ++k)
     if (k >= list.size() || rounds_[k].chosen != list[k])
-      throw scene::toml::UsageError(
-          options_.clicks,
-          fmt::format("{} has other clicks from round {} on", folder_.string(), k + 1),
-          "choose another folder with --out, or remove the old one");
+      throw UsageError(options_.clicks,
+                       fmt::format("{} has other clicks from round {} on", folder_.string(), k + 1),
+                       "choose another folder with --out, or remove the old one");
 }
 
 sweep::plan::SweepOptions Game::begin_round() {
@@ -65,19 +63,19 @@ sweep::plan::SweepOptions Game::begin_round() {
   return runs;
 }
 
-void Game::write_page(const RoundRuns& runs) const {
+void Game::write_page(const sweep::jobs::SweepProgress& runs) const {
   RoundPage page;
   page.round = answered() + 1;
   page.rounds = options_.rounds;
-  page.fps = runs.fps;
-  for (const TileRun& tile : runs.tiles) {
+  page.fps = runs.manifest.fps;
+  for (std::size_t k = 0; k < runs.runs.size(); ++k) {
     std::vector<std::string>& pictures = page.tiles.emplace_back();
-    for (const fs::path& picture : tile.pictures) pictures.push_back(picture.generic_string());
+    for (const fs::path& file : pictures_of(runs, k)) pictures.push_back(file.generic_string());
   }
   page.has_favourite = lesson().has_favourite();
   if (page.has_favourite) {
     page.learned = lesson().lines;
-    page.map = map_svg(scene_.axes, map());
+    page.map = map_svg(map());
   }
   output::write_file(folder_ / "round.html", page_html(page));
 }
@@ -126,8 +124,8 @@ const Lesson& Game::lesson() const {
   return *lesson_;
 }
 
-TasteMap Game::map() const {
-  return taste_map(lesson().taste, rounds_, lesson().tastes, lesson().favourite);
+render::Plot Game::map() const {
+  return taste_map(scene_.axes, lesson().taste, rounds_, lesson().tastes, lesson().favourite);
 }
 
 search::Point Game::result() const {
@@ -143,7 +141,7 @@ std::optional<std::vector<scene::Override>> Game::write_pick() const {
   output::write_file(folder_ / "picked_sweep.toml",
                      picked_sweep(scene_, "picked.toml", place, order));
   output::write_file(folder_ / "learned.txt", fmt::format("{}\n", fmt::join(lesson().lines, "\n")));
-  output::write_file(folder_ / "map.svg", map_svg(scene_.axes, map()));
+  output::write_file(folder_ / "map.svg", map_svg(map()));
   return settings(place);
 }
 

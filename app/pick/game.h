@@ -48,7 +48,7 @@ class Game {
   /// Chooses the tiles and writes their sweep file. @return the sweep to make
   sweep::plan::SweepOptions begin_round();
   /// Writes the page of the tiles, once they are made.
-  void write_page(const RoundRuns& runs) const;
+  void write_page(const sweep::jobs::SweepProgress& runs) const;
 
   /// clicks.txt has the answer, or nothing has changed. @throws IoError
   void answer(const Click& click);
@@ -56,7 +56,7 @@ class Game {
   void undo();
 
   const Lesson& lesson() const;
-  TasteMap map() const;  ///< of a lesson with a favourite
+  render::Plot map() const;  ///< of a lesson with a favourite
 
   /// The place of the pick; an empty one before the first choice.
   search::Point result() const;

@@ -6,6 +6,7 @@
 
 #include "app/pick/axes.h"
 #include "app/pick/search/rounds.h"
+#include "render/frame/frame.h"
 
 namespace neve::app::pick {
 
@@ -26,34 +27,16 @@ std::vector<std::string> taste_lines(const std::vector<PickAxis>& axes,
                                      const search::Point& favourite);
 
 /// Expected liking over the two most telling axes, through the favourite. One axis is both.
-struct TasteMap {
-  static constexpr int cells = 32;  ///< along each axis
-
-  struct Cell {
-    int red = 0, green = 0, blue = 0;  ///< 0 to 255; light where it is liked
-    double opacity = 1;                ///< pale where little is known
-  };
-  /// A tile that was shown, at its places on the two axes.
-  struct Dot {
-    double x = 0, y = 0;
-    bool is_chosen = false;
-  };
-
-  std::size_t x_axis = 0, y_axis = 0;
-  std::vector<Cell> squares;  ///< rows from the top, the greatest y
-  std::vector<Dot> dots;
-  double favourite_x = 0, favourite_y = 0;
-};
-TasteMap taste_map(const search::Preference& taste, const std::vector<search::Round>& rounds,
-                   const std::vector<AxisTaste>& tastes, const search::Point& favourite);
+render::Plot taste_map(const std::vector<PickAxis>& axes, const search::Preference& taste,
+                       const std::vector<search::Round>& rounds,
+                       const std::vector<AxisTaste>& tastes, const search::Point& favourite);
+inline constexpr const char* map_words =
+    "Light: liked. Pale: little known. Red: chosen. Ring: favourite so far.";
+std::string map_svg(const render::Plot& map);
 
 /// "name (unit)"
 std::string axis_title(const PickAxis& axis);
 /// A value with three digits, without its unit.
 std::string short_value(const PickAxis& axis, double u);
-
-/// The map as SVG. Tiles that were shown are dots, chosen ones are filled, the favourite has a
-/// ring.
-std::string map_svg(const std::vector<PickAxis>& axes, const TasteMap& map);
 
 }  // namespace neve::app::pick

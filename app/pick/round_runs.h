@@ -1,41 +1,23 @@
 #pragma once
-/// The runs of a round as they are on disk: how far each tile is, and its pictures.
+/// The runs of a round: nine tiles to choose from.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "app/pick/clicks.h"
+#include "app/sweep/jobs/background.h"
 
 namespace neve::app::pick {
 
-struct TileRun {
-  enum class State { waiting, running, done, failed };
-  State state = State::waiting;
-  std::string reason;  ///< of a failed run, for a tile
-  int frames = 0;      ///< that the whole run has
-  /// Pictures that are there, in order, relative to the folder of the search.
-  std::vector<std::filesystem::path> pictures;
-
-  bool has_ended() const { return state == State::done || state == State::failed; }
-};
-
-struct RoundRuns {
-  double fps = 24;
-  int tile_width = 480, tile_height = 270;  ///< px
-  std::vector<TileRun> tiles;
-};
-
-/// Runs of the sweep that the folder has now. @throws Error where it has none
-RoundRuns read_round(const std::filesystem::path& folder);
+/// Pictures of a run, in order, relative to the folder of the search.
+std::vector<std::filesystem::path> pictures_of(const sweep::jobs::SweepProgress& runs,
+                                               std::size_t run);
 
 /// "tile 3 cannot be chosen: its run failed: DIVERGED frame 3", or "" where the click can be used.
-std::string why_not(const RoundRuns& runs, const Click& click);
-
-/// True where all tiles are done or failed.
-bool have_all_ended(const RoundRuns& runs);
+std::string why_not(const sweep::jobs::SweepProgress& runs, const Click& click);
 
 /// "all nine runs failed; the first: DIVERGED frame 3", or "" where one did not.
-std::string all_failed_text(const RoundRuns& runs);
+std::string all_failed_text(const sweep::jobs::SweepProgress& runs);
 
 }  // namespace neve::app::pick

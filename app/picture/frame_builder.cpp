@@ -170,22 +170,23 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
   points.colormap = look ? render::ColorMap::viridis : style.colormap;
   points.range_min = static_cast<float>(range.min);
   points.range_max = static_cast<float>(range.max);
-  points.position.reserve(snapshot.particles.x.size());
-  points.id.reserve(snapshot.particles.x.size());
-  points.value.reserve(values.size());
   // Hidden particles cast no shadow either: the cut is lit like a surface, so its colours are
   // readable.
   const Cut cut(view.clip, snapshot.particles.x);
   const bool is_surface = scene::has_layer(view, scene::Layer::snow);
+  points.position.edit().reserve(snapshot.particles.x.size());
+  points.id.edit().reserve(snapshot.particles.x.size());
+  points.value.edit().reserve(values.size());
   const auto take = [&](std::size_t p, auto& list) {
-    list.position.push_back(to_float(snapshot.particles.x[p]));
-    list.id.push_back(snapshot.particles.id_of(p));
+    list.position.edit().push_back(to_float(snapshot.particles.x[p]));
+    list.id.edit().push_back(snapshot.particles.id_of(p));
     if (is_surface) {
-      list.volume.push_back(static_cast<float>(snow_volume(scene_, snapshot.particles, p)));
-      list.turn.push_back(turn_of(snapshot.particles.F_E[p]));
+      list.volume.edit().push_back(static_cast<float>(snow_volume(scene_, snapshot.particles, p)));
+      list.turn.edit().push_back(turn_of(snapshot.particles.F_E[p]));
     }
     if (!values.empty())
-      list.value.push_back(static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
+      list.value.edit().push_back(
+          static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
   };
   if (is_surface && view.clip)
     points.cut = {

@@ -15,11 +15,6 @@ render::Legend legend(const AttributeName& name, render::ColorMap colormap,
           static_cast<float>(ends.max)};
 }
 
-bool is_same(const render::Legend& a, const render::Legend& b) {
-  return a.title == b.title && a.unit == b.unit && a.colormap == b.colormap && a.min == b.min &&
-         a.max == b.max;
-}
-
 }  // namespace
 
 std::vector<render::Legend> legends_of(const scene::View& view) {
@@ -29,8 +24,7 @@ std::vector<render::Legend> legends_of(const scene::View& view) {
   const scene::SliceStyle& slice = view.slice;
   const auto add = [&](const render::Legend& another) {
     // Two layers of one quantity in the same colours need one.
-    if (std::none_of(legends.begin(), legends.end(),
-                     [&](const render::Legend& other) { return is_same(other, another); }))
+    if (std::find(legends.begin(), legends.end(), another) == legends.end())
       legends.push_back(another);
   };
   if (scene::shows_particles(view) && particles.color_by != scene::ColorBy::snow)

@@ -5,46 +5,18 @@
 
 #include "app/setup/auto_ranges.h"
 #include "app/support/round_number.h"
-#include "sim/engine/time_step.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app::picture {
 
 namespace {
-
-using Rgb = std::array<std::uint8_t, 3>;
-
-// Colours that stay apart for all kinds of colour vision (Okabe and Ito).
-constexpr Rgb sky_blue{86, 180, 233}, orange{230, 159, 0}, white{240, 244, 250}, green{0, 158, 115},
-    yellow{240, 228, 66}, purple{204, 121, 167}, vermillion{213, 94, 0}, pink{240, 110, 150};
-
-struct LimitStyle {
-  sim::DtLimit limit;
-  const char* name;
-  Rgb color;
-};
-constexpr LimitStyle limit_styles[] = {
-    {sim::DtLimit::max_dt, "max_dt", white},         {sim::DtLimit::cfl, "cfl", sky_blue},
-    {sim::DtLimit::acoustic, "acoustic", orange},    {sim::DtLimit::strain, "strain", purple},
-    {sim::DtLimit::fixed, "fixed", yellow},          {sim::DtLimit::frame_end, "frame end", green},
-    {sim::DtLimit::collider, "collider", vermillion}};
-static_assert(std::size(limit_styles) == sim::dt_limit_count);
-
-render::PlotSeries curve(const char* name, Rgb color, std::span<const PlotSample> history,
-                         auto value) {
-  render::PlotSeries series{.name = name, .color = color, .time = {}, .value = {}};
-  for (const PlotSample& sample : history) {
-    series.time.push_back(static_cast<float>(sample.time));
-    series.value.push_back(static_cast<float>(value(sample)));
-  }
-  return series;
-}
 
 render::Plot plot_of(const char* title, const char* unit, const std::optional<scene::Range>& range,
                      double now, double duration) {
   const scene::Range axis = range.value_or(scene::Range{});
   return {.title = title,
           .unit = unit,
-          .time_end = static_cast<float>(duration),
+          .x_end = static_cast<float>(duration),
           .now = static_cast<float>(now),
           .min = static_cast<float>(axis.min),
           .max = static_cast<float>(axis.max),
@@ -61,15 +33,15 @@ render::Plot dt_plot(const scene::PlotRanges& ranges, std::span<const PlotSample
   for (const LimitStyle& style : limit_styles) {
     render::PlotSeries bars{.name = style.name,
                             .color = style.color,
-                            .time = {},
+                            .x = {},
                             .value = {},
                             .bar_width = static_cast<float>(interval)};
     for (const PlotSample& sample : history) {
       if (sample.steps == 0 || sample.limit != style.limit) continue;
-      bars.time.push_back(static_cast<float>(sample.time));
+      bars.x.push_back(static_cast<float>(sample.time));
       bars.value.push_back(static_cast<float>(1000 * interval / static_cast<double>(sample.steps)));
     }
-    if (!bars.time.empty()) plot.series.push_back(std::move(bars));
+    if (!bars.x.empty()) plot.series.push_back(std::move(bars));
   }
   return plot;
 }

@@ -2,6 +2,8 @@
 /// Diagnostics over time as plots: energies, largest speed, largest force on a collider, time step
 /// and its limit.
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,6 +13,36 @@
 #include "sim/simulation.h"
 
 namespace neve::app::picture {
+
+using Rgb = std::array<std::uint8_t, 3>;  ///< sRGB
+
+// Colours that stay apart for all kinds of colour vision (Okabe and Ito).
+inline constexpr Rgb sky_blue{86, 180, 233}, orange{230, 159, 0}, white{240, 244, 250},
+    green{0, 158, 115}, yellow{240, 228, 66}, purple{204, 121, 167}, vermillion{213, 94, 0},
+    pink{240, 110, 150};
+
+/// Name and colour of what limits dt.
+struct LimitStyle {
+  sim::DtLimit limit;
+  const char* name;
+  Rgb color;
+};
+inline constexpr LimitStyle limit_styles[] = {
+    {sim::DtLimit::max_dt, "max_dt", white},         {sim::DtLimit::cfl, "cfl", sky_blue},
+    {sim::DtLimit::acoustic, "acoustic", orange},    {sim::DtLimit::strain, "strain", purple},
+    {sim::DtLimit::fixed, "fixed", yellow},          {sim::DtLimit::frame_end, "frame end", green},
+    {sim::DtLimit::collider, "collider", vermillion}};
+static_assert(std::size(limit_styles) == sim::dt_limit_count);
+
+/// @param samples  each with a time, s
+render::PlotSeries curve(const char* name, Rgb color, const auto& samples, auto value) {
+  render::PlotSeries series{.name = name, .color = color, .x = {}, .value = {}};
+  for (const auto& sample : samples) {
+    series.x.push_back(static_cast<float>(sample.time));
+    series.value.push_back(static_cast<float>(value(sample)));
+  }
+  return series;
+}
 
 /// Data of one frame for the plots.
 struct PlotSample {

@@ -76,10 +76,11 @@ std::vector<render::Frame> shutter_moments(const MotionSource& source, const ren
     render::Frame& moment = moments.emplace_back(frame);
     move_solids(source, open * ((k + 0.5) / count - 0.5), moment);
     const auto move = [&](const std::vector<Vec3f>& by, auto& points) {
+      std::vector<Vec3f>& position = points.position.edit();
       for (std::size_t p = 0; p < by.size(); ++p) {
         const float part =
             (static_cast<float>(k) + phase_of(points.id[p])) / static_cast<float>(count) - 0.5f;
-        points.position[p] = points.position[p] + by[p] * (static_cast<float>(open) * part);
+        position[p] = position[p] + by[p] * (static_cast<float>(open) * part);
       }
     };
     move(velocity, moment.points);

@@ -15,14 +15,14 @@ using sim::Vec3d;
 /// Pixels from arrow to arrow and from line to line in a picture 720 high, and the least anywhere:
 /// closer they are a carpet.
 constexpr double arrow_distance = 40, line_distance = 18;
-constexpr double least_arrow_distance = 18, least_line_distance = 8;
+constexpr double min_arrow_distance = 18, min_line_distance = 8;
 /// The longest arrow over the distance of its neighbours. Arrows have their nodes in the middle, so
 /// below 1 each keeps to a disc of its own and none can hide another.
 constexpr double arrow_reach = 0.95;
 /// Arrows below this share of the longest are dots that say nothing; lines there are noise.
-constexpr float least_shown = 0.02f;
+constexpr float min_shown = 0.02f;
 /// Where most nodes around a place have no mass, the grid has no velocity.
-constexpr float least_cover = 0.5f;
+constexpr float min_cover = 0.5f;
 
 double distance_of(const SliceMoment& slice, double usual, double least) {
   return std::max(least, usual * slice.picture_height / 720) /
@@ -31,7 +31,7 @@ double distance_of(const SliceMoment& slice, double usual, double least) {
 
 int nodes_between_arrows(const SliceMoment& slice) {
   if (slice.view.slice.every > 0) return slice.view.slice.every;
-  const double distance = distance_of(slice, arrow_distance, least_arrow_distance);
+  const double distance = distance_of(slice, arrow_distance, min_arrow_distance);
   return static_cast<int>(std::clamp(std::ceil(distance / slice.cell()), 1.0, 1000.0));
 }
 
@@ -58,7 +58,7 @@ class FlowLines {
     if (!vector) return std::nullopt;
     const Vec3d v(vector->x, vector->y, vector->z);
     const Vector2d part(v.dot(slice_.plane.across), v.dot(slice_.plane.up));
-    const double least = static_cast<double>(least_shown * lines_.range_max);
+    const double least = static_cast<double>(min_shown * lines_.range_max);
     return part.norm() > least ? std::optional(part) : std::nullopt;
   }
 
@@ -86,7 +86,7 @@ class FlowLines {
  private:
   std::optional<Vec3f> at(const Vector2d& x) const {
     const auto stencil = sampler_.at(point_on(slice_.plane, x.x(), x.y()));
-    return stencil && stencil->cover >= least_cover
+    return stencil && stencil->cover >= min_cover
                ? std::optional(FieldSampler::mean(*stencil, vectors_))
                : std::nullopt;
   }
@@ -126,11 +126,11 @@ int add_arrows(const SliceMoment& slice, render::Frame& frame) {
     for (double i = std::ceil(r.left / step); i * step <= r.right; ++i) {
       const Vec3d x = point_on(slice.plane, i * step, j * step);
       const auto stencil = sampler.at(x);
-      if (!stencil || stencil->cover < least_cover) continue;
+      if (!stencil || stencil->cover < min_cover) continue;
       const Vec3f value = FieldSampler::mean(*stencil, values);
-      if (!(length(value) > least_shown * largest)) continue;
-      arrows.position.push_back(to_float(x));
-      arrows.vector.push_back(value);
+      if (!(length(value) > min_shown * largest)) continue;
+      arrows.position.edit().push_back(to_float(x));
+      arrows.vector.edit().push_back(value);
     }
   frame.arrows.push_back(std::move(arrows));
   return every;
@@ -139,7 +139,7 @@ int add_arrows(const SliceMoment& slice, render::Frame& frame) {
 void add_streamlines(const SliceMoment& slice, render::Frame& frame) {
   const Rectangle& r = slice.shape.rectangle();
   StreamlineStyle style;
-  style.distance = distance_of(slice, line_distance, least_line_distance);
+  style.distance = distance_of(slice, line_distance, min_line_distance);
   style.step = std::min(0.2 * style.distance, 0.5 * slice.cell());
   style.shortest = 1.5 * style.distance;
   style.low = {r.left, r.bottom};

@@ -22,15 +22,16 @@ void add_heat_map(const SliceMoment& slice, render::Frame& frame) {
   map.range_max = static_cast<float>(range.max);
   if (style.isolines > 0)
     map.isoline_step = (map.range_max - map.range_min) / static_cast<float>(style.isolines);
+  std::vector<float>&cover = map.cover.edit(), &value = map.value.edit();
   const FieldSampler sampler(slice.fields);
   for (int row = 0; row < map.rows; ++row)
     for (int column = 0; column < map.columns; ++column) {
       const auto stencil = shape.cover(column, row) > 0
                                ? sampler.at(point_on(slice.plane, shape.u(column), shape.v(row)))
                                : std::nullopt;
-      map.cover.push_back(shape.cover(column, row));
-      map.value.push_back(stencil ? FieldSampler::mean(*stencil, values)
-                                  : std::numeric_limits<float>::quiet_NaN());
+      cover.push_back(shape.cover(column, row));
+      value.push_back(stencil ? FieldSampler::mean(*stencil, values)
+                              : std::numeric_limits<float>::quiet_NaN());
     }
   frame.heat_maps.push_back(std::move(map));
 }

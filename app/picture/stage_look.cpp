@@ -68,8 +68,8 @@ void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::F
     if (!taken.insert({cell(cut.plane.across), cell(cut.plane.up)}).second) continue;
     // In front of the particles of the cut, which would hide its tail.
     const double lift = 0.5 * cut.cell_size - cut.above(x);
-    arrows.position.push_back(to_float(sim::Vec3d(x + lift * cut.side * cut.plane.normal)));
-    arrows.vector.push_back(to_float(change.vector[p]));
+    arrows.position.edit().push_back(to_float(sim::Vec3d(x + lift * cut.side * cut.plane.normal)));
+    arrows.vector.edit().push_back(to_float(change.vector[p]));
   }
   frame.arrows.push_back(std::move(arrows));
 }

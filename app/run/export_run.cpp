@@ -8,15 +8,13 @@
 #include "app/output/folder_lock.h"
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
-#include "app/run/late_times.h"
-#include "app/run/run_json.h"
-#include "app/run/state_source.h"
+#include "app/record/run_json.h"
 #include "app/scene/check.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
+#include "app/timeline/times.h"
 
 namespace neve::app::run {
 
@@ -32,7 +30,7 @@ void check_exports(const scene::Scene& scene) {
   for (const char* key : {"attributes", "format", "surface"})
     if (problem->address.ends_with(std::string(".") + key)) flag = std::string("--") + key;
   if (problem->address.ends_with(".carried")) flag = "--attributes";
-  throw scene::toml::UsageError(flag, problem->message, problem->hint);
+  throw UsageError(flag, problem->message, problem->hint);
 }
 
 /// Cameras that frame the snow, for formats that have cameras.
@@ -106,9 +104,10 @@ void warn_of_other_states(const Json& exports, const Kept& kept, Progress& progr
 
 void write_list(const ExportJob& job, const ExportResult& result, const Kept& kept,
                 const std::vector<output::WrittenFile>& written) {
-  FileHashes files;
+  record::FileHashes files;
   for (const output::WrittenFile& file : written)
-    files[file.file.lexically_relative(job.run.folder).generic_string()] = hash_text(file.hash);
+    files[file.file.lexically_relative(job.run.folder).generic_string()] =
+        record::hash_text(file.hash);
   Json json;
   json["version"] = version;
   json["scene_file"] = job.run.scene_file;
@@ -118,16 +117,14 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
   for (const Json& one : result.exports) json["exports"].push_back(one);
   json["files"] = kept.files;
   for (const auto& [file, hash] : files) json["files"][file] = hash;
-  output::write_file(output::export_list_path(job.run.folder), with_own_hash(json));
+  output::write_file(output::export_list_path(job.run.folder), record::with_own_hash(json));
 }
 
 }  // namespace
 
 ExportJob make_export_job(const ExportOptions& options) {
   ExportJob job;
-  const bool is_run = is_folder(options.run.scene);
-  job.run = is_run ? job_from_run(options.run) : make_job(options.run);
-  if (is_run) job.past = {options.run.scene, read_frame_records(options.run.scene)};
+  job.run = make_job(options.run);
   job.lock_folder = job.run.folder;
   if (options.run.out.empty()) job.run.folder /= output::exports_folder;
   job.run.scene.exports = options.exports;
@@ -149,25 +146,24 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   const output::FolderLock lock(job.lock_folder, "neve export");
   RenderJob run = job.run;
   place_camera(run.scene);
-  const double fps = run.scene.fps;
   const double last = job.times.back();
-  warn_of_late_time(job.are_frames ? "frame " + std::to_string(job.run.frames.last)
-                                   : "--at " + rough_text(last) + " s",
-                    last, run.scene, progress);
-  StateSource source(run, job.past, job.times.front(), threads, progress);
-  const sim::Simulation& simulation = source.simulation();
+  timeline::warn_of_late_time(job.are_frames ? "frame " + std::to_string(job.run.frames.last)
+                                             : "--at " + rough_text(last) + " s",
+                              last, run.scene, progress);
+  timeline::Timeline timeline = timeline::open(run, threads, progress);
+  const sim::Simulation& simulation = timeline.simulation();
   output::make_folder(job.run.folder);
   const Kept kept = replace_earlier(job);
-  exports::Exporter exporter(run.scene, job.run.folder, source.seeded().body_end);
+  exports::Exporter exporter(run.scene, job.run.folder, timeline.seeded().body_end);
   output::PictureWriter writer;
   ExportResult result;
-  progress.start(static_cast<int>(std::floor(job.times.back() * fps * (1 + 1e-12))));
+  progress.start(timeline::frame_at(job.times.back(), run.scene.fps));
   for (const double time : job.times) {
-    if (!source.go_to(time)) break;
+    if (!timeline.go_to(time)) break;
     const int number = job.first_number + static_cast<int>(result.moments++);
-    if (job.are_frames) compare_with_past(job.past, number, simulation.state_hash(), progress);
+    if (job.are_frames) timeline::compare_with_run(run, number, simulation.state_hash(), progress);
     for (exports::Exporter::Work& work :
-         exporter.add(source.scene().colliders, simulation, number, false))
+         exporter.add(timeline.scene().colliders, simulation, number, false))
       writer.write(std::move(work));
   }
   writer.finish();

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "app/exports/exporter.h"
-#include "app/run/past_run.h"
 #include "app/run/render_job.h"
 #include "app/support/progress.h"
 
@@ -24,7 +23,6 @@ struct ExportJob {
   bool are_frames = true;  ///< numbers of files are those of frames
   int first_number = 0;
   std::filesystem::path lock_folder;  ///< no one else may write there meanwhile
-  PastRun past;
 };
 
 /// The folder of a run, a scene or a picture, which names the frame to write where none is asked
@@ -39,7 +37,7 @@ struct ExportResult {
   Json exports;  ///< as in export.json
 };
 
-/// Simulates once, from the newest checkpoint of the run that is early enough or from the start,
+/// Simulates once, from the nearest moment that is kept of the run or from the start,
 /// and writes every moment on the way; DIR/export.json then lists the files.
 /// @throws IoError, LimitError, Error
 ExportResult run_export(const ExportJob& job, int threads, Progress& progress);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
+#include "app/advice/suggest.h"
 #include "app/exports/columns.h"
 #include "app/picture/attributes.h"
 #include "app/scene/names.h"
-#include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::run {
@@ -96,20 +96,6 @@ std::vector<std::string> parse_passes(const std::string& text) {
   return names;
 }
 
-/// Names that other programs give to passes of neve.
-std::string advice_on_pass(const std::string& name) {
-  static const std::map<std::string, std::string> elsewhere{
-      {"z", "depth"},          {"Z", "depth"},       {"n", "normal"},       {"N", "normal"},
-      {"normals", "normal"},   {"P", "position"},    {"diffuse", "albedo"}, {"color", "albedo"},
-      {"velocity", "motion"},  {"vector", "motion"}, {"mv", "motion"},      {"shadows", "shadow"},
-      {"cryptomatte", "body"}, {"object", "body"},   {"mask", "body"}};
-  const auto found = elsewhere.find(name);
-  if (name == "beauty") return "every file has it as R, G, B and A; leave it away";
-  return found == elsewhere.end()
-             ? names_advice(name, known_names())
-             : "did you mean " + found->second + "? expected " + joined(known_names(), ", ");
-}
-
 PassList pass_list(const std::vector<std::string>& names) {
   PassList list;
   for (const std::string& name : names) {
@@ -120,8 +106,8 @@ PassList pass_list(const std::vector<std::string>& names) {
     else if (const auto attribute = scene::value_named<scene::ExportAttribute>(name))
       list.attributes.push_back(*attribute);
     else
-      throw scene::toml::UsageError("--passes", "unknown pass \"" + name + "\"",
-                                    advice_on_pass(name));
+      throw UsageError("--passes", "unknown pass \"" + name + "\"",
+                       advice::suggest_one_of(name, {"pass", known_names()}));
   }
   return list;
 }
@@ -203,10 +189,10 @@ render::channels::Request PassReader::request(const picture::MotionSource& sourc
   return request;
 }
 
-render::ExrHeader PassReader::header(const PictureRecord& record,
+render::ExrHeader PassReader::header(const record::PictureRecord& record,
                                      const render::Frame& frame) const {
   render::ExrHeader header = render::channels::camera_header(frame);
-  header.text = to_png_text(record);
+  header.text = record::to_png_text(record);
   header.fps = scene_.fps;
   header.text["neve:time"] = scene::toml::number_text(record.frame / scene_.fps);
   header.text["neve:bodies"] = numbered(scene::snow_sources(scene_));

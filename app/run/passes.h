@@ -7,7 +7,7 @@
 #include "app/exports/carried.h"
 #include "app/exports/origins.h"
 #include "app/picture/motion.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "render/channels/channels.h"
 #include "render/image/exr.h"
 
@@ -52,7 +52,7 @@ class PassReader {
       const std::vector<render::channels::PointNumbers>& numbers) const;
 
   /// The header: the record of the picture, time, camera, and names by number.
-  render::ExrHeader header(const PictureRecord& record, const render::Frame& frame) const;
+  render::ExrHeader header(const record::PictureRecord& record, const render::Frame& frame) const;
 
  private:
   const scene::Scene& scene_;

@@ -5,7 +5,6 @@
 #include <regex>
 
 #include "app/output/atomic_file.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 
 namespace neve::app::run {
@@ -34,8 +33,8 @@ std::filesystem::path plate_path(const std::string& pattern, int frame) {
     name = found.prefix().str() + fmt::format("{:0{}}", frame, digits) + found.suffix().str();
   }
   if (name.find('%') != std::string::npos)
-    throw scene::toml::UsageError("--plate", "cannot read \"" + pattern + "\"",
-                                  "expected a PNG, or one for each frame, as in street/%04d.png");
+    throw UsageError("--plate", "cannot read \"" + pattern + "\"",
+                     "expected a PNG, or one for each frame, as in street/%04d.png");
   return name;
 }
 

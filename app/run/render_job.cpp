@@ -5,56 +5,20 @@
 #include <set>
 
 #include "app/run/fork.h"
-#include "app/run/picture_record.h"
-#include "app/scene/coarsen.h"
+#include "app/run/passes.h"
 #include "app/scene/read.h"
-#include "app/scene/scene_file.h"
 #include "app/support/errors.h"
-#include "app/support/machine.h"
 #include "app/support/out_folder.h"
 #include "app/support/text.h"
+#include "app/support/version.h"
+#include "app/timeline/changes.h"
 
 namespace neve::app::run {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Degrees at final quality: half of each frame, as film cameras have it.
 constexpr double usual_shutter = 180;
-
-/// Reads the scene with the changes of the user, and with those of --fast where it was given.
-/// @param read  scene(overrides)
-template <class Read>
-void read_scene(const RenderOptions& options, const Read& read, RenderJob& job) {
-  job.overrides.insert(job.overrides.end(), options.overrides.begin(), options.overrides.end());
-  std::vector<scene::Override> changes = scene::parse_overrides(options.overrides);
-  job.scene = read(changes);
-  if (!options.is_fast) return;
-  scene::Scene coarse = job.scene;
-  if (options.coarsening) scene::coarsen(coarse, *options.coarsening);
-  const int last = options.frames ? options.frames->last : job.scene.frames;
-  job.fast = health::fast_look(coarse, last, scene::addresses_of(changes));
-  for (const std::string& change : job.fast->overrides) {
-    changes.push_back(scene::parse_override(change));
-    job.overrides.push_back(change);
-  }
-  job.scene = read(changes);
-}
-
-RenderJob job_from_scene(const RenderOptions& options) {
-  RenderJob job;
-  job.scene_file = options.scene.empty() ? default_scene().string() : options.scene;
-  read_scene(
-      options,
-      [&](const std::vector<scene::Override>& changes) {
-        return scene::read_scene_file(job.scene_file, changes);
-      },
-      job);
-  job.folder = out_folder() / scene::name_of_scene(job.scene_file);
-  job.frames = {0, job.scene.frames};
-  return job;
-}
 
 const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name) {
   for (const scene::Mosaic& mosaic : scene.mosaics)
@@ -85,44 +49,33 @@ void choose_views(const std::vector<std::string>& names, RenderJob& job) {
   job.scene.mosaics = mosaics;
 }
 
-/// Checks that the last change of each address can be set.
-void check_changes(const RenderJob& job) {
-  try {
-    with_changes({scene::write_scene(job.scene), job.scene_file, {}, {}},
-                 changes_of(job.scene, job.changes));
-  } catch (const scene::toml::UsageError& error) {
-    throw Error(exit_invalid_scene, job.scene_file + ": error: " + error.what(), job.scene_file,
-                "its text neve:changes was not written by neve");
-  }
+/// Checks that the last change of each address can be set, and that its passes are known.
+void check_texts(const RenderJob& job) {
+  const auto check = [&](const char* key, const auto& read) {
+    try {
+      read();
+    } catch (const UsageError& error) {
+      throw Error(exit_invalid_scene, job.scene_file + ": error: " + error.what(), job.scene_file,
+                  std::string("its text ") + key + " was not written by neve");
+    }
+  };
+  check("neve:changes",
+        [&] { timeline::with_changes(job.scene, timeline::changes_of(job.scene, job.changes)); });
+  check("neve:passes", [&] { pass_list(job.passes); });
 }
 
-/// The frame and view of a picture, from the scene inside it.
-RenderJob job_from_picture(const RenderOptions& options) {
-  const PictureRecord record = read_picture_record(options.scene);
-  check_files(record);
-  RenderJob job;
-  job.scene_file = options.scene;
-  job.overrides = record.overrides;
-  read_scene(
-      options,
-      [&](const std::vector<scene::Override>& changes) {
-        return scene::read_scene_text(record.scene, options.scene + " (its scene)", {}, changes);
-      },
-      job);
+/// The view of a picture, and how it was drawn.
+void take_picture(const record::PictureRecord& picture, RenderJob& job) {
   char name[32];
-  std::snprintf(name, sizeof name, "%04d-again", record.frame);
+  std::snprintf(name, sizeof name, "%04d-again", picture.frame);
   job.folder = out_folder() / name;
-  job.frames = {record.frame, record.frame};
-  job.quality = setup::quality_named(record.quality);
-  job.changes = record.changes;
-  job.passes = record.passes;
-  job.shutter = record.shutter;
-  job.plate = record.plate;
-  job.coarsening = record.coarsening;
-  choose_views({record.view}, job);
+  job.quality = setup::quality_named(picture.quality);
+  job.passes = picture.passes;
+  job.shutter = picture.shutter;
+  job.plate = picture.plate;
+  choose_views({picture.view}, job);
   job.scene.exports.clear();
-  check_changes(job);
-  return job;
+  check_texts(job);
 }
 
 bool is_only_mosaics(const RenderJob& job) {
@@ -149,29 +102,18 @@ void set_sizes(const RenderOptions& options, scene::Scene& scene) {
 
 }  // namespace
 
-namespace {
-
-/// The overrides of a fork are changes on its way, see set_fork().
-RenderJob job_of_source(const RenderOptions& options) {
-  RenderOptions start = options;
-  if (options.from) start.overrides.clear();
-  if (!options.scene.empty() && is_picture(options.scene)) return job_from_picture(start);
-  return options.from && is_folder(options.scene) ? job_from_run(start) : job_from_scene(start);
-}
-
-}  // namespace
-
 RenderJob make_job(const RenderOptions& options) {
   if (options.from && (options.coarsening || options.is_fast))
-    throw scene::toml::UsageError(options.coarsening ? "--coarsen" : "--fast",
-                                  "cannot be combined with --from: a run keeps its cells and "
-                                  "settings while it runs",
-                                  "coarsen the run that is forked");
-  RenderJob job = job_of_source(options);
-  if (options.coarsening) {
-    scene::coarsen(job.scene, *options.coarsening);
-    job.coarsening *= *options.coarsening;
-  }
+    throw UsageError(options.coarsening ? "--coarsen" : "--fast",
+                     "cannot be combined with --from: a run keeps its cells and "
+                     "settings while it runs",
+                     "coarsen the run that is forked");
+  timeline::Edits edits{options.overrides, options.coarsening, options.is_fast};
+  if (options.frames) edits.last_frame = options.frames->last;
+  if (options.from) edits.overrides.clear();  // changes on its way, see set_fork()
+  RenderJob job{timeline::Origin::of(options.scene, edits), options};
+  job.folder = job.run.empty() ? out_folder() / job.name() : job.run;
+  if (job.picture) take_picture(*job.picture, job);
   if (!options.views.empty()) choose_views(options.views, job);
   if (!options.has_caption)
     for (scene::View& view : job.scene.views) std::erase(view.layers, scene::Layer::caption);
@@ -179,11 +121,9 @@ RenderJob make_job(const RenderOptions& options) {
   if (options.frames) job.frames = *options.frames;
   if (options.quality) job.quality = *options.quality;
   if (!options.out.empty()) job.folder = options.out;
-  // A picture has its own shutter, unless another quality is asked for.
-  const bool has_own = !options.scene.empty() && is_picture(options.scene) && !options.quality;
   if (options.shutter)
     job.shutter = *options.shutter;
-  else if (!has_own)
+  else if (!job.picture || options.quality)  // a picture has its own
     job.shutter = job.quality == setup::Quality::final ? usual_shutter : 0;
   if (!options.plate.empty()) job.plate = options.plate;
   if (!options.passes.empty()) job.passes = options.passes;
@@ -191,19 +131,42 @@ RenderJob make_job(const RenderOptions& options) {
     for (const auto& [flag, value] :
          {std::pair{"--passes", joined(options.passes, ",")}, std::pair{"--plate", options.plate}})
       if (!value.empty())
-        throw scene::toml::UsageError(flag, "cannot be used with a mosaic",
-                                      "name one of its views with --view");
+        throw UsageError(flag, "cannot be used with a mosaic", "name one of its views with --view");
     job.passes.clear();
     job.plate.clear();
   }
-  job.validate = options.validate;
-  job.resume = options.resume;
-  job.checkpoint_every = options.checkpoint_every;
-  job.keeps_states = options.keeps_states;
-  job.has_movies = options.has_movies && options.movie.is_made;
-  job.movie = options.movie;
   if (options.from) set_fork(options, job);
   return job;
+}
+
+record::PictureRecord picture_record(const RenderJob& job, const std::string& scene,
+                                     const std::string& simd) {
+  record::PictureRecord picture;
+  picture.scene = scene;
+  picture.build = build_text(simd);
+  picture.overrides = job.overrides;
+  picture.changes = job.changes;
+  picture.coarsening = job.coarsening;
+  picture.seed = job.scene.seed;
+  picture.version = version;
+  picture.quality = setup::name(job.quality);
+  picture.plate = job.plate;
+  picture.shutter = job.shutter;
+  picture.passes = job.passes;
+  picture.files = record::hash_files(job.scene);
+  return picture;
+}
+
+record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation) {
+  record::RunRecord record;
+  record.scene = scene::write_scene(job.scene);
+  record.scene_file = job.scene_file;
+  record.overrides = job.overrides;
+  record.changes = job.changes;
+  record.coarsening = job.coarsening;
+  record.threads = simulation.threads();
+  record.simd = simulation.simd();
+  return record;
 }
 
 }  // namespace neve::app::run

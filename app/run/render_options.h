@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "app/options/option.h"
 #include "app/output/movie_format.h"
+#include "app/setup/caps.h"
 #include "app/setup/plan.h"
 #include "app/support/progress.h"
 
@@ -15,13 +17,14 @@ struct RenderOptions {
   std::string scene;  ///< a scene file or a picture; empty: the default scene
   std::vector<std::string> overrides;
   std::optional<double> coarsening;
-  bool is_fast = false;        ///< with the settings of health::fast_look
+  bool is_fast = false;        ///< with the settings of forecast::fast_look
   std::optional<double> from;  ///< s: a fork of the scene's run there, the overrides are changes
   std::optional<setup::FrameRange> frames;
   std::vector<std::string> views;
   std::optional<scene::PictureSize> size;
   std::string out;
   int threads = 0;  ///< 0: one per core
+  setup::CapTexts caps;
   std::string backend = "auto";
   std::optional<setup::Quality> quality;
   std::string plate;                ///< see plate.h; empty: none
@@ -45,5 +48,19 @@ struct RenderOptions {
   bool dry_run = false;
   bool is_json = false;
 };
+
+/// neve render
+void describe(options::Command& visit, RenderOptions& options);
+
+/// Of SCENE, in commands that look at a run.
+inline constexpr const char* origin_help =
+    "Scene file (TOML), - for standard input, a picture made by neve, or the folder of a run; "
+    "default: a falling snowball";
+
+/// The scene and its changes, for all commands that simulate one. @param help  of SCENE
+void describe_scene(options::Command& visit, RenderOptions& options,
+                    const char* help =
+                        "Scene file (TOML), - for standard input, or a picture made by neve, to "
+                        "make that frame and view again; default: a falling snowball");
 
 }  // namespace neve::app::run

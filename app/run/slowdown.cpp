@@ -15,17 +15,17 @@ constexpr double short_frame = 2;    ///< s; nobody waits for it
 /// Causes that explain less are left out; seconds vary with what else the machine does.
 constexpr double notable = 1.5, notable_cost = 2.5;
 
-double steps_of(const FrameRecord& frame) {
+double steps_of(const record::FrameRecord& frame) {
   return static_cast<double>(frame.advance.steps);
 }
 
-double blocks_per_particle(const FrameRecord& frame) {
+double blocks_per_particle(const record::FrameRecord& frame) {
   return static_cast<double>(frame.summary.grid_blocks) /
          static_cast<double>(frame.summary.particles);
 }
 
 /// Why dt is what it is.
-std::string cause_of(const FrameRecord& frame) {
+std::string cause_of(const record::FrameRecord& frame) {
   switch (frame.advance.limit()) {
     case sim::DtLimit::acoustic:
       return fmt::format(
@@ -44,15 +44,16 @@ std::string cause_of(const FrameRecord& frame) {
 
 }  // namespace
 
-std::optional<std::string> slowdown_warning(const std::vector<FrameRecord>& frames) {
-  const auto moves = [](const FrameRecord& frame) {
+std::optional<std::string> slowdown_warning(const std::vector<record::FrameRecord>& frames) {
+  const auto moves = [](const record::FrameRecord& frame) {
     return frame.advance.steps > 0 && frame.summary.particles > 0;
   };
   const auto first = std::find_if(frames.begin(), frames.end(), moves);
   if (first == frames.end()) return std::nullopt;
-  const FrameRecord& slow = *std::max_element(
-      first, frames.end(),
-      [](const FrameRecord& a, const FrameRecord& b) { return a.seconds_sim < b.seconds_sim; });
+  const record::FrameRecord& slow = *std::max_element(
+      first, frames.end(), [](const record::FrameRecord& a, const record::FrameRecord& b) {
+        return a.seconds_sim < b.seconds_sim;
+      });
   const double ratio = slow.seconds_sim / first->seconds_sim;
   if (!(ratio >= worth_a_word && slow.seconds_sim >= short_frame)) return std::nullopt;
   std::string text = fmt::format("frame {} took {} s, {} times as long as frame {}", slow.frame,
@@ -65,8 +66,8 @@ std::optional<std::string> slowdown_warning(const std::vector<FrameRecord>& fram
       static_cast<double>(slow.summary.particles) / static_cast<double>(first->summary.particles);
   if (more_snow > notable)
     text += fmt::format("; {} times as many particles", rough_text(more_snow));
-  const double dearer =
-      (slow.seconds_sim / particle_steps(slow)) / (first->seconds_sim / particle_steps(*first));
+  const double dearer = (slow.seconds_sim / record::particle_steps(slow)) /
+                        (first->seconds_sim / record::particle_steps(*first));
   if (dearer > notable_cost)
     text += fmt::format("; each step of a particle costs {} times as much, {}", rough_text(dearer),
                         blocks_per_particle(slow) > notable * blocks_per_particle(*first)

@@ -6,13 +6,12 @@
 #include "app/output/atomic_file.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/legends.h"
-#include "app/run/late_times.h"
-#include "app/run/picture_record.h"
-#include "app/run/state_source.h"
+#include "app/record/picture_record.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/resolve.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
+#include "app/timeline/times.h"
 #include "render/frame/compose.h"
 #include "render/gl/context.h"
 #include "render/renderer.h"
@@ -23,12 +22,6 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> behind_tiles{38, 42, 49};
 constexpr double screen_aspect = 16.0 / 9;
-
-/// The moments of a picture that neve strip made; nothing for any other scene.
-std::optional<StripRecord> strip_of(const std::string& scene) {
-  if (scene.empty() || is_folder(scene) || !is_picture(scene)) return std::nullopt;
-  return read_picture_record(scene).strip;
-}
 
 /// Frames spread evenly from the first to the last, each once.
 std::vector<double> spread_times(const setup::FrameRange& frames, double fps, int tiles) {
@@ -101,22 +94,22 @@ class Strip {
         layout_(job, setup::size_of(scene, scene.views.front()), words_.size(), !legends_.empty()) {
   }
 
-  void add(const StateSource& source, const scene::Scene& resolved) {
+  void add(const timeline::Timeline& timeline, const scene::Scene& resolved) {
     // The changes of the run count, the look is that of the job.
-    scene::Scene scene = source.scene();
+    scene::Scene scene = timeline.scene();
     scene.camera = resolved.camera;
     scene.views = {tile_view(resolved.views.front())};
-    const double fps = scene.fps, time = source.simulation().time();
+    const double fps = scene.fps, time = timeline.simulation().time();
     const picture::Snapshot snapshot = picture::take_snapshot(
-        scene, scene.views, source.simulation(), static_cast<int>(std::lround(time * fps)));
-    render::Frame frame = picture::FrameBuilder(scene, source.seeded(), {job_.run.quality, {}, 1})
+        scene, scene.views, timeline.simulation(), static_cast<int>(std::lround(time * fps)));
+    render::Frame frame = picture::FrameBuilder(scene, timeline.seeded(), {job_.run.quality, {}, 1})
                               .build(scene.views.front(), snapshot);
     frame.caption = {"t = " + fixed_text(time, 3) + " s"};
     frame.footnote.clear();
     if (!tiles_.empty()) frame.scale_bar.reset();  // all tiles have one scale
     const std::size_t at = tiles_.size();
     tiles_.push_back({layout_.x(at), layout_.y(at), renderer_.draw(frame)});
-    state_hash_ = source.simulation().state_hash();
+    state_hash_ = timeline.simulation().state_hash();
   }
 
   render::Image finish() const {
@@ -134,14 +127,14 @@ class Strip {
   std::size_t count() const { return tiles_.size(); }
 
   /// @param scene  resolved, TOML
-  PictureRecord record(const std::string& scene, const std::string& simd) const {
-    PictureRecord record = record_of_job(job_.run, scene, simd);
+  record::PictureRecord record(const std::string& scene, const std::string& simd) const {
+    record::PictureRecord record = picture_record(job_.run, scene, simd);
     const std::vector<double> drawn(job_.times.begin(),
                                     job_.times.begin() + static_cast<std::ptrdiff_t>(count()));
-    record.strip = StripRecord{drawn, job_.columns, job_.width};
+    record.strip = record::StripRecord{drawn, job_.columns, job_.width};
     record.view = job_.run.scene.views.front().name;
     record.frame = static_cast<int>(std::lround(drawn.back() * job_.run.scene.fps));
-    record.state_hash = hash_text(state_hash_);
+    record.state_hash = record::hash_text(state_hash_);
     return record;
   }
 
@@ -170,16 +163,16 @@ StripJob make_strip_job(const StripOptions& options) {
   StripJob job;
   RenderOptions run = options.run;
   run.out.clear();
-  const bool is_run = is_folder(run.scene);
-  const std::optional<StripRecord> made_again = strip_of(run.scene);
-  job.run = is_run ? job_from_run(run) : make_job(run);
-  if (is_run) job.past = {run.scene, read_frame_records(run.scene)};
+  job.run = make_job(run);
+  /// The moments of a picture that neve strip made.
+  const std::optional<record::StripRecord> made_again =
+      job.run.picture ? job.run.picture->strip : std::nullopt;
   if (!job.run.scene.mosaics.empty() && !run.views.empty() && job.run.scene.views.size() > 1)
-    throw scene::toml::UsageError("--view", "a mosaic has no strip", "give one of its views");
+    throw UsageError("--view", "a mosaic has no strip", "give one of its views");
   job.run.scene.mosaics.clear();
   job.run.scene.views.resize(1);
   const scene::Scene& scene = job.run.scene;
-  const bool is_picture_of_one = !is_run && !run.frames && job.run.frames.first > 0;
+  const bool is_picture_of_one = job.run.picture && !run.frames && job.run.frames.first > 0;
   const setup::FrameRange frames =
       is_picture_of_one ? setup::FrameRange{0, job.run.frames.last} : job.run.frames;
   const bool has_moments = !options.at.empty() || options.tiles || options.run.frames;
@@ -206,23 +199,24 @@ StripResult run_strip(const StripJob& job, const RenderOptions& options, Progres
   const auto context = render::gl::open_context(options.backend);
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, options.shader_dir, &pool);
-  warn_of_late_time(rough_text(job.times.back()) + " s", job.times.back(), job.run.scene, progress);
-  StateSource source(job.run, job.past, job.times.front(), options.threads, progress);
+  timeline::warn_of_late_time(rough_text(job.times.back()) + " s", job.times.back(), job.run.scene,
+                              progress);
+  timeline::Timeline timeline = timeline::open(job.run, options.threads, progress);
   scene::Scene resolved = job.run.scene;
-  setup::resolve(resolved, source.seeded().planned);
+  setup::resolve(resolved, timeline.seeded().planned);
   Strip strip(job, resolved, renderer);
   progress.start(job.run.frames.last);
   for (const double time : job.times) {
-    if (!source.go_to(time)) break;
-    strip.add(source, resolved);
+    if (!timeline.go_to(time)) break;
+    strip.add(timeline, resolved);
   }
   progress.clear();
-  StripResult result{strip.count(), source.simulation().divergence()};
+  StripResult result{strip.count(), timeline.simulation().divergence()};
   if (result.tiles > 0) {
     if (job.file.has_parent_path()) output::make_folder(job.file.parent_path());
-    const PictureRecord record =
-        strip.record(scene::write_scene(resolved), source.simulation().simd());
-    output::write_file(job.file, render::encode_png(strip.finish(), to_png_text(record)));
+    const record::PictureRecord record =
+        strip.record(scene::write_scene(resolved), timeline.simulation().simd());
+    output::write_file(job.file, render::encode_png(strip.finish(), record::to_png_text(record)));
   }
   return result;
 }

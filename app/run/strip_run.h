@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "app/run/past_run.h"
 #include "app/run/render_job.h"
 #include "app/support/progress.h"
 
@@ -20,8 +19,7 @@ struct StripOptions {
 };
 
 struct StripJob {
-  RenderJob run;  ///< its scene has one view
-  PastRun past;
+  RenderJob run;              ///< its scene has one view
   std::vector<double> times;  ///< s
   int columns = 1, width = 1920;
   std::filesystem::path file;
@@ -35,7 +33,7 @@ struct StripResult {
   std::optional<sim::Divergence> divergence;
 };
 
-/// Simulates once, from the newest checkpoint of the run that is early enough or from the start,
+/// Simulates once, from the nearest moment that is kept of the run or from the start,
 /// and draws each time on the way. The picture is written also if the run ends early.
 /// @throws IoError, LimitError, Error
 StripResult run_strip(const StripJob& job, const RenderOptions& options, Progress& progress);

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/advice/suggest.h"
 #include "app/scene/leaf.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
-#include "app/scene/search.h"
 #include "app/support/text.h"
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
@@ -83,6 +83,11 @@ struct PlaceKey {
   const char* operator()(const sim::shapes::Points&) const { return ".points.center"; }
 };
 
+/// For names of things in the scene.
+std::string name_advice(const std::string& name, const std::vector<std::string>& known) {
+  return advice::suggest(name, {"", known, true}, "expected " + list_of(known));
+}
+
 Found material_problem(const Scene& scene, const std::string& wanted, const std::string& address) {
   std::vector<std::string> names;
   for (const sim::Material& material : scene.materials) {
@@ -93,10 +98,8 @@ Found material_problem(const Scene& scene, const std::string& wanted, const std:
     return Problem{address + ".material",
                    toml::toml_string(wanted) + " is a preset, not a material of this scene",
                    "add [material." + wanted + "] with preset = " + toml::toml_string(wanted)};
-  const std::string nearest = nearest_name(wanted, names);
   return Problem{address + ".material", "there is no material " + toml::toml_string(wanted),
-                 nearest.empty() ? "expected " + list_of(names)
-                                 : "did you mean " + toml::toml_string(nearest) + "?"};
+                 name_advice(wanted, names)};
 }
 
 Found too_far(const Scene& scene, const sim::Vec3d& x, const std::string& address) {
@@ -248,10 +251,8 @@ Found follow_problem(const Scene& scene, const std::string& follow, const std::s
     if (body.name == follow) return {};
     names.push_back(body.name);
   }
-  const std::string nearest = nearest_name(follow, names);
   return Problem{at + ".follow", "there is no body " + toml::toml_string(follow),
-                 nearest.empty() ? "expected " + list_of(names)
-                                 : "did you mean " + toml::toml_string(nearest) + "?"};
+                 name_advice(follow, names)};
 }
 
 Found slice_problem(const Scene& scene, const SliceStyle& slice, const std::string& at) {
@@ -282,10 +283,8 @@ Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
   }
   for (const std::string& name : mosaic.views) {
     if (is_view(name)) continue;
-    const std::string nearest = nearest_name(name, drawable);
     return Problem{at + ".views", "there is no view " + toml::toml_string(name),
-                   nearest.empty() ? "expected " + list_of(drawable)
-                                   : "did you mean " + toml::toml_string(nearest) + "?"};
+                   name_advice(name, drawable)};
   }
   return {};
 }
@@ -345,7 +344,7 @@ Found carried_problem(const Scene& scene, const Export& e) {
     for (const std::string& column : columns)
       if (std::find(ours.begin(), ours.end(), column) == ours.end()) known.push_back(column);
     return Problem{at, "there is no attribute " + quoted + ", and no point file has such a column",
-                   attribute_advice(name, known)};
+                   advice::suggest_one_of(name, {"attribute", known})};
   }
   return {};
 }
@@ -364,7 +363,7 @@ Found export_problem(const Scene& scene, const Export& e) {
   for (const std::string& name : e.bodies) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     return Problem{at + ".bodies", "there is no body or emitter " + toml::toml_string(name),
-                   names_advice(name, names)};
+                   advice::suggest_one_of(name, {"", names})};
   }
   if (scene.emitters.size() < 2) return {};
   const bool needs_origin =

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "app/scene/describe.h"
-#include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -22,10 +22,9 @@ struct RangeCheck {
   void operator()(const char* key, double member, const char*, const Valid& valid, Change,
                   const char*) const {
     if (valid.contains(member)) return;
-    throw toml::UsageError(
-        argument(factor),
-        std::string("solver.") + key + " would become " + toml::number_text(member),
-        "expected " + valid.text_of_bounds());
+    throw UsageError(argument(factor),
+                     std::string("solver.") + key + " would become " + toml::number_text(member),
+                     "expected " + valid.text_of_bounds());
   }
   template <class T>
   void operator()(const char*, const T&, const char*, const Valid&, Change, const char*) const {}
@@ -60,8 +59,8 @@ void refuse_empty_bodies(const Scene& scene, double factor) {
     const double full = sim::seeding::expected_particles(body, scene.solver.cell_size);
     // A body too small for one particle at full resolution has one all the same.
     if (full < 1 || full / (factor * factor * factor) >= 1) continue;
-    throw toml::UsageError(argument(factor), "no particle of body " + body.name + " would be left",
-                           "at most " + text_below(std::cbrt(full)) + " leaves one");
+    throw UsageError(argument(factor), "no particle of body " + body.name + " would be left",
+                     "at most " + text_below(std::cbrt(full)) + " leaves one");
   }
 }
 
@@ -69,8 +68,8 @@ void refuse_empty_bodies(const Scene& scene, double factor) {
 
 void coarsen(Scene& scene, double factor) {
   if (!(factor >= 1) || !std::isfinite(factor))
-    throw toml::UsageError("--coarsen", "cannot use " + toml::number_text(factor),
-                           "expected a number of at least 1, as in --coarsen 2");
+    throw UsageError("--coarsen", "cannot use " + toml::number_text(factor),
+                     "expected a number of at least 1, as in --coarsen 2");
   if (factor == 1) return;
   refuse_empty_bodies(scene, factor);
   scale_settings(scene, factor);

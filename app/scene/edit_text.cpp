@@ -10,6 +10,8 @@
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_layout.h"
 #include "app/scene/toml/toml_source.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
 
 namespace neve::app::scene {
 
@@ -24,17 +26,11 @@ std::string path_text(const Words& words, std::size_t first, std::size_t end) {
   return text;
 }
 
-std::string without_blanks(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
 /// Text of the value in the file: numbers, arrays and tables as they were given.
 std::string literal_of(const Override& change) {
   const std::optional<ParamInfo> info = param_at(change.address);
   const toml::Value value = value_of(change, info ? info->type : "table");
-  const std::string text = without_blanks(change.value);
+  const std::string text = trimmed(change.value);
   const auto* word = std::get_if<std::string>(&value.data);
   const bool is_quoted = text.starts_with('"') || text.starts_with('\'');
   return word && !is_quoted ? toml::toml_string(*word) : text;
@@ -95,9 +91,8 @@ class Edit {
   }
 
   [[noreturn]] void fail(const std::string& why) const {
-    change_.fail(
-        change_.place, "cannot be written into the file: " + why,
-        "change the file by hand: " + change_.address + " = " + without_blanks(change_.value));
+    change_.fail(change_.place, "cannot be written into the file: " + why,
+                 "change the file by hand: " + change_.address + " = " + trimmed(change_.value));
   }
 
   void replace(toml::Span span, const std::string& with) {
@@ -408,9 +403,8 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
     // A text that cannot be read is not returned, for any reason.
   }
   if (is_right) return edited;
-  throw toml::UsageError(name,
-                         "the changed values cannot be written into this file in its present form",
-                         "save the scene under another name, or change the file by hand");
+  throw UsageError(name, "the changed values cannot be written into this file in its present form",
+                   "save the scene under another name, or change the file by hand");
 }
 
 }  // namespace neve::app::scene

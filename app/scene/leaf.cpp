@@ -6,14 +6,11 @@
 #include <filesystem>
 #include <string_view>
 
-#include "app/scene/export_advice.h"
-#include "app/scene/foreign_names.h"
-#include "app/scene/number_advice.h"
+#include "app/advice/number_advice.h"
+#include "app/advice/suggest.h"
+#include "app/advice/wishes.h"
 #include "app/scene/presets.h"
-#include "app/scene/search.h"
 #include "app/scene/toml/error.h"
-#include "app/scene/wishes.h"
-#include "app/support/lower_text.h"
 #include "app/support/text.h"
 #include "sim/shapes/numbered_files.h"
 
@@ -29,7 +26,7 @@ double bounded_number(const Leaf& leaf, const std::string& kind) {
     x = *f;
   } else {
     const auto* text = std::get_if<std::string>(&leaf.value.data);
-    leaf.fail(kind, text ? number_advice(*text, leaf.unit) : "");
+    leaf.fail(kind, text ? advice::number_advice(*text, leaf.unit) : "");
   }
   if (!std::isfinite(x)) leaf.fail("a finite number");
   if (!leaf.valid.contains(x)) leaf.fail(leaf.valid.text_of_bounds());
@@ -54,17 +51,15 @@ std::string advice_on_file(const std::string& name, const std::filesystem::path&
   const std::string looked = "looked for " + file.string();
   if (name.starts_with("~")) return looked + "; ~ is no folder here: write the whole path";
   if (name.find('\\') != std::string::npos) return looked + "; folders have / between them";
-  const std::string wanted = lower_text(file.filename().string());
   std::vector<std::string> names;
   std::error_code error;
   for (std::filesystem::directory_iterator at(file.parent_path(), error), end;
        !error && at != end && names.size() < 10'000; at.increment(error)) {
     names.push_back(at->path().filename().string());
-    if (lower_text(names.back()) == wanted) return looked + "; did you mean " + names.back() + "?";
   }
   std::sort(names.begin(), names.end());
-  const std::string nearest = nearest_name(file.filename().string(), names);
-  return nearest.empty() ? looked : looked + "; did you mean " + nearest + "?";
+  const std::string question = advice::suggest(file.filename().string(), {"", names});
+  return looked + (question.empty() ? "" : "; " + question);
 }
 
 std::string existing_file(const Leaf& leaf, const std::string& name) {
@@ -88,7 +83,7 @@ void refuse_few_bytes(const Leaf& leaf) {
   const auto* count = std::get_if<std::int64_t>(&leaf.value.data);
   if (count && *count > 0 && *count < 1'000'000)
     leaf.fail("bytes, or a size such as \"8GiB\" or \"500MB\"",
-              "did you mean \"" + std::to_string(*count) + "GiB\"?");
+              advice::did_you_mean(std::to_string(*count) + "GiB", true));
 }
 
 }  // namespace
@@ -195,7 +190,8 @@ void read_leaf(const Leaf& leaf, std::string& member) {
 void read_leaf(const Leaf& leaf, sim::Vec3d& member) {
   const char* const wanted = "three numbers [x, y, z]";
   const auto* items = std::get_if<toml::Array>(&leaf.value.data);
-  if (!items || items->size() != 3) leaf.fail(wanted, vector_advice(leaf.value, leaf.address));
+  if (!items || items->size() != 3)
+    leaf.fail(wanted, advice::vector_advice(leaf.value, leaf.address));
   for (std::size_t k = 0; k < 3; ++k) {
     read_leaf(leaf.element(k), member[static_cast<Eigen::Index>(k)]);
   }
@@ -304,25 +300,20 @@ std::string list_of(const std::vector<std::string>& names) {
 
 namespace {
 
-/// Advice for words that are right elsewhere; empty: none.
-/// @param nearest of the allowed words; empty: none is near
-std::string advice_on_choice(const Leaf& leaf, const std::string& text,
-                             const std::string& nearest) {
-  if (std::string advice = choice_advice(leaf.address, text); !advice.empty()) return advice;
-  const bool is_of_export = leaf.address.starts_with("export.");
-  if (is_of_export && leaf.address.ends_with(".format")) return export_format_advice(text);
-  const bool is_attribute = is_of_export && leaf.address.find(".attributes[") != std::string::npos;
-  if (is_attribute && nearest.empty()) {
-    const std::string ours = our_attribute(text, choices<ExportAttribute>());
-    return (ours.empty() ? "" : "did you mean " + toml::toml_string(ours) + "? ") +
-           std::string("columns of point files are named in carried");
-  }
-  if (!is_preset_address(leaf.address) || !nearest.empty()) return {};
-  for (const Wish* wish : wishes_for(text)) {
-    const WishChange& change = wish->changes.front();
-    return "for snow that is " + std::string(wish->name) + " see " + change.address +
+/// What a choice is called in the table of words.
+std::string context_of(const std::string& address) {
+  if (!address.starts_with("export.")) return address;
+  return address.ends_with(".format")                        ? "format of an export"
+         : address.find(".attributes[") != std::string::npos ? "attribute"
+                                                             : address;
+}
+
+/// Advice for words that no table has; empty: none.
+std::string advice_on_choice(const std::string& address, const std::string& text) {
+  if (!is_preset_address(address)) return {};
+  for (const advice::Wish* wish : advice::wishes_for(text))
+    return "for snow that is " + std::string(wish->name) + " see " + wish->changes.front().address +
            " (neve params " + text + ")";
-  }
   return {};
 }
 
@@ -330,9 +321,11 @@ std::string advice_on_choice(const Leaf& leaf, const std::string& text,
 
 void fail_choice(const Leaf& leaf, const std::vector<std::string>& allowed) {
   const auto* text = std::get_if<std::string>(&leaf.value.data);
-  const std::string nearest = text ? nearest_name(*text, allowed) : "";
-  std::string hint = text ? advice_on_choice(leaf, *text, nearest) : "";
-  if (hint.empty() && !nearest.empty()) hint = "did you mean " + toml::toml_string(nearest) + "?";
+  if (!text) leaf.fail(list_of(allowed));
+  const advice::Context context{context_of(leaf.address), allowed, true};
+  std::string hint = advice::suggest(*text, context, advice_on_choice(leaf.address, *text));
+  if (context.name == "attribute" && advice::nearest_name(*text, allowed).empty())
+    hint += (hint.empty() ? "" : " ") + std::string("columns of point files are named in carried");
   leaf.fail(list_of(allowed), hint);
 }
 

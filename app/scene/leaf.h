@@ -80,13 +80,6 @@ std::string type_of(const std::optional<Range>&);
 /// "a, b or c", quoted as in TOML.
 std::string list_of(const std::vector<std::string>& names);
 
-template <Choice E>
-std::vector<std::string> choices() {
-  std::vector<std::string> texts;
-  for (const auto& name : names(E{})) texts.emplace_back(name.text);
-  return texts;
-}
-
 /// Fails with the names that are allowed, and the nearest.
 [[noreturn]] void fail_choice(const Leaf& leaf, const std::vector<std::string>& allowed);
 

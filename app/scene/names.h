@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/scene/presets.h"
 #include "app/scene/scene.h"
@@ -170,6 +171,13 @@ constexpr const char* name(E value) {
     if (name.value == value) return name.text;
   }
   return "";
+}
+
+template <Choice E>
+std::vector<std::string> choices() {
+  std::vector<std::string> texts;
+  for (const auto& name : names(E{})) texts.emplace_back(name.text);
+  return texts;
 }
 
 template <Choice E>

@@ -3,25 +3,20 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/scene/foreign_names.h"
+#include "app/advice/suggest.h"
 #include "app/scene/leaf.h"
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/scene/toml/toml_text.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
 namespace {
 
 using Path = std::vector<std::string>;
-
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
 
 /// The parameter with NAME replaced by each name there is.
 std::vector<std::string> addresses_of(const ParamInfo& info, const toml::Table& root) {
@@ -57,38 +52,58 @@ void refuse_unknown_name(const Override& change, const toml::Table& root) {
   }
 }
 
-/// "hardning": the address of hardening.
-std::string address_of_nearest_name(const std::string& word,
-                                    const std::vector<std::string>& known) {
-  std::vector<std::string> names;
-  for (const std::string& address : known) names.push_back(address.substr(address.rfind('.') + 1));
-  const std::string nearest = nearest_name(word, names);
-  if (nearest.empty()) return {};
-  const auto at = std::find(names.begin(), names.end(), nearest) - names.begin();
-  return known[static_cast<std::size_t>(at)];
+/// Addresses of one name: "material.snow.hardening" and others of "hardening".
+Path addresses_with(const std::string& name, const Path& known) {
+  Path found;
+  for (const std::string& address : known)
+    if (address.ends_with("." + name)) found.push_back(address);
+  return found;
 }
 
-[[noreturn]] void fail_unknown(const Override& change, const std::vector<std::string>& known) {
-  std::string nearest;
-  for (const std::string& address : known) {
-    // "hardening" alone: say where it is.
-    if (nearest.empty() && address.ends_with("." + change.address)) nearest = address;
+std::string last_word(const std::string& address) {
+  return address.substr(address.rfind('.') + 1);
+}
+
+/// The address whose last word is meant: "material.snow.theta_c", or "theta_c" alone, is
+/// material.snow.critical_compression. "": none.
+std::string our_address(const std::string& address, const Path& known) {
+  const std::string word = last_word(address);
+  const std::string table = address.substr(0, address.size() - word.size());
+  advice::Context in_table{"key", {}}, anywhere{"key", {}};
+  for (const std::string& one : known) {
+    if (one == table + last_word(one)) in_table.known.push_back(last_word(one));
+    anywhere.known.push_back(last_word(one));
   }
-  if (nearest.empty()) nearest = our_address(change.address, known);
-  // "solver.hardening", "outptu.size", "solver.hardness": the word is right, its table is another.
-  const std::string word = change.address.substr(change.address.rfind('.') + 1);
-  std::vector<std::string> same;
-  for (const std::string& address : known)
-    if (address.ends_with("." + word)) same.push_back(address);
-  if (nearest.empty()) nearest = nearest_name(change.address, same);
+  if (const std::string ours = advice::our_name(word, in_table); !ours.empty()) return table + ours;
+  const std::string ours = table.empty() ? advice::our_name(word, anywhere) : "";
+  const auto found = std::find(anywhere.known.begin(), anywhere.known.end(), ours);
+  return found == anywhere.known.end()
+             ? ""
+             : known[static_cast<std::size_t>(found - anywhere.known.begin())];
+}
+
+/// "hardning": the address of hardening.
+std::string address_of_nearest_name(const std::string& word, const Path& known) {
+  Path names;
+  for (const std::string& address : known) names.push_back(last_word(address));
+  const auto at = std::find(names.begin(), names.end(), advice::nearest_name(word, names));
+  return at == names.end() ? "" : known[static_cast<std::size_t>(at - names.begin())];
+}
+
+[[noreturn]] void fail_unknown(const Override& change, const Path& known) {
+  // "hardening" alone: say where it is. "solver.hardening", "outptu.size", "solver.hardness": the
+  // word is right, its table is another.
+  const std::string word = last_word(change.address);
+  const Path alone = addresses_with(change.address, known), same = addresses_with(word, known);
+  std::string nearest = alone.empty() ? our_address(change.address, known) : alone.front();
+  if (nearest.empty()) nearest = advice::nearest_name(change.address, same);
   if (nearest.empty() && !same.empty()) nearest = same.front();
   if (nearest.empty()) nearest = our_address(word, known);
-  if (nearest.empty()) nearest = nearest_name(change.address, known);
-  if (nearest.empty() && change.address.find('.') == std::string::npos)
-    nearest = address_of_nearest_name(change.address, known);
-  change.fail(change.key, "unknown parameter " + toml::toml_string(change.address),
-              nearest.empty() ? "neve params lists all of them"
-                              : "did you mean " + toml::toml_string(nearest) + "?");
+  if (nearest.empty()) nearest = advice::nearest_name(change.address, known);
+  if (nearest.empty() && word == change.address) nearest = address_of_nearest_name(word, known);
+  change.fail(
+      change.key, "unknown parameter " + toml::toml_string(change.address),
+      nearest.empty() ? "neve params lists all of them" : advice::did_you_mean(nearest, true));
 }
 
 /// Entries without names are set together: "camera.keyframes" for "camera.keyframes[N].time".
@@ -249,17 +264,14 @@ bool takes_away(const Override& change) {
 void Override::fail(toml::Location where, const std::string& message,
                     const std::string& hint) const {
   if (!file.empty()) throw toml::SceneError(file, where.line, where.column, message, hint);
-  throw toml::UsageError(flag + " " + address + "=" + value, message, hint);
+  throw UsageError(flag + " " + address + "=" + value, message, hint);
 }
 
 Override parse_override(std::string_view text) {
   const auto equals = text.find('=');
   if (equals == std::string_view::npos || trimmed(text.substr(0, equals)).empty()) {
-    if (text.starts_with("--"))
-      throw toml::UsageError("--set", "has no value: the flag " + std::string(text) + " follows it",
-                             "expected ADDRESS=VALUE, as in --set material.snow.hardening=5");
-    throw toml::UsageError("--set " + std::string(text), "expected ADDRESS=VALUE",
-                           "for example --set material.snow.hardening=5");
+    throw UsageError("--set " + std::string(text), "expected ADDRESS=VALUE",
+                     "for example --set material.snow.hardening=5");
   }
   return {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))};
 }
@@ -274,6 +286,12 @@ std::vector<std::string> addresses_of(const std::vector<Override>& changes) {
   std::vector<std::string> addresses;
   for (const Override& change : changes) addresses.push_back(change.address);
   return addresses;
+}
+
+std::vector<std::string> texts_of(const std::vector<Override>& changes) {
+  std::vector<std::string> texts;
+  for (const Override& change : changes) texts.push_back(change.address + "=" + change.value);
+  return texts;
 }
 
 std::vector<std::string> item_names(const toml::Value& items) {

@@ -29,6 +29,8 @@ Override parse_override(std::string_view argument);
 std::vector<Override> parse_overrides(const std::vector<std::string>& arguments);
 
 std::vector<std::string> addresses_of(const std::vector<Override>& changes);
+/// "ADDRESS=VALUE" of each, as parse_overrides() reads them.
+std::vector<std::string> texts_of(const std::vector<Override>& changes);
 
 /// Puts the value into the document, creating tables on the way. Later ones win. A preset takes the
 /// place of the numbers that the document has beside it, so presets come first.

@@ -75,7 +75,7 @@ std::string params_json(const std::vector<ParamInfo>& params) {
     if (!info.choices.empty()) item["choices"] = info.choices;
     if (info.valid.is_required) item["required"] = true;
     if (info.valid.is_min_open) item["min_open"] = true;
-    if (info.valid.least_above_0 > 0) item["least_above_0"] = info.valid.least_above_0;
+    if (info.valid.min_above_0 > 0) item["min_above_0"] = info.valid.min_above_0;
     if (info.valid.is_max_open) item["max_open"] = true;
     list.push_back(std::move(item));
   }

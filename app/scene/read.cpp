@@ -1,12 +1,15 @@
 #include "app/scene/read.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "app/advice/suggest.h"
 #include "app/scene/check.h"
 #include "app/scene/reader.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/scene/toml/toml_text.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -117,13 +120,10 @@ void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
 
 }  // namespace
 
-Scene read_scene_text(std::string_view text, const std::string& name, const std::string& base_dir,
-                      const std::vector<Override>& overrides) {
-  toml::Table root = toml::parse_toml(text, name);
-  if (const toml::Entry* sweep = root.find("sweep"))
-    throw toml::SceneError(name, sweep->where.line, sweep->where.column,
-                           "this is a sweep, not a scene",
-                           "neve sweep " + name + " makes its runs");
+namespace {
+
+Scene scene_of(toml::Table root, const std::string& name, const std::string& base_dir,
+               const std::vector<Override>& overrides) {
   add_built_ins(root, overrides);
   // Presets first: wherever a single number is set beside one, the number counts.
   for (const bool is_turn_of_presets : {true, false})
@@ -137,6 +137,22 @@ Scene read_scene_text(std::string_view text, const std::string& name, const std:
     reading.source.fail(reading.place_of(problem->address), problem->message, problem->hint);
   }
   return scene;
+}
+
+}  // namespace
+
+Scene read_scene_text(std::string_view text, const std::string& name, const std::string& base_dir,
+                      const std::vector<Override>& overrides) {
+  toml::Table root = toml::parse_toml(text, name);
+  if (const toml::Entry* sweep = root.find("sweep"))
+    throw toml::SceneError(name, sweep->where.line, sweep->where.column,
+                           "this is a sweep, not a scene",
+                           "neve sweep " + name + " makes its runs");
+  return scene_of(std::move(root), name, base_dir, overrides);
+}
+
+Scene apply(const Scene& scene, const std::vector<Override>& overrides, const std::string& name) {
+  return scene_of(scene_table(scene), name, {}, overrides);
 }
 
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides) {
@@ -153,13 +169,11 @@ View find_view(const Scene& scene, const std::string& name) {
     if (view.name == name) return view;
     if (std::find(names.begin(), names.end(), view.name) == names.end()) names.push_back(view.name);
   }
-  const std::string nearest = nearest_name(name, names);
+  const std::string question = advice::suggest(name, {"", names, true});
   const bool is_list = name.find(',') != std::string::npos;
-  throw toml::UsageError(
-      "--view " + name, "the scene has no such view",
-      std::string(is_list ? "each view has a --view of its own; " : "") + "expected " +
-          list_of(names) +
-          (nearest.empty() ? "" : "; did you mean " + toml::toml_string(nearest) + "?"));
+  throw UsageError("--view " + name, "the scene has no such view",
+                   std::string(is_list ? "each view has a --view of its own; " : "") + "expected " +
+                       list_of(names) + (question.empty() ? "" : "; " + question));
 }
 
 }  // namespace neve::app::scene

@@ -20,6 +20,12 @@ Scene read_scene_text(std::string_view text, const std::string& name,
                       const std::string& base_dir = {},
                       const std::vector<Override>& overrides = {});
 
+/// A scene with overrides, as if its file were read with them.
+/// @param name  of the scene in messages
+/// @throws UsageError for an override, SceneError for a scene that it spoils
+Scene apply(const Scene& scene, const std::vector<Override>& overrides,
+            const std::string& name = "the scene");
+
 /// The scene as TOML with every parameter written out; reading it gives the same scene, bit for
 /// bit. Mesh files are written as absolute paths, so it reads the same from anywhere.
 std::string write_scene(const Scene& scene);

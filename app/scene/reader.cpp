@@ -2,16 +2,12 @@
 
 #include <algorithm>
 
-#include "app/scene/foreign_names.h"
+#include "app/advice/suggest.h"
 #include "app/scene/params.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
 namespace {
-
-std::string quoted_question(const std::string& name) {
-  return "did you mean " + toml::toml_string(name) + "?";
-}
 
 /// Forms and keyframes are independent: keys of other forms are no help.
 bool is_of_one_kind_alone(const std::string& address) {
@@ -43,7 +39,8 @@ std::string other_address(const std::string& key, const std::string& here) {
 /// The only parameter that a word of other programs means.
 std::string address_meant(const std::string& key) {
   for (const ParamInfo& info : params()) {
-    const std::string ours = our_name(key, {info.address.substr(info.address.rfind('.') + 1)});
+    const std::string ours =
+        advice::our_name(key, {"key", {info.address.substr(info.address.rfind('.') + 1)}});
     if (const std::string found = ours.empty() ? "" : other_address(ours, ""); !found.empty())
       return found;
   }
@@ -70,9 +67,7 @@ std::vector<std::string> forms_of(const std::string& kind) {
 std::string form_advice(const std::string& key, const std::vector<std::string>& forms) {
   if (key == "plane") return "only colliders can be planes: use a large box";
   if (key == "points") return "only bodies can be points";
-  const std::string other = our_name(key, forms);
-  const std::string nearest = other.empty() ? nearest_name(key, forms) : other;
-  return nearest.empty() ? "expected " + list_of(forms) : quoted_question(nearest);
+  return advice::suggest(key, {"key", forms, true}, "expected " + list_of(forms));
 }
 
 bool contains(const std::vector<std::string>& list, const std::string& name) {
@@ -93,29 +88,29 @@ toml::Location Reading::place_of(std::string address) const {
 
 /// Advice for an unknown key.
 std::string Reader::advice(const std::string& key, const std::vector<std::string>& known) const {
-  const std::string other = our_name(key, known);
-  if (!other.empty()) return quoted_question(other);
+  const advice::Context keys{"key", known, true};
+  if (const std::string other = advice::our_name(key, keys); !other.empty())
+    return advice::did_you_mean(other, true);
   const std::string kind = address_.substr(0, address_.find('.'));
   if (contains(known, "shape") && contains(forms_of(kind), key))
     return "write shape = { " + key + " = { ... } }";
   if (contains(known, "shape") && key == "plane") return "only colliders can be planes";
   if (const std::string shape = shape_with(kind, key); contains(known, "shape") && !shape.empty())
     return "it belongs into the shape: shape = { " + shape + " = { ..., " + key + " = ... } }";
-  const std::string nearest = nearest_name(key, known);
-  if (!nearest.empty()) return quoted_question(nearest);
+  if (std::string question = advice::suggest(key, keys); !question.empty()) return question;
   for (const char* table : {"sheet", "axis", "set", "link", "run"})
     if (reading_.is_scene && address_.empty() && key == table)
       return "[" + key + "] belongs into the file of a sweep; neve params --sweep has its keys";
   if (!reading_.is_scene) return "expected " + list_of(known);
   if (!address_.empty() && is_at_the_top(key))
     return "it belongs at the top of the file, before the first [table]";
-  if (const std::string flag = flag_advice(key); !flag.empty()) return flag;
+  if (const advice::Entry* flag = advice::entry_of("key that is a flag", key))
+    return "it is a flag of the command line: neve render SCENE " + joined(flag->names, " ");
   if (const std::string address = address_.empty() ? address_meant(key) : ""; !address.empty())
-    return "did you mean " + address + "?";
+    return advice::did_you_mean(address);
   // A key of another table was put into this one; single letters say too little to guess.
   const std::string elsewhere = key.size() > 1 ? other_address(key, address_) : "";
-  if (!elsewhere.empty()) return "did you mean " + elsewhere + "?";
-  return "expected " + list_of(known);
+  return elsewhere.empty() ? "expected " + list_of(known) : advice::did_you_mean(elsewhere);
 }
 
 const toml::Entry* Reader::given(const char* key) {

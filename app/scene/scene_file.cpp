@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 
+#include "app/advice/suggest.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_text.h"
 #include "app/scene/toml/value.h"
@@ -39,7 +40,7 @@ fs::path nearest_scene(const fs::path& folder, const std::string& stem) {
     if (at->path().extension() == ".toml" && names.size() < 10'000)
       names.push_back(at->path().stem().string());
   std::sort(names.begin(), names.end());
-  const std::string nearest = nearest_name(stem, names);
+  const std::string nearest = advice::nearest_name(stem, names);
   return nearest.empty() ? fs::path() : folder / (nearest + ".toml");
 }
 
@@ -70,7 +71,7 @@ std::string nearest_file(const std::string& file) {
   for (const fs::path& place : {folder, fs::path("scenes"), own_scenes()}) {
     if (place.empty()) continue;
     const fs::path nearest = nearest_scene(place, wanted.stem().string());
-    if (!nearest.empty()) return "did you mean " + typed(nearest) + "?";
+    if (!nearest.empty()) return advice::did_you_mean(typed(nearest));
   }
   if (file.find("://") != std::string::npos) return "download the file, and name it";
   if (!fs::is_directory(folder, error)) return "there is no folder " + folder.string();

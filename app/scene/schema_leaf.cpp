@@ -31,12 +31,12 @@ struct ToJson {
 
 Json bounded(const char* type, const Valid& valid) {
   Json schema = {{"type", type}};
-  const double least = valid.least_above_0 > 0 ? valid.least_above_0 : valid.min;
+  const double least = valid.min_above_0 > 0 ? valid.min_above_0 : valid.min;
   if (std::isfinite(least))
     schema[valid.is_min_open ? "exclusiveMinimum" : "minimum"] = count_json(least);
   if (std::isfinite(valid.max))
     schema[valid.is_max_open ? "exclusiveMaximum" : "maximum"] = count_json(valid.max);
-  if (valid.least_above_0 > 0) return schema_of_any({{{"const", 0}}, schema});
+  if (valid.min_above_0 > 0) return schema_of_any({{{"const", 0}}, schema});
   return schema;
 }
 

@@ -1,10 +1,10 @@
 #include "app/scene/search.h"
 
 #include <algorithm>
-#include <cctype>
-#include <utility>
 
-#include "app/scene/wishes.h"
+#include "app/advice/wishes.h"
+#include "app/advice/words.h"
+#include "app/scene/params.h"
 #include "app/support/lower_text.h"
 #include "app/support/text.h"
 
@@ -14,19 +14,6 @@ namespace {
 
 /// Shorter parts of words are in too many of them.
 constexpr std::size_t shortest_part = 4;
-
-/// A word, or from three letters on its beginning.
-bool has_word(const std::vector<std::string>& words, const std::string& start) {
-  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-    return word == start || (start.size() >= 3 && word.starts_with(start));
-  });
-}
-
-/// True if each word begins one of these.
-bool has_all(const std::vector<std::string>& words, const std::vector<std::string>& wanted) {
-  return std::all_of(wanted.begin(), wanted.end(),
-                     [&](const std::string& word) { return has_word(words, word); });
-}
 
 /// Up to the next dot, which is taken away with it.
 std::string_view next_word(std::string_view& address) {
@@ -38,54 +25,6 @@ std::string_view next_word(std::string_view& address) {
 
 }  // namespace
 
-std::vector<std::string> words_in(std::string_view text) {
-  std::vector<std::string> words(1);
-  for (const char c : lower_text(text)) {
-    const bool is_part = std::isalnum(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0;
-    if (is_part)
-      words.back() += c;
-    else if (!words.back().empty())
-      words.emplace_back();
-  }
-  if (words.back().empty()) words.pop_back();
-  return words;
-}
-
-std::string our_attribute(const std::string& name, const std::vector<std::string>& known) {
-  constexpr std::pair<const char*, const char*> names[] = {{"velocity", "v"},
-                                                           {"speed", "v"},
-                                                           {"position", "x"},
-                                                           {"vel", "v"},
-                                                           {"pos", "x"},
-                                                           {"P", "x"},
-                                                           {"mass", "m"},
-                                                           {"pressure", "stress"},
-                                                           {"pressure", "kirchhoff"},
-                                                           {"pscale", "radius"},
-                                                           {"width", "radius"},
-                                                           {"rho", "density"},
-                                                           {"stress", "kirchhoff"},
-                                                           {"kirchhoff", "stress"},
-                                                           {"deformation", "F_E"},
-                                                           {"plastic_volume", "J_P"},
-                                                           {"forces", "force"},
-                                                           {"F", "F_E"},
-                                                           {"Fe", "F_E"},
-                                                           {"F_e", "F_E"},
-                                                           {"f", "force"},
-                                                           {"J", "J_E"},
-                                                           {"Jp", "J_P"}};
-  for (const auto& [other, ours] : names)
-    if (name == other && std::find(known.begin(), known.end(), ours) != known.end()) return ours;
-  return {};
-}
-
-std::string attribute_advice(const std::string& name, const std::vector<std::string>& known) {
-  const std::string ours = our_attribute(name, known);
-  return ours.empty() ? names_advice(name, known)
-                      : "did you mean " + ours + "? expected " + joined(known, ", ");
-}
-
 bool same_parameter(std::string_view pattern, std::string_view address) {
   while (!pattern.empty() && !address.empty()) {
     const std::string_view wanted = next_word(pattern), found = next_word(address);
@@ -94,13 +33,13 @@ bool same_parameter(std::string_view pattern, std::string_view address) {
   return pattern.empty() && address.empty();
 }
 
-Search::Search(const std::string& text) : text_(lower_text(text)), words_(words_in(text)) {
+Search::Search(const std::string& text) : text_(lower_text(text)), words_(advice::words_in(text)) {
   if (words_.empty()) return;
-  for (const Wish* wish : wishes_for(text))
-    for (const WishChange& change : wish->changes) meant_.emplace_back(change.address);
-  for (const EverydayName& name : everyday_names())
-    if (has_all(words_in(name.words), words_))
-      meant_.insert(meant_.end(), name.addresses.begin(), name.addresses.end());
+  for (const advice::Wish* wish : advice::wishes_for(text))
+    for (const advice::WishChange& change : wish->changes) meant_.emplace_back(change.address);
+  for (const advice::Entry& entry : advice::entries_of("parameter"))
+    if (advice::has_all(advice::words_in(joined(entry.words, " ")), words_))
+      meant_.insert(meant_.end(), entry.names.begin(), entry.names.end());
 }
 
 bool Search::names(const std::string& address) const {
@@ -108,7 +47,7 @@ bool Search::names(const std::string& address) const {
   // An address, or the beginning of one, as it is written.
   const std::string written = lower_text(address);
   if (text_.find('.') != std::string::npos) return written.find(text_) != std::string::npos;
-  if (has_all(words_in(address), words_)) return true;
+  if (advice::has_all(advice::words_in(address), words_)) return true;
   if (text_.size() >= shortest_part && written.find(text_) != std::string::npos) return true;
   return std::any_of(meant_.begin(), meant_.end(),
                      [&](const std::string& meant) { return same_parameter(meant, address); });
@@ -117,9 +56,25 @@ bool Search::names(const std::string& address) const {
 bool Search::finds(const std::string& address, std::string_view help) const {
   if (is_empty() || names(address)) return true;
   if (text_.find('.') != std::string::npos) return false;
-  std::vector<std::string> words = words_in(address);
-  for (std::string& word : words_in(help)) words.push_back(std::move(word));
-  return has_all(words, words_);
+  std::vector<std::string> words = advice::words_in(address);
+  for (std::string& word : advice::words_in(help)) words.push_back(std::move(word));
+  return advice::has_all(words, words_);
+}
+
+std::vector<std::string> parameters_named(const std::string& word) {
+  if (param_at(word)) return {word};
+  std::vector<std::string> found;
+  const auto depth = [](const std::string& address) {
+    return std::count(address.begin(), address.end(), '.');
+  };
+  for (const ParamInfo& info : params()) {
+    const std::string& address = info.address;
+    if (address != word && !address.ends_with("." + word)) continue;
+    if (!found.empty() && depth(address) > depth(found.front())) continue;
+    if (!found.empty() && depth(address) < depth(found.front())) found.clear();
+    found.push_back(address);
+  }
+  return found;
 }
 
 }  // namespace neve::app::scene

@@ -7,9 +7,6 @@
 
 namespace neve::app::scene {
 
-/// Lower-case words of a text: "Longest time_step." has longest, time and step.
-std::vector<std::string> words_in(std::string_view text);
-
 /// A text that somebody wishes for, prepared once for many parameters.
 class Search {
  public:
@@ -28,12 +25,9 @@ class Search {
   std::vector<std::string> meant_;  ///< addresses that its everyday name means
 };
 
-/// The attribute of a name that other programs use: v for velocity; "" where there is none.
-std::string our_attribute(const std::string& name, const std::vector<std::string>& known);
-
-/// Advice on the name of an attribute that other programs use otherwise, or that is misspelt:
-/// "did you mean v? expected ...".
-std::string attribute_advice(const std::string& name, const std::vector<std::string>& known);
+/// The parameter of that address, or those of that name with the shortest addresses: output.size,
+/// and no size of a box.
+std::vector<std::string> parameters_named(const std::string& word);
 
 /// True if both mean the same parameter: NAME stands for any name, [N] for any number.
 bool same_parameter(std::string_view pattern, std::string_view address);

@@ -19,13 +19,13 @@ bool is_word(char c) {
 
 bool Valid::contains(double x) const {
   return std::isfinite(x) && (is_min_open ? x > min : x >= min) &&
-         (is_max_open ? x < max : x <= max) && !(x > 0 && x < least_above_0);
+         (is_max_open ? x < max : x <= max) && !(x > 0 && x < min_above_0);
 }
 
 std::string Valid::text_of_bounds() const {
   std::string bounds = "value";
-  if (least_above_0 > 0)
-    return "0 or " + toml::number_text(least_above_0) + " <= value <= " + toml::number_text(max);
+  if (min_above_0 > 0)
+    return "0 or " + toml::number_text(min_above_0) + " <= value <= " + toml::number_text(max);
   if (std::isfinite(min)) {
     // One bound reads better with the value first: value > 0.
     if (!std::isfinite(max))

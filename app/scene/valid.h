@@ -19,7 +19,7 @@ struct Valid {
   double max = std::numeric_limits<double>::infinity();
   bool is_min_open = false, is_max_open = false;
   Text text = Text::any;
-  double least_above_0 = 0;  ///< 0 is allowed, values between 0 and this are not
+  double min_above_0 = 0;    ///< 0 is allowed, values between 0 and this are not
   bool is_required = false;  ///< a scene has to give it: there is no default
 
   constexpr Valid below(double x) const { return {min, x, is_min_open, true, text}; }

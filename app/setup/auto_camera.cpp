@@ -131,12 +131,12 @@ Box start_of(const scene::Scene& scene) {
 }
 
 /// Everything that should be seen at some time.
-std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<Moment>& moments) {
+std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<CoarseMoment>& moments) {
   const Box start = start_of(scene);
   std::vector<Vec3d> points{start.min, start.max};
   const double first_size = std::max(start.diagonal(), 1e-6);
   Box seen;
-  for (const Moment& moment : moments) {
+  for (const CoarseMoment& moment : moments) {
     const std::vector<Vec3d> kept =
         moment.time > 0 ? scattered(without_outliers(moment.x)) : moment.x;
     Box grown = seen;
@@ -321,7 +321,7 @@ bool is_clear(const scene::Scene& scene, const Framing& framing, const Vec3d& to
 }  // namespace
 
 scene::CameraSettings automatic_camera(const scene::Scene& scene,
-                                       const std::vector<Moment>& moments,
+                                       const std::vector<CoarseMoment>& moments,
                                        const scene::CameraSettings& settings, double aspect,
                                        const std::optional<Vec3d>& normal) {
   const bool is_following = !settings.follow.empty();

@@ -16,7 +16,7 @@ namespace neve::app::setup {
 /// @param aspect width / height of the picture
 /// @param normal of a plane that should be seen from its front, a little askew
 scene::CameraSettings automatic_camera(const scene::Scene& scene,
-                                       const std::vector<Moment>& moments,
+                                       const std::vector<CoarseMoment>& moments,
                                        const scene::CameraSettings& settings, double aspect,
                                        const std::optional<sim::Vec3d>& normal = {});
 

@@ -6,8 +6,8 @@
 
 #include "app/setup/snow_pieces.h"
 #include "app/support/round_number.h"
-#include "sim/engine/time_step.h"
 #include "sim/shapes/placed_points.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app::setup {
 
@@ -110,8 +110,8 @@ double step_at_rest(const sim::SolverSettings& solver,
   if (solver.time_step == sim::TimeStep::fixed) return solver.dt;
   double step = solver.max_dt;
   for (const sim::Material& material : materials)
-    step = std::min(step, sim::engine::acoustic_stretch(solver) * solver.acoustic_cfl *
-                              solver.cell_size / sim::sound_speed(material));
+    step = std::min(step, sim::acoustic_stretch(solver) * solver.acoustic_cfl * solver.cell_size /
+                              sim::sound_speed(material));
   return step;
 }
 

@@ -15,13 +15,19 @@ struct Caps {
 /// @throws UsageError for a variable that is no number
 Caps caps();
 
-/// Sets a cap for this process and those that it starts. It only lowers one that is set already.
-/// @throws UsageError naming the flag
-void set_memory_cap(const std::string& text);
-void set_particle_cap(const std::string& text);
+/// Caps as they are typed; empty: none.
+struct CapTexts {
+  std::string memory, particles;
+};
 
-/// The flags that set the present caps, each with a space before it: commands that are written down
-/// to be started elsewhere keep them. Empty without caps.
-std::string cap_flags();
+/// The variables, for commands that are written down to be started elsewhere.
+CapTexts cap_texts();
+/// Sets the variables, for this process and those that it starts. It only lowers a cap that is set.
+/// @throws UsageError for a variable that is no number
+void hold_caps(const CapTexts& texts);
+
+/// "8GiB" in bytes; "2e6". @param where  the flag or variable that has the text @throws UsageError
+double memory_cap(const std::string& text, const std::string& where);
+double particle_cap(const std::string& text, const std::string& where);
 
 }  // namespace neve::app::setup

@@ -77,7 +77,7 @@ sim::Simulation coarse_simulation(const scene::Scene& coarse,
 
 /// A run as far as the budget lasts, or the coarse snow holds together.
 struct Run {
-  std::vector<Moment> seen;
+  std::vector<CoarseMoment> seen;
   bool is_whole = false;  ///< not cut short by a divergence
 };
 
@@ -114,7 +114,7 @@ double planned_particles(const scene::Scene& scene) {
   return count;
 }
 
-std::vector<Moment> coarse_run(const scene::Scene& scene) {
+std::vector<CoarseMoment> coarse_run(const scene::Scene& scene) {
   Run first = run_within_budget(coarsened(scene, Substitute::same));
   if (first.is_whole || is_interrupted()) return first.seen;
   Run second = run_within_budget(coarsened(scene, Substitute::uncrushed));

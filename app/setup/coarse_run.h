@@ -8,7 +8,7 @@
 namespace neve::app::setup {
 
 /// Positions of the coarse particles at one time.
-struct Moment {
+struct CoarseMoment {
   double time = 0;
   std::vector<sim::Vec3d> x;
 };
@@ -18,6 +18,6 @@ double planned_particles(const scene::Scene& scene);
 
 /// Some hundred particles over the whole scene, or as long as a fixed budget of steps times
 /// particles lasts: the result depends on the scene alone, never on the machine.
-std::vector<Moment> coarse_run(const scene::Scene& scene);
+std::vector<CoarseMoment> coarse_run(const scene::Scene& scene);
 
 }  // namespace neve::app::setup

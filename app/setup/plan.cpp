@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "app/advice/suggest.h"
 #include "app/output/picture_writer.h"
 #include "app/scene/coarsen.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/caps.h"
 #include "app/setup/mosaic_layout.h"
 #include "app/setup/seed_scene.h"
@@ -188,15 +188,10 @@ const char* name(Quality quality) {
 Quality quality_named(const std::string& name) {
   const auto found = std::find(quality_names.begin(), quality_names.end(), name);
   if (found == quality_names.end()) {
-    const bool is_best = name == "high" || name == "best" || name == "ultra" || name == "full";
-    const bool is_quick = name == "low" || name == "fast" || name == "quick";
-    const std::string meant =
-        is_best    ? "final"
-        : is_quick ? "draft"
-                   : nearest_name(name, {quality_names.begin(), quality_names.end()});
-    throw scene::toml::UsageError("--quality", "unknown quality \"" + name + "\"",
-                                  (meant.empty() ? "" : "did you mean " + meant + "? ") +
-                                      std::string("expected draft, preview or final"));
+    const std::vector<std::string> names(quality_names.begin(), quality_names.end());
+    const std::string question = advice::suggest(name, {"quality", names});
+    throw UsageError("--quality", "unknown quality \"" + name + "\"",
+                     question + (question.empty() ? "" : " ") + "expected draft, preview or final");
   }
   return static_cast<Quality>(found - quality_names.begin());
 }

@@ -78,7 +78,7 @@ bool needs_framing(const scene::Scene& scene) {
          });
 }
 
-void resolve_cameras(scene::Scene& scene, const std::vector<Moment>& moments) {
+void resolve_cameras(scene::Scene& scene, const std::vector<CoarseMoment>& moments) {
   const bool is_shared = needs_shared_camera(scene);
   const scene::CameraSettings lens = scene.camera.value_or(scene::CameraSettings{});
   const double shared = aspect_of(scene.size);

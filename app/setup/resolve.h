@@ -15,7 +15,7 @@ void resolve(scene::Scene& scene, std::size_t particle_count);
 bool needs_framing(const scene::Scene& scene);
 
 /// Places those cameras for the snow of coarse runs, in order of time.
-void resolve_cameras(scene::Scene& scene, const std::vector<Moment>& moments);
+void resolve_cameras(scene::Scene& scene, const std::vector<CoarseMoment>& moments);
 
 void resolve_ranges(scene::Scene& scene, std::size_t particle_count);
 

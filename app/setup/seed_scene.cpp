@@ -128,14 +128,9 @@ void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArra
 }
 
 sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,
-                                int threads, const std::vector<sim::shapes::Collider>& colliders) {
-  return sim::Simulation(scene.solver, scene.materials, colliders, particles, threads,
-                         sim::Vec3i::Zero(), flow_of(scene));
-}
-
-sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,
                                 int threads) {
-  return make_simulation(scene, particles, threads, scene::sim_colliders(scene));
+  return sim::Simulation(scene.solver, scene.materials, scene::sim_colliders(scene), particles,
+                         threads, sim::Vec3i::Zero(), flow_of(scene));
 }
 
 SeededScene seed_scene(const scene::Scene& scene) {

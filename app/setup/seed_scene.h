@@ -25,11 +25,8 @@ SeededScene seed_scene(const scene::Scene& scene);
 void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArrays& particles);
 
 /// The simulation of a scene. @throws as sim::Simulation
-/// @param colliders  the scene's, or where they have got to
 sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,
                                 int threads);
-sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,
-                                int threads, const std::vector<sim::shapes::Collider>& colliders);
 
 /// The index of a material by its name; scenes were checked when they were read.
 std::size_t material_index(const scene::Scene& scene, const std::string& name);

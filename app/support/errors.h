@@ -1,7 +1,8 @@
 #pragma once
-/// Exit codes, and the errors that lead to them; those of scenes and of the command line are in
-/// scene/error.h. main turns each into one message and one code.
+/// Exit codes, and the errors that lead to them; those of scenes are in app/scene/toml/error.h.
+/// main turns each into one message and one code.
 
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,13 +37,29 @@ struct Error : std::runtime_error {
   std::vector<std::string> warnings{};  ///< said before it, for `--json`
 };
 
+/// "WHERE: error: TEXT; ADVICE", without what is empty.
+inline std::string error_sentence(const std::string& where, const std::string& text,
+                                  const std::string& advice) {
+  return where + (where.empty() ? "" : ": error: ") + text + (advice.empty() ? "" : "; ") + advice;
+}
+
+/// A mistake on the command line. what() is "WHERE: error: MESSAGE; HINT", where WHERE is the flag.
+struct UsageError : std::runtime_error {
+  UsageError(std::string flag, std::string text, std::string advice = {})
+      : std::runtime_error(error_sentence(flag, text, advice)),
+        where(std::move(flag)),
+        message(std::move(text)),
+        hint(std::move(advice)) {}
+  std::string where, message, hint;
+};
+
 /// A file that could not be read or written.
 struct IoError : Error {
   IoError(const std::string& message, std::string place, std::string advice = {})
       : Error(exit_io, message, std::move(place), std::move(advice)) {}
 };
 
-/// A file that is there and that the machine does not give: it says nothing about what is in it.
+/// An existing file that cannot be read, for its permissions or an error of the disk.
 struct UnreadableError : IoError {
   using IoError::IoError;
 };
@@ -52,5 +69,11 @@ struct LimitError : Error {
   LimitError(const std::string& message, std::string place, std::string advice)
       : Error(exit_refused, message, std::move(place), std::move(advice)) {}
 };
+
+/// Lets an error of memory pass on. Call it first where any error of a file is handled: an
+/// allocation that failed says nothing about the file.
+inline void rethrow_no_memory(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error)) throw;
+}
 
 }  // namespace neve::app

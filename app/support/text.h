@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers as text, the same in every locale, and the nearest of some names.
+/// Numbers as text, the same in every locale.
 
 #include <charconv>
 #include <cstdint>
@@ -30,10 +30,14 @@ std::optional<Number> number_of(std::string_view text) {
   const auto [last, error] = std::from_chars(text.data(), end, number);
   return error == std::errc{} && last == end ? std::optional(number) : std::nullopt;
 }
+/// A finite number that is all of the text.
+std::optional<double> finite_number(std::string_view text);
+/// Without the blanks around it.
+std::string trimmed(std::string_view text, std::string_view blanks = " \t");
+/// The last line that has more than blanks; "" where none has.
+std::string last_line(std::string_view text);
+/// "a,b" without empty words.
+std::vector<std::string> comma_separated(std::string_view text);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
-/// The name closest to a misspelt one, or empty when none is close.
-std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);
-/// "did you mean a? expected a, b, c": advice for an unknown name.
-std::string names_advice(const std::string& wrong, const std::vector<std::string>& names);
 
 }  // namespace neve::app

@@ -2,6 +2,7 @@
 /// Command line options of neve view, and of all that has a screen.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "app/run/render_options.h"
@@ -21,6 +22,7 @@ struct ViewOptions {
   run::RenderOptions run;  ///< scene, overrides, coarsening, threads, views, size, out, backend
   ScreenOptions screen;
   bool is_running = false;        ///< from the start
+  std::optional<double> at{};     ///< s, the moment of a run that is shown first; absent: its last
   std::uint64_t kept_memory = 0;  ///< bytes for kept frames; 0: a quarter of the free memory
 };
 

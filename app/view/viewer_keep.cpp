@@ -3,7 +3,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 #include "app/view/viewer.h"
 
 namespace neve::app::view {
@@ -34,10 +34,10 @@ output::Picture Viewer::picture_to_keep(const std::filesystem::path& file) {
   const session::LiveFrame& live = *state_.live;
   scene::View view = panels::view_to_keep(state_);
   view.size = setup::size_of(*bench_.document().scene(), view);
-  run::PictureRecord record = bench_.picture_record(live, view);
-  record.state_hash = run::hash_text(live.state_hash);
+  record::PictureRecord record = bench_.picture_record(live, view);
+  record.state_hash = record::hash_text(live.state_hash);
   painted_.reset();  // another picture takes the place of the one on the screen
-  return {file, renderer_.draw(picture_frame(std::move(view))), run::to_png_text(record)};
+  return {file, renderer_.draw(picture_frame(std::move(view))), record::to_png_text(record)};
 }
 
 void Viewer::save_picture() {

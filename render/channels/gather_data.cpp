@@ -9,7 +9,7 @@ namespace neve::render::channels {
 namespace {
 
 /// The surface that a pixel shows.
-struct Surface {
+struct SeenSurface {
   Vec3f position, normal, albedo;  ///< m in the world; unit; linear light
   float depth = 0;                 ///< m along the view
   float cover = 1;                 ///< share over the background
@@ -27,14 +27,14 @@ class Gatherer {
  private:
   void make_planes();
   /// @param at in the tile @param x, y  sample of the picture
-  Surface surface(const light::GBufferTile& tile, const light::GBufferTile& points, int at, int x,
-                  int y) const;
+  SeenSurface surface(const light::GBufferTile& tile, const light::GBufferTile& points, int at,
+                      int x, int y) const;
   static Vec3f albedo_of(unsigned word);
   std::int64_t mesh_at(int x, int y, float inverse) const;
   std::int64_t ground_at(Vec3f position) const;
-  void write(const Surface& surface, std::size_t pixel);
-  void write_motion(const Surface& surface, std::size_t pixel);
-  Vec3f moved(const Surface& surface, bool is_after) const;
+  void write(const SeenSurface& surface, std::size_t pixel);
+  void write_motion(const SeenSurface& surface, std::size_t pixel);
+  Vec3f moved(const SeenSurface& surface, bool is_after) const;
   bool has(Pass pass) const { return request_.passes.contains(pass); }
 
   const LitSurfaces& lit_;
@@ -98,8 +98,8 @@ void Gatherer::take_tile(int tile) {
         }
       if (nearest < 0) continue;
       const int row = frame_.height - 1 - (low + y) / ss, column = (left + x) / ss;
-      Surface seen = surface(drawn, points, nearest, left + nearest % light::tile_width,
-                             low + nearest / light::tile_width);
+      SeenSurface seen = surface(drawn, points, nearest, left + nearest % light::tile_width,
+                                 low + nearest / light::tile_width);
       if (lit && drawn.kind[nearest] == light::kind_lit)
         seen.albedo = albedo_of(lit->albedo[nearest]);
       write(seen, static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.width) +
@@ -107,9 +107,9 @@ void Gatherer::take_tile(int tile) {
     }
 }
 
-Surface Gatherer::surface(const light::GBufferTile& tile, const light::GBufferTile& points, int at,
-                          int x, int y) const {
-  Surface s;
+SeenSurface Gatherer::surface(const light::GBufferTile& tile, const light::GBufferTile& points,
+                              int at, int x, int y) const {
+  SeenSurface s;
   s.u = static_cast<float>(x) + 0.5f;
   s.v = static_cast<float>(y) + 0.5f;
   s.depth = 1 / tile.inverse[at];
@@ -162,7 +162,7 @@ std::int64_t Gatherer::ground_at(Vec3f position) const {
 }
 
 /// The same part of the surface an interval later or earlier.
-Vec3f Gatherer::moved(const Surface& s, bool is_after) const {
+Vec3f Gatherer::moved(const SeenSurface& s, bool is_after) const {
   const auto place = [&](const Thing& thing) {
     return is_after ? thing.after(s.position) : thing.before(s.position);
   };
@@ -174,7 +174,7 @@ Vec3f Gatherer::moved(const Surface& s, bool is_after) const {
 }
 
 /// Pixels, right and up. Behind the camera there is no place on the picture: then none.
-void Gatherer::write_motion(const Surface& s, std::size_t pixel) {
+void Gatherer::write_motion(const SeenSurface& s, std::size_t pixel) {
   const float per_sample = 1 / static_cast<float>(frame_.supersampling);
   for (const bool is_after : {true, false}) {
     const Vec3f there = (is_after ? after_ : before_).project(moved(s, is_after));
@@ -184,7 +184,7 @@ void Gatherer::write_motion(const Surface& s, std::size_t pixel) {
   }
 }
 
-void Gatherer::write(const Surface& s, std::size_t pixel) {
+void Gatherer::write(const SeenSurface& s, std::size_t pixel) {
   if (has(Pass::depth)) out_.depth[pixel] = s.depth;
   for (int a = 0; a < 3; ++a) {
     const auto axis = static_cast<std::size_t>(a);

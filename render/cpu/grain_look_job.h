@@ -16,7 +16,7 @@ struct alignas(32) Grain {
 /// Texels of the noise that relief is made of, along each axis; it repeats.
 inline constexpr int noise_side = 32, noise_levels = 3, noise_texels_per_unit = noise_side / 4;
 
-/// Lists have `count` numbers, and are long enough for whole vectors of most_light_lanes.
+/// Lists have `count` numbers, and are long enough for whole vectors of max_light_lanes.
 struct GrainLookJob {
   int count;
   float spacing;                     ///< m, of packed particles
@@ -32,6 +32,6 @@ struct GrainLookJob {
 };
 
 /// Samples per spacing below which nothing sparkles; see snow_light_kernel.h.
-inline constexpr float least_sparkling = 2;
+inline constexpr float min_sparkling = 2;
 
 }  // namespace neve::render::cpu

@@ -128,7 +128,7 @@ NEVE_INLINE void look_at_grains(const GrainLookJob& job) {
         load_points<V>(job.world, at) + Points3<V>{-number(0), -number(1), -number(2)};
     const Points3<V> offset = turn.back(from_grain * all<V>(1 / job.spacing));
     if (job.wants_facets) {
-      const I sparkles = pixels > all<V>(least_sparkling);
+      const I sparkles = pixels > all<V>(min_sparkling);
       const Points3<V> none{};
       store_points(any_lane(sparkles) ? choose(sparkles, facets_of<V>(seed, offset), none) : none,
                    job.facet, at);

@@ -26,9 +26,9 @@ struct FoundTwo {
 };
 
 template <class V>
-NEVE_INLINE float least_of(V v) {
+NEVE_INLINE float min_of(V v) {
   if constexpr (lane_count < V >> 4) {
-    return least_of(smaller_lanes(half_of<0>(v), half_of<1>(v)));
+    return min_of(smaller_lanes(half_of<0>(v), half_of<1>(v)));
   } else {
     v = smaller_lanes(v, __builtin_shufflevector(v, v, 2, 3, 0, 1));
     return smaller(v[0], v[1]);
@@ -54,11 +54,11 @@ struct NearestTwo {
 
   /// The two of all lanes. @return whether they are sure
   NEVE_INLINE bool found(FoundTwo& two) const {
-    const float nearest = least_of(first);
+    const float nearest = min_of(first);
     const I has_nearest = first == all<V>(nearest);
     const V rest = has_nearest ? second : first;
     const I rest_grain = has_nearest ? second_grain : first_grain;
-    const float next = least_of(rest);
+    const float next = min_of(rest);
     const unsigned in = lane_bits(has_nearest), next_in = lane_bits(rest == all<V>(next));
     two.first = FoundTwo::key_of(nearest, static_cast<unsigned>(first_grain[__builtin_ctz(in)]));
     two.second = FoundTwo::key_of(next, static_cast<unsigned>(rest_grain[__builtin_ctz(next_in)]));

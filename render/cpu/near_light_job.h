@@ -11,7 +11,7 @@ namespace neve::render::cpu {
 inline constexpr int near_margin = 7, near_side = 8 + 2 * near_margin,
                      near_nodes = near_side * near_side * near_side;
 
-/// Lists have `count` numbers, and are long enough for whole vectors of most_light_lanes.
+/// Lists have `count` numbers, and are long enough for whole vectors of max_light_lanes.
 struct NearLightJob {
   int count;
   const float* near;       ///< share that snow fills

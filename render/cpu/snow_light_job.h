@@ -6,8 +6,8 @@
 namespace neve::render::cpu {
 
 /// Arrays have a number for each sample, and are written and read in whole vectors of up to
-/// most_light_lanes.
-inline constexpr int most_light_lanes = 16;
+/// max_light_lanes.
+inline constexpr int max_light_lanes = 16;
 
 struct SnowLightJob {
   int count;

@@ -128,7 +128,7 @@ struct Span {
 
 /// Smallest inverse distance of a block.
 template <class V>
-NEVE_INLINE float least_of_block(const Tile& tile, int block) {
+NEVE_INLINE float min_of_block(const Tile& tile, int block) {
   const float* row = tile.inverse + block / blocks_across * block_side * light::tile_width +
                      block % blocks_across * block_side;
   V least = load_lanes<V>(row);
@@ -147,7 +147,7 @@ NEVE_INLINE bool is_hidden(Tile& tile, const Span& span, float nearest) {
       if (tile.covered[block] >= nearest) continue;
       if ((tile.stale >> block & 1u) == 0) return false;
       tile.stale &= ~(1u << block);
-      tile.covered[block] = least_of_block<V>(tile, block);
+      tile.covered[block] = min_of_block<V>(tile, block);
       if (tile.covered[block] < nearest) return false;
     }
   }

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "render/frame/ticks.h"
 #include "render/frame/turn.h"
+#include "render/frame/values.h"
 #include "sim/base/vec.h"
 
 namespace neve::render {
@@ -24,26 +26,27 @@ enum class ColorMap { viridis, magma, turbo, coolwarm };
 /// Points beyond a plane that cuts snow open. They are not drawn, but the surface of the snow goes
 /// on to the plane as if they were there, and ends in it.
 struct CutAway {
-  Vec3f point, normal;            ///< of the plane, unit and towards what is cut away
-  std::vector<Vec3f> position;    ///< those within a few spacings of the plane
-  std::vector<std::uint32_t> id;  ///< these as of Points
-  std::vector<float> value, volume;
-  std::vector<PackedTurn> turn;
+  Vec3f point, normal;       ///< of the plane, unit and towards what is cut away
+  Values<Vec3f> position;    ///< those within a few spacings of the plane
+  Values<std::uint32_t> id;  ///< these as of Points
+  Values<float> value, volume;
+  Values<PackedTurn> turn;
+  bool operator==(const CutAway&) const = default;
 };
 
 /// Spheres. `value` is empty for snow shade, otherwise one number per point, coloured by the map.
 struct Points {
-  std::vector<Vec3f> position;
-  std::vector<std::uint32_t> id;  ///< breaks ties and seeds the small variation of shade
-  std::vector<float> value;
-  std::vector<float>
-      volume;  ///< m3 as deformed, for the snow surface; empty: that of packed points
-  std::vector<PackedTurn> turn;  ///< turns the grain of the snow surface; empty: none has turned
-  float radius = 0.005f;         ///< m, as drawn
-  float spacing = 0.01f;         ///< m, mean distance of packed points: scale of the light volume
+  Values<Vec3f> position;
+  Values<std::uint32_t> id;  ///< breaks ties and seeds the small variation of shade
+  Values<float> value;
+  Values<float> volume;     ///< m3 as deformed, for the snow surface; empty: that of packed points
+  Values<PackedTurn> turn;  ///< turns the grain of the snow surface; empty: none has turned
+  float radius = 0.005f;    ///< m, as drawn
+  float spacing = 0.01f;    ///< m, mean distance of packed points: scale of the light volume
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
   std::optional<CutAway> cut;  ///< for the snow surface
+  bool operator==(const Points&) const = default;
 };
 
 /// A cubic lattice of nodes, of which only blocks of 4x4x4 are there. Node (i, j, k) of block b
@@ -59,38 +62,41 @@ struct NodeLattice {
 /// the mass density, or with `value` the density coloured by another field.
 struct Smoke {
   std::shared_ptr<const NodeLattice> nodes;  ///< null: no smoke
-  std::vector<float> density;                ///< kg/m3, 0 and more
-  std::vector<float> value;                  ///< empty: white
+  Values<float> density;                     ///< kg/m3, 0 and more
+  Values<float> value;                       ///< empty: white
   float full_density = 400;                  ///< kg/m3, density of packed snow
   float density_scale = 1;                   ///< opacity, as a factor of that of packed snow
   int samples_per_ray = 0;  ///< 1 to 4, along each axis: 1 is exact, 4 is quick; 0: at least 2, as
                             ///< many as still give every node several rays
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
+  bool operator==(const Smoke&) const = default;
 };
 
 /// Arrows that start at `position`, or have it in their middle. Their length is that of `vector`
 /// times `length_per_value`.
 struct Arrows {
-  std::vector<Vec3f> position;
-  std::vector<Vec3f> vector;  ///< in the unit of the field
+  Values<Vec3f> position;
+  Values<Vec3f> vector;  ///< in the unit of the field
   bool is_centred = false;
   float length_per_value = 1;  ///< m per unit of the field
   float max_length = 1;        ///< m, longer ones are cut to it
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;  ///< of the magnitude
   bool is_white = false;               ///< instead, over points that already have these colours
+  bool operator==(const Arrows&) const = default;
 };
 
 /// Values on a rectangle in space, sampled row by row; not-a-number where there is nothing to show.
 struct HeatMap {
   Vec3f corner, across, up;  ///< m: the first sample's corner, and the edges of the rectangle
   int columns = 0, rows = 0;
-  std::vector<float> value;  ///< rows x columns
-  std::vector<float> cover;  ///< 0 to 1, one per value: shown where at least a half; empty: 1
-  float isoline_step = 0;    ///< in the unit of the field; 0: none
+  Values<float> value;     ///< rows x columns
+  Values<float> cover;     ///< 0 to 1, one per value: shown where at least a half; empty: 1
+  float isoline_step = 0;  ///< in the unit of the field; 0: none
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
+  bool operator==(const HeatMap&) const = default;
 };
 
 /// Straight lines of one width, hidden by objects before them.
@@ -112,9 +118,10 @@ struct Label {
 
 /// A solid triangle mesh, flat or smooth by its normals.
 struct TriangleMesh {
-  std::vector<Vec3f> position, normal;
-  std::vector<std::uint32_t> index;
+  Values<Vec3f> position, normal;
+  Values<std::uint32_t> index;
   Vec3f color{0.35f, 0.35f, 0.36f};
+  bool operator==(const TriangleMesh&) const = default;
 };
 
 /// An infinite plane with grid lines that fades into the background. A solid one is seen from above
@@ -124,6 +131,7 @@ struct GroundPlane {
   float line_spacing = 0.125f;  ///< m
   Vec3f color{0.20f, 0.215f, 0.24f};
   float fill = 0.16f;  ///< of a ghost: opacity between its lines
+  bool operator==(const GroundPlane&) const = default;
 };
 
 struct Light {
@@ -138,24 +146,34 @@ struct Legend {
   std::string unit;   ///< "m/s", may be empty
   ColorMap colormap = ColorMap::viridis;
   float min = 0, max = 1;
+  bool operator==(const Legend&) const = default;
 };
 
-/// One curve of a plot, or with `bar_width` bars that end at each time.
+/// One series of a plot: a curve, with `bar_width` bars that end at each x, or with `dot_radius` a
+/// dot for each value.
 struct PlotSeries {
   std::string name;
   std::array<std::uint8_t, 3> color{255, 255, 255};  ///< sRGB
-  std::vector<float> time;                           ///< s, increasing
-  std::vector<float> value;                          ///< one per time; not-a-number: a gap
-  float bar_width = 0;                               ///< s
+  std::vector<float> x;                              ///< of a curve increasing
+  std::vector<float> value;                          ///< one per x; not-a-number: a gap
+  float bar_width = 0;
+  float dot_radius = 0;                 ///< px where a line of text has 16
+  bool has_rings = false;               ///< instead of filled dots
+  std::vector<std::string> notes = {};  ///< empty, or one per dot, for a mouse that points at it
 };
 
-/// A panel of curves over the time of the whole scene; values later than `now` are not drawn.
+/// A panel of series over the time of the whole scene, or over another x.
 struct Plot {
-  std::string title;            ///< "energy"
-  std::string unit;             ///< "J", may be empty
-  float time_end = 1, now = 0;  ///< s
-  float min = 0, max = 1;       ///< of the values, the same in every frame
+  std::string title;              ///< "energy"
+  std::string unit;               ///< "J", may be empty
+  float x_end = 1;                ///< x starts at 0
+  std::optional<float> now = {};  ///< x of a line; values later than it are not drawn
+  float min = 0, max = 1;         ///< of the values, the same in every frame
   std::vector<PlotSeries> series;
+  std::string x_title = {}, x_unit = "s";
+  std::vector<Tick> ticks = {}, x_ticks = {};  ///< empty: round numbers
+  int cell_columns = 0;                        ///< of a ground of coloured cells; 0: there is none
+  std::vector<std::array<std::uint8_t, 3>> cells = {};  ///< sRGB, rows from the top
 };
 
 /// A filled rectangle on the finished picture, below all text; pixels from the upper left corner.

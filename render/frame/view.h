@@ -15,6 +15,7 @@ struct View {
 
   /// Position on the picture in samples, y up, and distance along forward; distance <= 0: behind.
   Vec3f project(Vec3f world) const;
+  bool operator==(const View&) const = default;
 };
 
 /// Any camera gives a usable view: a zero direction looks along -z, a parallel up is replaced, the

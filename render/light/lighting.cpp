@@ -6,7 +6,6 @@
 #include <cstring>
 #include <utility>
 
-#include "render/frame/same_bytes.h"
 #include "render/light/light_fields.h"
 #include "sim/base/lanes.h"
 
@@ -126,13 +125,24 @@ void fill_light(const LightBuffers& buffers, std::size_t begin, std::size_t end,
   std::memcpy(light + 2 * i, &packed, 4 * (end - i));
 }
 
-void fill_volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool,
-                 LightBuffers& buffers, LightVolume& volume) {
-  const LightGrid& grid = volume.grid = fit_light_grid(frame.points, frame.meshes, smoke, pool);
-  bin_points(frame.points, grid, pool, buffers);
-  if (!smoke.is_empty()) add_smoke(smoke, grid, pool, buffers.density);
+LightInputs inputs_of(const Frame& frame, const SmokeGrid& smoke) {
+  LightInputs inputs;
+  inputs.points.position = frame.points.position;
+  inputs.points.spacing = frame.points.spacing;
+  for (const TriangleMesh& mesh : frame.meshes)
+    inputs.meshes.push_back({mesh.position, {}, mesh.index});
+  inputs.smoke = smoke;
+  inputs.toward_light = toward_light(frame.light);
+  return inputs;
+}
+
+void fill_volume(const LightInputs& in, ThreadPool* pool, LightBuffers& buffers,
+                 LightVolume& volume) {
+  const LightGrid& grid = volume.grid = fit_light_grid(in.points, in.meshes, in.smoke, pool);
+  bin_points(in.points, grid, pool, buffers);
+  if (!in.smoke.is_empty()) add_smoke(in.smoke, grid, pool, buffers.density);
   const std::vector<float> solid =
-      frame.meshes.empty() ? std::vector<float>{} : voxelize(frame.meshes, grid);
+      in.meshes.empty() ? std::vector<float>{} : voxelize(in.meshes, grid);
   const std::size_t slice =
       static_cast<std::size_t>(grid.size.x) * static_cast<std::size_t>(grid.size.y);
   buffers.key.resize(grid.count());
@@ -146,7 +156,7 @@ void fill_volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool,
   for_each_task(5, pool, [&](int task) {
     const auto t = static_cast<std::size_t>(task);
     sweep_light(t == 0 ? buffers.key : buffers.sky, grid,
-                t == 0 ? toward_light(frame.light) : sky_directions[t - 1], buffers.arriving[t]);
+                t == 0 ? in.toward_light : sky_directions[t - 1], buffers.arriving[t]);
   });
 
   blur(grid, pool, buffers);
@@ -169,63 +179,22 @@ Vec3f toward_light(const Light& light) {
 LightVolume make_light_volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool) {
   LightBuffers buffers;
   LightVolume volume;
-  fill_volume(frame, smoke, pool, buffers, volume);
+  fill_volume(inputs_of(frame, smoke), pool, buffers, volume);
   return volume;
-}
-
-struct Lighting::Key {
-  std::vector<Vec3f> position;
-  float spacing = 0;
-  Vec3f toward_light;
-  std::vector<std::pair<std::vector<Vec3f>, std::vector<std::uint32_t>>> meshes;
-  SmokeGrid smoke;
-
-  bool is_same(const Frame& frame, const SmokeGrid& other) const;
-  void take(const Frame& frame, const SmokeGrid& other);
-};
-
-namespace {
-
-bool same_smoke(const SmokeGrid& a, const SmokeGrid& b) {
-  return a.origin == b.origin && a.spacing == b.spacing && a.size == b.size &&
-         a.node_spacing == b.node_spacing && same_bytes(a.opacity, b.opacity);
-}
-
-}  // namespace
-
-bool Lighting::Key::is_same(const Frame& frame, const SmokeGrid& other) const {
-  if (spacing != frame.points.spacing || toward_light != light::toward_light(frame.light) ||
-      meshes.size() != frame.meshes.size() || !same_smoke(smoke, other))
-    return false;
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    if (!same_bytes(meshes[m].first, frame.meshes[m].position) ||
-        !same_bytes(meshes[m].second, frame.meshes[m].index))
-      return false;
-  }
-  return same_bytes(position, frame.points.position);
-}
-
-void Lighting::Key::take(const Frame& frame, const SmokeGrid& other) {
-  position = frame.points.position;
-  spacing = frame.points.spacing;
-  toward_light = light::toward_light(frame.light);
-  meshes.clear();
-  for (const TriangleMesh& mesh : frame.meshes) meshes.emplace_back(mesh.position, mesh.index);
-  smoke = other;
 }
 
 Lighting::Lighting() = default;
 Lighting::~Lighting() = default;
 
 const LightVolume& Lighting::volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool) {
-  if (key_ && key_->is_same(frame, smoke)) return volume_;
+  LightInputs inputs = inputs_of(frame, smoke);
+  if (inputs_ == inputs) return volume_;
   if (!buffers_) buffers_ = std::make_unique<LightBuffers>();
   const std::uint64_t serial = volume_.serial + 1;
-  key_.reset();  // should something throw, there is no volume
-  fill_volume(frame, smoke, pool, *buffers_, volume_);
+  inputs_.reset();  // should something throw, there is no volume
+  fill_volume(inputs, pool, *buffers_, volume_);
   volume_.serial = serial;
-  key_ = std::make_unique<Key>();
-  key_->take(frame, smoke);
+  inputs_ = std::move(inputs);
   return volume_;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "render/frame/frame.h"
@@ -49,6 +50,15 @@ LightVolume make_light_volume(const Frame& frame, const SmokeGrid& smoke, Thread
 
 struct LightBuffers;
 
+/// Everything that a light volume is made of; the rest of a frame is left at its defaults.
+struct LightInputs {
+  Points points;                     ///< position and spacing
+  std::vector<TriangleMesh> meshes;  ///< position and index
+  SmokeGrid smoke;
+  Vec3f toward_light;
+  bool operator==(const LightInputs&) const = default;
+};
+
 /// Makes light volumes, and only when something that light falls on or its direction has changed:
 /// several views of one state share theirs.
 class Lighting {
@@ -59,9 +69,7 @@ class Lighting {
   const LightVolume& volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool);
 
  private:
-  /// All that a volume depends on, to be compared byte by byte: a hash could be wrong.
-  struct Key;
-  std::unique_ptr<Key> key_;
+  std::optional<LightInputs> inputs_;  ///< of volume_
   std::unique_ptr<LightBuffers> buffers_;
   LightVolume volume_;
 };

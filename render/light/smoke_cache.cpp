@@ -1,41 +1,19 @@
 #include "render/light/smoke_cache.h"
 
-#include "render/frame/same_bytes.h"
+#include <utility>
 
 namespace neve::render::light {
 
-struct SmokeCache::Key {
-  std::shared_ptr<const NodeLattice> nodes;  ///< held, so that no other takes its place in memory
-  std::vector<float> density, value;
-  float full_density, density_scale, range_min, range_max;
-
-  explicit Key(const Smoke& smoke)
-      : nodes(smoke.nodes),
-        density(smoke.density),
-        value(smoke.value),
-        full_density(smoke.full_density),
-        density_scale(smoke.density_scale),
-        range_min(smoke.range_min),
-        range_max(smoke.range_max) {}
-
-  bool is_same(const Smoke& other) const {
-    return nodes == other.nodes && full_density == other.full_density &&
-           density_scale == other.density_scale && range_min == other.range_min &&
-           range_max == other.range_max && same_bytes(density, other.density) &&
-           same_bytes(value, other.value);
-  }
-};
-
-SmokeCache::SmokeCache() = default;
-SmokeCache::~SmokeCache() = default;
-
 const SmokeGrid& SmokeCache::grid(const Smoke& smoke, ThreadPool* pool) {
-  if (key_ && key_->is_same(smoke)) return grid_;
-  key_.reset();  // should something throw, there is no grid
+  Smoke inputs = smoke;
+  inputs.samples_per_ray = 0;
+  inputs.colormap = {};
+  if (inputs_ == inputs) return grid_;
+  inputs_.reset();  // should something throw, there is no grid
   light_ = 0;
-  grid_ = make_smoke_grid(smoke, pool);
+  grid_ = make_smoke_grid(inputs, pool);
   ++renewals_;
-  key_ = std::make_unique<Key>(smoke);
+  inputs_ = std::move(inputs);
   return grid_;
 }
 

@@ -3,7 +3,7 @@
 /// and a view that turns, share it.
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 #include "render/light/smoke_volume.h"
 
@@ -11,8 +11,6 @@ namespace neve::render::light {
 
 class SmokeCache {
  public:
-  SmokeCache();
-  ~SmokeCache();
   /// Valid until the next call. @param pool may be null
   const SmokeGrid& grid(const Smoke& smoke, ThreadPool* pool);
   /// Volume of the grid requested last, which is not empty. @param light made by Lighting for that
@@ -23,9 +21,7 @@ class SmokeCache {
   std::uint64_t renewals() const { return renewals_; }
 
  private:
-  /// All that a grid depends on, to be compared byte by byte.
-  struct Key;
-  std::unique_ptr<Key> key_;
+  std::optional<Smoke> inputs_;  ///< of grid_, without what only its pictures depend on
   SmokeGrid grid_;
   SmokeVolume volume_;
   std::uint64_t renewals_ = 0;

@@ -145,8 +145,7 @@ SmokeGrid make_smoke_grid(const Smoke& smoke, ThreadPool* pool) {
   for (int axis = 0; axis < 3; ++axis)
     grid.size[axis] = static_cast<int>(texels_along(box.low[axis], box.high[axis], f));
   const std::size_t count = grid.index(0, 0, grid.size.z);
-  grid.opacity.resize(count);
-  if (!smoke.value.empty()) grid.value.resize(count);
+  std::vector<float> opacity(count), value(smoke.value.empty() ? 0 : count);
 
   const float share = 1 / to_float(f * f * f);
   for (const int b : blocks.seen) {
@@ -157,11 +156,13 @@ SmokeGrid make_smoke_grid(const Smoke& smoke, ThreadPool* pool) {
       if (!(blocks.opacity[i] > 0) || !is_inside(box, node)) continue;
       const Vec3i at = node - box.low;
       const std::size_t texel = grid.index(at.x / f + 1, at.y / f + 1, at.z / f + 1);
-      grid.opacity[texel] += share * blocks.opacity[i];
-      if (!grid.value.empty())
-        grid.value[texel] += share * blocks.opacity[i] * place_in_range(smoke, smoke.value[i]);
+      opacity[texel] += share * blocks.opacity[i];
+      if (!value.empty())
+        value[texel] += share * blocks.opacity[i] * place_in_range(smoke, smoke.value[i]);
     }
   }
+  grid.opacity = std::move(opacity);
+  grid.value = std::move(value);
   return grid;
 }
 

@@ -2,8 +2,6 @@
 /// The opacity of smoke on one box of texels: the blocks of a node lattice before light
 /// falls on them and rays march through them. A function of the smoke alone.
 
-#include <vector>
-
 #include "render/frame/frame.h"
 #include "sim/base/thread_pool.h"
 
@@ -15,10 +13,11 @@ struct SmokeGrid {
   Vec3f origin;       ///< m, where texel (0, 0, 0) lies
   float spacing = 1;  ///< m between texels
   Vec3i size{0, 0, 0};
-  float node_spacing = 1;      ///< m
-  std::vector<float> opacity;  ///< 0 and more
-  std::vector<float> value;    ///< place in the range, [0, 1], times opacity; empty without values
+  float node_spacing = 1;  ///< m
+  Values<float> opacity;   ///< 0 and more
+  Values<float> value;     ///< place in the range, [0, 1], times opacity; empty without values
 
+  bool operator==(const SmokeGrid&) const = default;
   /// Extinction at opacity 1: packed snow at density_scale 1. Three nodes of it pass 40 % of the
   /// light.
   float extinction() const { return 0.3054f / node_spacing; }  // 1/m; -ln(0.4) / 3

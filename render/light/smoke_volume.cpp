@@ -112,21 +112,22 @@ SmokeVolume make_smoke_volume(const SmokeGrid& grid, const LightVolume& light, V
   volume.texels.resize(4 * grid.opacity.size());
   mark_bricks(grid, volume);
   const LightReader reader(light);
-  const bool has_values = !grid.value.empty();
+  const std::vector<float>&opacities = grid.opacity, &values = grid.value;
+  const bool has_values = !values.empty();
   const float contrast = has_values ? 0.6f : 1.0f;
   for_each_task(grid.size.z, pool, [&](int z) {
     for (int y = 0; y < grid.size.y; ++y) {
       for (int x = 0; x < grid.size.x; ++x) {
         const std::size_t i = grid.index(x, y, z);
-        if (!(grid.opacity[i] > 0)) continue;
+        const float opacity = opacities[i];
+        if (!(opacity > 0)) continue;
         const Vec3f at = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
         const Glow g = glow(reader.at(grid.origin + grid.spacing * at), toward_light, contrast);
-        const float opacity = grid.opacity[i];
         float* out = volume.texels.data() + 4 * i;
         out[0] = opacity;
         out[1] = opacity * g.key;
         out[2] = opacity * g.sky;
-        out[3] = has_values ? grid.value[i] : opacity * g.inside;
+        out[3] = has_values ? values[i] : opacity * g.inside;
       }
     }
   });

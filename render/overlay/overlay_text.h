@@ -19,8 +19,8 @@ inline float unit_of(const ImFont& font) {
 }
 
 /// With a shadow, so that it reads on snow as well as on the background.
-inline void draw_text(const ImFont& font, ImVec2 at, ImU32 color, const std::string& text) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+inline void draw_text(const ImFont& font, ImVec2 at, ImU32 color, const std::string& text,
+                      ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
   const float offset = std::max(1.0f, std::round(unit_of(font)));
   at = ImVec2(std::round(at.x), std::round(at.y));
   const char* end = text.c_str() + text.size();

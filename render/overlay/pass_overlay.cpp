@@ -7,7 +7,6 @@
 #include "render/overlay/overlay_text.h"
 #include "render/overlay/plots.h"
 #include "render/overlay/text_layout.h"
-#include "render/overlay/ticks.h"
 
 namespace neve::render::overlay {
 namespace {

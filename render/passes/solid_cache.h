@@ -3,7 +3,8 @@
 /// they nor the camera change: colliders at rest are drawn once for a whole sequence.
 
 #include <cstdint>
-#include <memory>
+#include <optional>
+#include <vector>
 
 #include "render/cpu/surfaces.h"
 #include "render/frame/frame.h"
@@ -13,8 +14,6 @@ namespace neve::render::passes {
 
 class SolidCache {
  public:
-  SolidCache();
-  ~SolidCache();
   /// True if the samples belong to this frame.
   bool holds(const Frame& frame, const View& view) const;
   /// To be filled with those of this frame.
@@ -24,9 +23,15 @@ class SolidCache {
   std::uint64_t renewals() const { return renewals_; }
 
  private:
-  /// All that they depend on, to be compared byte by byte.
-  struct Key;
-  std::unique_ptr<Key> key_;
+  struct Inputs {
+    View view;
+    int supersampling;  ///< lines are as wide as asked for on the finished picture
+    std::vector<TriangleMesh> meshes;
+    std::vector<HeatMap> heat_maps;
+    std::vector<Arrows> arrows;
+    bool operator==(const Inputs&) const = default;
+  };
+  std::optional<Inputs> inputs_;  ///< of samples_
   cpu::SolidSamples samples_;
   std::uint64_t renewals_ = 0;
 };

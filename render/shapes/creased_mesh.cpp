@@ -41,9 +41,9 @@ TriangleMesh creased_mesh(const std::vector<Vec3f>& position,
     Vec3f sum;
     for (const std::uint32_t t : around[index[k]])
       if (dot(own, normalized(normal[t])) > cos_crease) sum = sum + normal[t];
-    mesh.position.push_back(position[index[k]]);
-    mesh.normal.push_back(length(sum) > 0 ? normalized(sum) : own);
-    mesh.index.push_back(static_cast<std::uint32_t>(k));
+    mesh.position.edit().push_back(position[index[k]]);
+    mesh.normal.edit().push_back(length(sum) > 0 ? normalized(sum) : own);
+    mesh.index.edit().push_back(static_cast<std::uint32_t>(k));
   }
   return mesh;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace neve::render::shapes {
 namespace {
@@ -14,8 +15,8 @@ Vec3f rotate(const Rotation& r, Vec3f v) {
 }  // namespace
 
 TriangleMesh moved_mesh(TriangleMesh mesh, Vec3f center, const Rotation& rotation) {
-  for (Vec3f& x : mesh.position) x = center + rotate(rotation, x);
-  for (Vec3f& n : mesh.normal) n = rotate(rotation, n);
+  for (Vec3f& x : mesh.position.edit()) x = center + rotate(rotation, x);
+  for (Vec3f& n : mesh.normal.edit()) n = rotate(rotation, n);
   return mesh;
 }
 
@@ -27,44 +28,45 @@ Lines moved_lines(Lines lines, Vec3f center, const Rotation& rotation) {
 TriangleMesh sphere_mesh(Vec3f center, float radius) {
   constexpr std::uint32_t rings = 48, segments = 96;
   constexpr float pi = std::numbers::pi_v<float>;
-  TriangleMesh mesh;
+  std::vector<Vec3f> position, normal;
+  std::vector<std::uint32_t> index;
   for (std::uint32_t i = 0; i <= rings; ++i) {
     const float polar = pi * static_cast<float>(i) / rings;
     for (std::uint32_t j = 0; j <= segments; ++j) {
       const float around = 2 * pi * static_cast<float>(j) / segments;
       const Vec3f n = {std::sin(polar) * std::cos(around), std::cos(polar),
                        std::sin(polar) * std::sin(around)};
-      mesh.position.push_back(center + radius * n);
-      mesh.normal.push_back(n);
+      position.push_back(center + radius * n);
+      normal.push_back(n);
     }
   }
   for (std::uint32_t i = 0; i < rings; ++i) {
     for (std::uint32_t j = 0; j < segments; ++j) {
       const std::uint32_t a = i * (segments + 1) + j, b = a + segments + 1;
-      mesh.index.insert(mesh.index.end(), {a, a + 1, b, b, a + 1, b + 1});
+      index.insert(index.end(), {a, a + 1, b, b, a + 1, b + 1});
     }
   }
-  return mesh;
+  return {std::move(position), std::move(normal), std::move(index)};
 }
 
 TriangleMesh box_mesh(Vec3f center, Vec3f size, const Rotation& rotation) {
-  TriangleMesh mesh;
+  std::vector<Vec3f> position, normal;
+  std::vector<std::uint32_t> index;
   for (int axis = 0; axis < 3; ++axis) {
     for (const float side : {-1.0f, 1.0f}) {
       Vec3f n, u, v;
       n[axis] = side;
       u[(axis + 1) % 3] = 1;
       v[(axis + 2) % 3] = side;  // keeps the winding outward on both sides
-      const auto first = static_cast<std::uint32_t>(mesh.position.size());
+      const auto first = static_cast<std::uint32_t>(position.size());
       for (const auto& [a, b] : {std::array{-1.f, -1.f}, {1.f, -1.f}, {1.f, 1.f}, {-1.f, 1.f}}) {
-        mesh.position.push_back(center + rotate(rotation, 0.5f * (size * (n + a * u + b * v))));
-        mesh.normal.push_back(rotate(rotation, n));
+        position.push_back(center + rotate(rotation, 0.5f * (size * (n + a * u + b * v))));
+        normal.push_back(rotate(rotation, n));
       }
-      mesh.index.insert(mesh.index.end(),
-                        {first, first + 1, first + 2, first, first + 2, first + 3});
+      index.insert(index.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
     }
   }
-  return mesh;
+  return {std::move(position), std::move(normal), std::move(index)};
 }
 
 Lines sphere_lines(Vec3f center, float radius, const Rotation& rotation) {

@@ -60,20 +60,21 @@ Profile torus_profile(float ring, float radius) {
 }
 
 TriangleMesh round_mesh(const Profile& profile, Vec3f center, const Rotation& rotation) {
-  TriangleMesh mesh;
+  std::vector<Vec3f> position, normal;
+  std::vector<std::uint32_t> index;
   for (const Profile::Point& p : profile.points)
     for (std::uint32_t j = 0; j <= segments; ++j) {
       const float around = 2 * pi * static_cast<float>(j) / segments;
-      mesh.position.push_back(on_circle(p, around));
-      mesh.normal.push_back(
+      position.push_back(on_circle(p, around));
+      normal.push_back(
           {p.normal_out * std::cos(around), p.normal_along, p.normal_out * std::sin(around)});
     }
   for (std::uint32_t i = 0; i + 1 < profile.points.size(); ++i)
     for (std::uint32_t j = 0; j < segments; ++j) {
       const std::uint32_t a = i * (segments + 1) + j, b = a + segments + 1;
-      mesh.index.insert(mesh.index.end(), {a, b, a + 1, b, b + 1, a + 1});
+      index.insert(index.end(), {a, b, a + 1, b, b + 1, a + 1});
     }
-  return moved_mesh(std::move(mesh), center, rotation);
+  return moved_mesh({std::move(position), std::move(normal), std::move(index)}, center, rotation);
 }
 
 Lines round_lines(const Profile& profile, Vec3f center, const Rotation& rotation, bool only_edges) {

@@ -30,7 +30,7 @@ class Batch {
 
  private:
   static constexpr int size = 64;
-  static_assert(size % cpu::most_light_lanes == 0);
+  static_assert(size % cpu::max_light_lanes == 0);
   struct alignas(64) Numbers {
     float at[size]{};  ///< whole vectors are read, those beyond the last sample too
   };

@@ -112,7 +112,7 @@ void pad_blocks(ThreadPool* pool, Body& body) {
 Points with_cut_away(const Points& points) {
   Points all = points;
   const auto append = [](auto& to, const auto& from) {
-    to.insert(to.end(), from.begin(), from.end());
+    to.edit().insert(to.edit().end(), from.begin(), from.end());
   };
   append(all.position, points.cut->position);
   append(all.id, points.cut->id);

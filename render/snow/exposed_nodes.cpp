@@ -58,7 +58,7 @@ struct ExposedNodes::NewNodes {
     normal.set(count++, outward);
   }
   void light_near(Vec3f toward) {
-    for (std::size_t n = count; n < count + cpu::most_light_lanes && n < size; ++n) {
+    for (std::size_t n = count; n < count + cpu::max_light_lanes && n < size; ++n) {
       place.set(n, {});
       normal.set(n, {});
     }

@@ -116,9 +116,9 @@ void add_lump(const Points& points, std::size_t p, const LumpPlace& place, Point
     const Vec3f random = random_offset(std::uint64_t{id} * balls_per_grain + ball + 1);
     // Denser in the middle.
     const Vec3f offset = random * (reach * length(random));
-    spray.position.push_back(place.middle + turned(points, p, offset));
-    spray.id.push_back(id);
-    if (!points.value.empty()) spray.value.push_back(points.value[p]);
+    spray.position.edit().push_back(place.middle + turned(points, p, offset));
+    spray.id.edit().push_back(id);
+    if (!points.value.empty()) spray.value.edit().push_back(points.value[p]);
   }
 }
 

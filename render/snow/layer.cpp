@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "render/frame/same_bytes.h"
 #include "render/light/light_fields.h"
 #include "render/light/shading_constants.h"
 #include "render/snow/batch.h"
@@ -10,25 +9,6 @@
 namespace neve::render::snow {
 
 namespace {
-
-bool is_same_plane(const GroundPlane& a, const GroundPlane& b) {
-  return a.point == b.point && a.normal == b.normal;
-}
-
-bool is_same(const CutAway& a, const CutAway& b) {
-  return a.point == b.point && a.normal == b.normal && same_bytes(a.position, b.position) &&
-         same_bytes(a.id, b.id) && same_bytes(a.value, b.value) && same_bytes(a.volume, b.volume) &&
-         same_bytes(a.turn, b.turn);
-}
-
-bool is_same(const Points& a, const Points& b) {
-  if (a.cut.has_value() != b.cut.has_value() || (a.cut && !is_same(*a.cut, *b.cut))) return false;
-  return a.radius == b.radius && a.spacing == b.spacing && a.colormap == b.colormap &&
-         a.range_min == b.range_min && a.range_max == b.range_max &&
-         same_bytes(a.position, b.position) && same_bytes(a.id, b.id) &&
-         same_bytes(a.value, b.value) && same_bytes(a.volume, b.volume) &&
-         same_bytes(a.turn, b.turn);
-}
 
 Vec3f albedo_of(unsigned word) {
   const auto byte = [&](int shift) { return static_cast<float>(word >> shift & 0xff) / 255; };
@@ -42,8 +22,7 @@ void Layer::prepare(const Frame& frame, const View& view, const light::LightVolu
   marcher_.reset();
   const SnowLight light = {light::toward_light(frame.light), frame.light.intensity,
                            frame.light.ambient, !frame.points.value.empty()};
-  const bool has_body = points_ && is_same(*points_, frame.points) &&
-                        std::ranges::equal(grounds_, frame.grounds, is_same_plane);
+  const bool has_body = points_ == frame.points && grounds_ == frame.grounds;
   const bool has_nodes = has_body && nodes_ && volume.serial != 0 && volume.serial == serial_ &&
                          light.toward == light_.toward;
   if (!has_body) {

@@ -25,7 +25,7 @@ constexpr double block_bytes = 2 * 4.0 * block_nodes + 108 + 2.0 * block_nodes +
 constexpr double tile_bytes = 4.0 * tile_nodes;
 
 /// Widths of the kernel beyond which its tail of a few millionths is left out.
-constexpr double most_widths = 4.5;
+constexpr double max_widths = 4.5;
 
 /// A particle that has grown without bound fills no more cells than this.
 constexpr float most_cells = 1e6f;
@@ -208,7 +208,7 @@ GrainField make_field(const Grains& grains, const Kernel& kernel, std::uint64_t 
   const Filter filter = make_filter(cells * cells - 0.25);  // a quadratic B-spline has 1/4
   Runs runs(grains, kernel.cell, pool);
   // Repeated filters reach further than a Gaussian of their width has any weight.
-  const int reach = std::min(filter.reach(), static_cast<int>(std::ceil(most_widths * cells)));
+  const int reach = std::min(filter.reach(), static_cast<int>(std::ceil(max_widths * cells)));
   const std::vector<BlockKey> blocks = reached_blocks(occupied_blocks(runs), reach, max_bytes);
   BlockMap map(blocks.size());
   for (const BlockKey key : blocks) map.insert(key);

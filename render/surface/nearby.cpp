@@ -152,14 +152,14 @@ struct Part {
 };
 
 /// Rings of bins that are searched for the nearest particle: further away than any kernel reaches.
-constexpr int most_rings = 12;
+constexpr int max_rings = 12;
 
 void add_nearest(Vec3f vertex, Vec3i cube, const GrainCubes& cubes, Part& part) {
   constexpr float everywhere = 1e18f;  // its square is finite
   float least = std::numeric_limits<float>::infinity();
   std::uint32_t nearest = no_block;
   std::vector<GrainRun> runs;
-  for (int rings = 1; rings <= most_rings && nearest == no_block; ++rings) {
+  for (int rings = 1; rings <= max_rings && nearest == no_block; ++rings) {
     cubes.list_runs(cube, rings, runs);
     cubes.for_near(vertex, runs, everywhere, [&](std::uint32_t p, float squared) {
       if (!(squared < least)) return;

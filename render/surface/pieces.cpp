@@ -12,7 +12,7 @@ namespace {
 constexpr InsideBits full_block = {~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull};
 
 /// Cells: no node that is looked for is further away than the next block.
-constexpr int most_reach = 6;
+constexpr int max_reach = 6;
 
 /// Sets that grow together; the smallest member names each.
 class Sets {
@@ -201,7 +201,7 @@ Pieces find_pieces(const Grains& grains, const Bins& blocks, const PieceRules& r
   const Labels labels = label_blocks(pieces.inside, pool);
   Sets sets = join_blocks(field, pieces.inside, labels);
   std::vector<std::uint32_t> label =
-      label_grains(grains, blocks, std::clamp(rules.reach, 0, most_reach), field, labels, pool);
+      label_grains(grains, blocks, std::clamp(rules.reach, 0, max_reach), field, labels, pool);
   std::vector<std::uint32_t> size(labels.first.back(), 0);
   for (std::uint32_t& l : label)
     if (l != no_block) ++size[l = sets.find(l)];

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint64_t first_column = 0x0101010101010101ull, first_row = 0xffull;
 
 /// Nearest that a vertex comes to a node, in cells: triangles keep an area.
-constexpr float least_distance = 0.01f;
+constexpr float min_distance = 0.01f;
 
 /// Which corners of the cells in a slice are inside: bit 8 j + i is that of cell (i, j).
 using Corners = std::array<std::uint64_t, 8>;
@@ -143,8 +143,7 @@ void place_vertex(const Field& field, std::size_t b, Vec3i node, int axis, Vec3f
   Vec3i next = node;
   ++next[axis];
   const float low = field.at(b, node.x, node.y, node.z), high = field.at(b, next.x, next.y, next.z);
-  const float t =
-      std::clamp((surface_share - low) / (high - low), least_distance, 1 - least_distance);
+  const float t = std::clamp((surface_share - low) / (high - low), min_distance, 1 - min_distance);
   for (int a = 0; a < 3; ++a) {
     const double place = static_cast<double>(block_side * field.block[b][a] + node[a]);
     const double along = a == axis ? static_cast<double>(t) : 0;
@@ -158,14 +157,15 @@ void place_vertex(const Field& field, std::size_t b, Vec3i node, int axis, Vec3f
 }
 
 void write_vertices(const Field& field, const CutBlock& cut, TriangleMesh& mesh) {
+  std::vector<Vec3f>&position = mesh.position.edit(), &normal = mesh.normal.edit();
   std::size_t to = cut.first_vertex;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (int k = 0; k < block_side; ++k)
       for (std::uint64_t left = cut.edges.bits[axis][static_cast<std::size_t>(k)]; left != 0;
            left &= left - 1) {
         const int n = std::countr_zero(left);
-        place_vertex(field, cut.block, {n & 7, n >> 3, k}, static_cast<int>(axis),
-                     mesh.position[to], mesh.normal[to]);
+        place_vertex(field, cut.block, {n & 7, n >> 3, k}, static_cast<int>(axis), position[to],
+                     normal[to]);
         ++to;
       }
 }
@@ -200,13 +200,14 @@ class VertexNumbers {
 void write_triangles(const Cells& cells, const CutBlock& cut, const VertexNumbers& numbers,
                      TriangleMesh& mesh) {
   const std::array<CellCase, 256>& table = cell_table();
+  std::vector<std::uint32_t>& index = mesh.index.edit();
   std::size_t to = 3 * cut.first_triangle;
   for (int k = 0; k < block_side; ++k) {
     const Corners corners = cells.corners(k);
     for_cut_cells(corners, [&](int cell) {
       const CellCase& c = table[static_cast<std::size_t>(corner_bits(corners, cell))];
       for (std::size_t e = 0; e < std::size_t{3} * c.triangles; ++e)
-        mesh.index[to++] = numbers.of(cut.block, {cell & 7, cell >> 3, k}, c.edge[e]);
+        index[to++] = numbers.of(cut.block, {cell & 7, cell >> 3, k}, c.edge[e]);
     });
   }
 }
@@ -241,9 +242,9 @@ TriangleMesh triangles_of(const Field& field, const std::vector<InsideBits>& ins
     triangles += cut.triangles;
   }
   TriangleMesh mesh;
-  mesh.position.resize(vertices);
-  mesh.normal.resize(vertices);
-  mesh.index.resize(3 * triangles);
+  mesh.position.edit().resize(vertices);
+  mesh.normal.edit().resize(vertices);
+  mesh.index.edit().resize(3 * triangles);
   const VertexNumbers numbers(field, cuts);
   for_ranges(pool, cuts.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {

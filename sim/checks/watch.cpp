@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/engine/time_step.h"
 #include "sim/health/diagnostics.h"
 #include "sim/staged.h"
 #include "sim/types/number_text.h"
+#include "sim/types/time_step.h"
 
 namespace neve::sim::checks {
 
@@ -165,7 +165,7 @@ Watch::Watch(const SolverSettings& settings, const std::vector<Material>& materi
   if (settings.is_implicit()) {
     // A limit that no longer applies says nothing about the step; neither does a trapezoidal rule
     // over steps that are long for the stiffness, and that damp.
-    const double stretch = engine::acoustic_stretch(settings);
+    const double stretch = sim::acoustic_stretch(settings);
     for (WatchRecord& record : records_) {
       if (record.check == WatchCheck::work) record.threshold = never;
       if (record.check != WatchCheck::acoustic_cfl) continue;
@@ -179,7 +179,7 @@ Watch::Watch(const SolverSettings& settings, const std::vector<Material>& materi
     double& threshold = records_[static_cast<std::size_t>(check)].threshold;
     threshold = std::max(threshold, limit * (1 + 1e-6));
   };
-  expect(WatchCheck::acoustic_cfl, settings.acoustic_cfl * engine::acoustic_stretch(settings));
+  expect(WatchCheck::acoustic_cfl, settings.acoustic_cfl * sim::acoustic_stretch(settings));
   expect(WatchCheck::speed_cfl, settings.cfl);
 }
 

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "sim/engine/lattice.h"
-#include "sim/engine/time_step.h"
 #include "sim/kernels/implicit.h"
 #include "sim/kernels/kernels.h"
 #include "sim/kernels/particle_contact.h"
 #include "sim/types/material.h"
 #include "sim/types/settings.h"
+#include "sim/types/time_step.h"
 
 namespace neve::sim::engine {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "sim/engine/time_step.h"
 #include "sim/seeding/flow.h"
 #include "sim/types/reports.h"
+#include "sim/types/time_step.h"
 
 namespace neve::sim::engine {
 

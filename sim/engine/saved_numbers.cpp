@@ -6,10 +6,10 @@
 #include <string>
 
 #include "sim/engine/records.h"
-#include "sim/engine/time_step.h"
 #include "sim/health/limits.h"
 #include "sim/types/errors.h"
 #include "sim/types/number_text.h"
+#include "sim/types/time_step.h"
 
 namespace neve::sim::engine {
 

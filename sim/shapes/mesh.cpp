@@ -19,7 +19,7 @@ namespace {
 using Corner = std::uint32_t;
 
 /// m, across a mesh: cells are no smaller.
-constexpr double least_extent = 1e-9;
+constexpr double min_extent = 1e-9;
 
 /// For every vertex the first one at the same position.
 std::vector<Corner> weld(const std::vector<Vec3d>& vertices) {
@@ -190,9 +190,9 @@ ClosedMesh scaled(ClosedMesh mesh, double scale, const std::string& name) {
   if (!std::isfinite(mesh.volume) || !std::isfinite(across))
     throw ShapeError(what +
                      "too large: its volume overflows. scale is metres per unit of the file");
-  if (!(across >= least_extent && mesh.volume > 0))
+  if (!(across >= min_extent && mesh.volume > 0))
     throw ShapeError(what + number_text(across) + " m across; expected at least " +
-                     number_text(least_extent) + " m. scale is metres per unit of the file");
+                     number_text(min_extent) + " m. scale is metres per unit of the file");
   return mesh;
 }
 

@@ -11,6 +11,7 @@
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/resolve.h"
+#include "app/support/errors.h"
 
 namespace neve::app {
 namespace {
@@ -216,8 +217,8 @@ TEST(CameraErrors, KeyframesAreSetTogether) {
   };
   EXPECT_EQ(scene_set("camera.orbit=45").camera->orbit, 45);
   EXPECT_EQ(scene_set("camera.keyframes=[{time = 1}, {time = 2}]").camera->keyframes.size(), 2u);
-  EXPECT_THROW(scene_set("camera.keyframes[N].time=1"), app::scene::toml::UsageError);
-  EXPECT_THROW(scene_set("camera.keyframes[0].time=1"), app::scene::toml::UsageError);
+  EXPECT_THROW(scene_set("camera.keyframes[N].time=1"), app::UsageError);
+  EXPECT_THROW(scene_set("camera.keyframes[0].time=1"), app::UsageError);
 }
 
 }  // namespace

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
-#include "sim/engine/time_step.h"
+#include "app/support/errors.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app {
 namespace {
@@ -27,7 +27,7 @@ app::scene::Scene coarse_ball(const std::string& solver = "") {
 std::string message_of(app::scene::Scene scene, double factor) {
   try {
     app::scene::coarsen(scene, factor);
-  } catch (const app::scene::toml::UsageError& error) {
+  } catch (const app::UsageError& error) {
     return error.what();
   }
   return "";
@@ -75,7 +75,7 @@ TEST(Coarsen, CoarseningLeavesAnEighthOfTheParticlesAndAllOfTheMass) {
 
 /// Share of a difference to the grid's velocity that FLIP keeps over the same time.
 double kept(const sim::SolverSettings& s, double dt, int steps) {
-  return std::pow(sim::engine::flip_share(s, dt), steps);
+  return std::pow(sim::flip_share(s, dt), steps);
 }
 
 TEST(Coarsen, CoarseningKeepsTheDampingPerSecond) {
@@ -128,10 +128,10 @@ TEST(Coarsen, CoarseningRefusesStepsOutOfRange) {
 }
 
 TEST(Coarsen, PicturesRecordTheFactorAndOldOnesDoNotNeedIt) {
-  app::run::PictureRecord record;
+  app::record::PictureRecord record;
   record.coarsening = 1.5;
-  EXPECT_EQ(app::run::to_png_text(record).at("neve:coarsen"), "1.5");
-  EXPECT_EQ(app::run::to_json(record)["coarsen"], 1.5);
+  EXPECT_EQ(app::record::to_png_text(record).at("neve:coarsen"), "1.5");
+  EXPECT_EQ(app::record::to_json(record)["coarsen"], 1.5);
 }
 
 }  // namespace

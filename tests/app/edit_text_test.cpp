@@ -9,6 +9,7 @@
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -192,14 +193,14 @@ TEST(EditText, AKeyOfTheSameNameElsewhereIsNotTakenForIt) {
 }
 
 TEST(EditText, BadChangesAndFilesAreRefused) {
-  EXPECT_THROW(edit({"solver.nonsense=1"}), app::scene::toml::UsageError);
-  EXPECT_THROW(edit({"solver.cfl=-1"}), app::scene::toml::UsageError);
+  EXPECT_THROW(edit({"solver.nonsense=1"}), app::UsageError);
+  EXPECT_THROW(edit({"solver.cfl=-1"}), app::UsageError);
   EXPECT_THROW(edit({"frames=1"}, "[[body]"), app::scene::toml::SceneError);
   EXPECT_THROW(edit({"frames=1"}, "frames = 1"), app::scene::toml::SceneError);
   // Views as one array cannot be added to line by line.
   EXPECT_THROW(edit({"view.smoke.smoke.density_scale=2"},
                     "view = [{}]\n[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n"),
-               app::scene::toml::UsageError);
+               app::UsageError);
 }
 
 /// Another value that is valid; nothing for what cannot be told.
@@ -280,7 +281,7 @@ TEST(EditText, HostileFilesAreRefusedOrEditedRightly) {
            text);
     } catch (const app::scene::toml::SceneError&) {
       ++refused;
-    } catch (const app::scene::toml::UsageError&) {
+    } catch (const app::UsageError&) {
       ++refused;
     }
   }

@@ -1,6 +1,6 @@
 /// The settings of --fast.
 
-#include "app/health/fast.h"
+#include "app/forecast/fast.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -40,12 +40,12 @@ shape = {{ plane = {{}} }}
                      solver, material, -speed);
 }
 
-health::FastLook look_at(const std::string& text, const Lines& chosen = {}, int last = 6) {
-  return health::fast_look(scene::read_scene_text(text, "scene.toml"), last, chosen);
+forecast::FastLook look_at(const std::string& text, const Lines& chosen = {}, int last = 6) {
+  return forecast::fast_look(scene::read_scene_text(text, "scene.toml"), last, chosen);
 }
 
 TEST(Fast, StepsGrowAndHardeningGetsACeiling) {
-  const health::FastLook look = look_at(falling_ball(""));
+  const forecast::FastLook look = look_at(falling_ball(""));
   EXPECT_EQ(look.overrides, Lines({"solver.acoustic_cfl=1.2", "material.snow.max_hardening=20"}));
   EXPECT_FALSE(look.is_implicit);
   // 1.2 / 0.5 at the most, where nothing hardens.
@@ -58,7 +58,8 @@ TEST(Fast, StepsGrowAndHardeningGetsACeiling) {
 
 TEST(Fast, AffineTransfersTakeShorterStepsBecauseTheyDriftMore) {
   for (const char* transfer : {"apic", "mls"}) {
-    const health::FastLook look = look_at(falling_ball(fmt::format("transfer = \"{}\"", transfer)));
+    const forecast::FastLook look =
+        look_at(falling_ball(fmt::format("transfer = \"{}\"", transfer)));
     ASSERT_FALSE(look.overrides.empty());
     EXPECT_EQ(look.overrides[0], "solver.acoustic_cfl=0.7");
   }
@@ -70,21 +71,21 @@ TEST(Fast, OnlySnowOnCubicWeightsTakesTheLongestSteps) {
   for (const auto& [solver, material] :
        {std::pair("kernel = \"quadratic\"", ""), std::pair("", "model = \"corotated\""),
         std::pair("", "poisson_ratio = 0.4")}) {
-    const health::FastLook look = look_at(falling_ball(solver, material));
+    const forecast::FastLook look = look_at(falling_ball(solver, material));
     ASSERT_FALSE(look.overrides.empty()) << solver << material;
     EXPECT_EQ(look.overrides[0], "solver.acoustic_cfl=0.85") << solver << material;
   }
 }
 
 TEST(Fast, SettingsOfTheUserStay) {
-  const health::FastLook look = look_at(falling_ball(""), {"solver.acoustic_cfl", "solver.beta"});
+  const forecast::FastLook look = look_at(falling_ball(""), {"solver.acoustic_cfl", "solver.beta"});
   EXPECT_EQ(look.overrides, Lines({"material.snow.max_hardening=20"}));
   // Values that go further than those of --fast stay as well.
   EXPECT_EQ(look_at(falling_ball("acoustic_cfl = 1.3", "max_hardening = 5")).overrides, Lines());
 }
 
 TEST(Fast, NothingIsSetWhereNothingIsGained) {
-  const health::FastLook look =
+  const forecast::FastLook look =
       look_at(falling_ball("time_step = \"fixed\"\ndt = 1e-4", "hardening = 0"));
   EXPECT_TRUE(look.overrides.empty());
   EXPECT_EQ(look.sentence(), "--fast finds no longer steps for this scene");
@@ -93,11 +94,12 @@ TEST(Fast, NothingIsSetWhereNothingIsGained) {
 /// Snow a thousand times as stiff that hardly moves: explicit steps resolve sound that nobody sees.
 TEST(Fast, StiffSlowSnowTakesSemiImplicitSteps) {
   const std::string stiff = "youngs_modulus = 1.4e8";
-  const health::FastLook look = look_at(falling_ball("", stiff, 0.1), {}, 2);
+  const forecast::FastLook look = look_at(falling_ball("", stiff, 0.1), {}, 2);
   EXPECT_TRUE(look.is_implicit) << look.sentence();
   EXPECT_EQ(look.overrides[0], "solver.beta=0.5");
   EXPECT_LT(*look.work, 0.3 * *look.work_before);
-  const health::FastLook kept = look_at(falling_ball("beta = 1\nmax_dt = 2e-3", stiff, 0.1), {}, 2);
+  const forecast::FastLook kept =
+      look_at(falling_ball("beta = 1\nmax_dt = 2e-3", stiff, 0.1), {}, 2);
   EXPECT_TRUE(std::none_of(kept.overrides.begin(), kept.overrides.end(), [](const auto& change) {
     return change.starts_with("solver.");
   })) << kept.sentence();
@@ -106,13 +108,13 @@ TEST(Fast, StiffSlowSnowTakesSemiImplicitSteps) {
 /// Snow too soft for its impact: the coarse copy diverges, and a forecast from them would say that
 /// nothing is to be done.
 TEST(Fast, CopiesThatDivergeForetellNothing) {
-  const health::FastLook look = look_at(falling_ball("", "", 14));
+  const forecast::FastLook look = look_at(falling_ball("", "", 14));
   EXPECT_FALSE(look.work_before) << *look.work_before;
   EXPECT_EQ(look.sentence().find('%'), std::string::npos) << look.sentence();
 }
 
 TEST(Fast, TheChoiceDependsOnTheSceneAlone) {
-  const health::FastLook a = look_at(falling_ball("")), b = look_at(falling_ball(""));
+  const forecast::FastLook a = look_at(falling_ball("")), b = look_at(falling_ball(""));
   EXPECT_EQ(a.overrides, b.overrides);
   EXPECT_EQ(a.work, b.work);
   EXPECT_EQ(a.work_before, b.work_before);

@@ -173,7 +173,7 @@ keyframes = [{ time = 0 }, { time = 0.2, rotation = [0, 0, 40] }]
 
 TEST(DryRun, DryRunCoversTheWholeScene) {
   const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
-  const std::vector<app::setup::Moment> moments = app::setup::coarse_run(scene);
+  const std::vector<app::setup::CoarseMoment> moments = app::setup::coarse_run(scene);
   ASSERT_GT(moments.size(), 2u);
   EXPECT_DOUBLE_EQ(moments.back().time, 0.5);
   EXPECT_LT(moments.front().x.size(), 2000u);

@@ -1,14 +1,15 @@
 /// Progress lines, and the small texts around them.
 
+#include "app/advice/suggest.h"
 #include "app/support/progress.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
+#include "app/options/languages.h"
 #include "app/picture/frame_builder.h"
-#include "app/scene/toml/error.h"
-#include "app/setup/argument_text.h"
+#include "app/support/errors.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 
@@ -65,19 +66,19 @@ TEST(RoundNumber, RoundNumbersHaveFewDigits) {
 }
 
 TEST(FrameArguments, FrameArgumentsAreRangesOrALastFrame) {
-  EXPECT_EQ(app::setup::parse_frames("3-7").first, 3);
-  EXPECT_EQ(app::setup::parse_frames("3-7").last, 7);
-  EXPECT_EQ(app::setup::parse_frames("48").first, 0);
-  EXPECT_EQ(app::setup::parse_frames("48").last, 48);
+  EXPECT_EQ(app::options::frames().read("--frames", "3-7").first, 3);
+  EXPECT_EQ(app::options::frames().read("--frames", "3-7").last, 7);
+  EXPECT_EQ(app::options::frames().read("--frames", "48").first, 0);
+  EXPECT_EQ(app::options::frames().read("--frames", "48").last, 48);
   for (const char* wrong : {"", "-", "5-", "-5", "7-3", "a", "1-b", "1 - 2", "99999999999"})
-    EXPECT_THROW(app::setup::parse_frames(wrong), app::scene::toml::UsageError) << wrong;
+    EXPECT_THROW(app::options::frames().read("--frames", wrong), app::UsageError) << wrong;
 }
 
 TEST(SizeArguments, SizeArgumentsAreTwoSides) {
-  EXPECT_EQ(app::setup::parse_size("1280x720").width, 1280);
-  EXPECT_EQ(app::setup::parse_size("1280x720").height, 720);
+  EXPECT_EQ(app::options::size().read("--size", "1280x720").width, 1280);
+  EXPECT_EQ(app::options::size().read("--size", "1280x720").height, 720);
   for (const char* wrong : {"", "x", "1280", "1280x", "0x720", "-5x9", "1280X720", "99999999x9"})
-    EXPECT_THROW(app::setup::parse_size(wrong), app::scene::toml::UsageError) << wrong;
+    EXPECT_THROW(app::options::size().read("--size", wrong), app::UsageError) << wrong;
 }
 
 TEST(Caption, CaptionNamesOverridesOfTheSnowShortly) {
@@ -90,14 +91,14 @@ TEST(Caption, CaptionNamesOverridesOfTheSnowShortly) {
 }
 
 TEST(NearestName, NearestNameIsFoundForTypingErrorsOnly) {
-  EXPECT_EQ(nearest_name("rendr", {"render", "doctor"}), "render");
-  EXPECT_EQ(nearest_name("banana", {"render", "doctor"}), "");
-  EXPECT_EQ(nearest_name("hardneing", {"hardness", "hardening", "density"}), "hardening");
-  EXPECT_EQ(nearest_name("ab", {"b", "ba", "abcd"}), "b");
-  EXPECT_EQ(nearest_name("velocty", {"velocity_of_all", "velocity"}), "velocity");
-  EXPECT_EQ(nearest_name("", {"a", "ab"}), "") << "nothing typed resembles nothing";
-  EXPECT_EQ(nearest_name("Z", {"y", "z"}), "z");
-  EXPECT_EQ(nearest_name("VELOCITY", {"v", "velocity"}), "velocity");
+  EXPECT_EQ(advice::nearest_name("rendr", {"render", "doctor"}), "render");
+  EXPECT_EQ(advice::nearest_name("banana", {"render", "doctor"}), "");
+  EXPECT_EQ(advice::nearest_name("hardneing", {"hardness", "hardening", "density"}), "hardening");
+  EXPECT_EQ(advice::nearest_name("ab", {"b", "ba", "abcd"}), "b");
+  EXPECT_EQ(advice::nearest_name("velocty", {"velocity_of_all", "velocity"}), "velocity");
+  EXPECT_EQ(advice::nearest_name("", {"a", "ab"}), "") << "nothing typed resembles nothing";
+  EXPECT_EQ(advice::nearest_name("Z", {"y", "z"}), "z");
+  EXPECT_EQ(advice::nearest_name("VELOCITY", {"v", "velocity"}), "velocity");
 }
 
 }  // namespace

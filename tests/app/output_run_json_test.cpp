@@ -1,6 +1,6 @@
 /// run.json: the names that scripts depend on.
 
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@ std::vector<std::string> keys(const Json& json) {
 }
 
 TEST(RunJson, RunJsonHasTheFieldsOfTheContract) {
-  app::run::RunRecord run;
+  app::record::RunRecord run;
   run.frames.emplace_back();
-  const Json json = app::run::to_json(run);
+  const Json json = app::record::to_json(run);
   for (const char* key : {"version", "scene", "overrides", "backend", "gl_renderer", "threads",
                           "simd", "status", "warnings", "frames"})
     EXPECT_TRUE(json.contains(key)) << key;
@@ -60,7 +60,7 @@ TEST(RunJson, RunJsonHasTheFieldsOfTheContract) {
 }
 
 TEST(RunJson, FrameZeroHasNoSteps) {
-  const Json json = app::run::to_json(app::run::FrameRecord{});
+  const Json json = app::record::to_json(app::record::FrameRecord{});
   EXPECT_EQ(json["steps"], 0);
   EXPECT_TRUE(json["dt_min"].is_null());
   EXPECT_TRUE(json["dt_max"].is_null());
@@ -68,19 +68,19 @@ TEST(RunJson, FrameZeroHasNoSteps) {
 }
 
 TEST(RunJson, RunJsonNamesTheLimitThatRuledMostSteps) {
-  app::run::FrameRecord frame;
+  app::record::FrameRecord frame;
   frame.advance.steps = 5;
   frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::cfl)] = 4;
   frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::frame_end)] = 1;
-  EXPECT_EQ(app::run::to_json(frame)["dt_limit"], "cfl");
+  EXPECT_EQ(app::record::to_json(frame)["dt_limit"], "cfl");
 }
 
 TEST(RunJson, RunJsonWritesNanAsNullAndHashesWithAllDigits) {
-  app::run::FrameRecord frame;
+  app::record::FrameRecord frame;
   frame.summary.max_speed = std::numeric_limits<double>::quiet_NaN();
   frame.summary.momentum.x() = std::numeric_limits<double>::infinity();
   frame.state_hash = 0xabc;
-  const Json json = app::run::to_json(frame);
+  const Json json = app::record::to_json(frame);
   EXPECT_TRUE(json["max_speed"].is_null());
   EXPECT_TRUE(json["momentum"][0].is_null());
   EXPECT_EQ(json["state_hash"], "0000000000000abc");
@@ -89,22 +89,22 @@ TEST(RunJson, RunJsonWritesNanAsNullAndHashesWithAllDigits) {
 /// Slow frames are told, and are no warnings: these mark tiles of sheets, which must not depend on
 /// what else the machine does.
 TEST(RunJson, SlowFramesAreToldBesideTheWarnings) {
-  app::run::RunRecord run;
-  EXPECT_TRUE(app::run::to_json(run)["slowdown"].is_null());
+  app::record::RunRecord run;
+  EXPECT_TRUE(app::record::to_json(run)["slowdown"].is_null());
   run.slowdown = "frame 5 took 20 s";
-  EXPECT_EQ(app::run::to_json(run)["slowdown"], "frame 5 took 20 s");
-  EXPECT_TRUE(app::run::to_json(run)["warnings"].empty());
+  EXPECT_EQ(app::record::to_json(run)["slowdown"], "frame 5 took 20 s");
+  EXPECT_TRUE(app::record::to_json(run)["warnings"].empty());
 }
 
 TEST(RunJson, RunJsonSurvivesTextThatIsNoUtf8) {
-  app::run::RunRecord run;
+  app::record::RunRecord run;
   run.scene_file = "caf\xe9.toml";
-  EXPECT_NO_THROW(to_text(app::run::to_json(run)));
+  EXPECT_NO_THROW(to_text(app::record::to_json(run)));
 }
 
 /// A resumed run starts from the records of the run before it.
 TEST(RunJson, FramesComeBackAsTheyWereWritten) {
-  app::run::FrameRecord frame;
+  app::record::FrameRecord frame;
   frame.frame = 7;
   frame.time = 7.0 / 24;
   frame.advance.steps = 12;
@@ -117,14 +117,15 @@ TEST(RunJson, FramesComeBackAsTheyWereWritten) {
   frame.summary.kinetic_energy = std::numeric_limits<double>::quiet_NaN();
   frame.summary.momentum = {0.1, 0.2, 0.3};
   frame.state_hash = 0xfedcba9876543210ull;
-  const Json json = app::run::to_json(frame);
-  EXPECT_EQ(app::run::to_json(app::run::frame_record(parse_json(to_text(json)))), json);
-  EXPECT_EQ(app::run::to_json(app::run::frame_record(app::run::to_json(app::run::FrameRecord{}))),
-            app::run::to_json(app::run::FrameRecord{}));
+  const Json json = app::record::to_json(frame);
+  EXPECT_EQ(app::record::to_json(app::record::frame_record(parse_json(to_text(json)))), json);
+  EXPECT_EQ(app::record::to_json(
+                app::record::frame_record(app::record::to_json(app::record::FrameRecord{}))),
+            app::record::to_json(app::record::FrameRecord{}));
   const Json advance = app::output::to_json(frame.advance);
   EXPECT_EQ(app::output::to_json(app::output::advance_report(parse_json(to_text(advance)))),
             advance);
-  EXPECT_TRUE(app::run::read_frame_records("/nowhere").empty());
+  EXPECT_TRUE(app::record::read_frame_records("/nowhere").empty());
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(Plots, HoldEnergiesSpeedAndStep) {
   EXPECT_EQ(plots[0].series[1].value.back(), 4);
   EXPECT_EQ(plots[0].series[2].value.back(), 16) << "the total is the sum";
   EXPECT_EQ(plots[1].series.at(0).value, std::vector<float>(5, 2.0f));
-  EXPECT_EQ(plots[0].time_end, 3);
+  EXPECT_EQ(plots[0].x_end, 3);
   EXPECT_EQ(plots[0].now, 2);
 }
 
@@ -42,7 +42,7 @@ TEST(Plots, StepsAreBarsUnderTheLimitThatRuledThem) {
   EXPECT_EQ(plot.max, 1);
   ASSERT_EQ(plot.series.size(), 2u) << "limits that never ruled are not named";
   EXPECT_EQ(plot.series[0].name, "cfl");
-  EXPECT_EQ(plot.series[0].time, (std::vector<float>{1, 2})) << "frame 0 has no steps";
+  EXPECT_EQ(plot.series[0].x, (std::vector<float>{1, 2})) << "frame 0 has no steps";
   EXPECT_EQ(plot.series[0].value, (std::vector<float>{25, 12.5}));  // ms: 500 / 20, 500 / 40
   EXPECT_EQ(plot.series[1].name, "acoustic");
   EXPECT_NE(plot.series[0].color, plot.series[1].color);
@@ -59,9 +59,9 @@ TEST(Plots, ForcesArePlottedWhereThereAreColliders) {
 
 TEST(Plots, LeaveOutWhatIsLaterThanTheFrame) {
   const auto plots = app::picture::make_plots(ranges, without_colliders, history_of(6), 1, 0.5, 3);
-  EXPECT_EQ(plots[0].series[0].time, (std::vector<float>{0, 0.5, 1}));
+  EXPECT_EQ(plots[0].series[0].x, (std::vector<float>{0, 0.5, 1}));
   EXPECT_TRUE(
-      app::picture::make_plots(ranges, without_colliders, {}, 1, 0.5, 3)[0].series[0].time.empty());
+      app::picture::make_plots(ranges, without_colliders, {}, 1, 0.5, 3)[0].series[0].x.empty());
 }
 
 TEST(PlotRanges, ComeFromTheSceneAndHoldTheFall) {

@@ -15,6 +15,7 @@
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 
 namespace neve::app {
 namespace {
@@ -123,7 +124,7 @@ TEST(Preset, PresetOfAnUnknownNameIsRefusedWithTheNearest) {
   try {
     preset_snow("", {"material.snow.preset=ice"});
     ADD_FAILURE() << "was set";
-  } catch (const app::scene::toml::UsageError& error) {
+  } catch (const app::UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("did you mean \"icy\"?"), std::string::npos)
         << error.what();
   }

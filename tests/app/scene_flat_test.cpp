@@ -8,6 +8,7 @@
 #include "app/scene/flat.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
+#include "app/support/errors.h"
 
 namespace neve::app {
 namespace {
@@ -207,9 +208,9 @@ TEST(SetNone, SettingNoneRemovesOptionalValuesOnly) {
   EXPECT_FALSE(read({"camera=none"}).camera);
   EXPECT_EQ(read({"solver=none"}).solver.cfl, 0.4);
   EXPECT_EQ(read({"title=none"}).title, "none");
-  EXPECT_THROW(read({"solver.cfl=none"}), app::scene::toml::UsageError);
+  EXPECT_THROW(read({"solver.cfl=none"}), app::UsageError);
   EXPECT_THROW(read({"body.ball.shape=none"}), std::runtime_error);
-  EXPECT_THROW(read({"body=none"}), app::scene::toml::UsageError);
+  EXPECT_THROW(read({"body=none"}), app::UsageError);
 }
 
 }  // namespace

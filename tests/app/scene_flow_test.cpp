@@ -4,7 +4,7 @@
 
 #include "app/health/findings.h"
 #include "app/picture/frame_builder.h"
-#include "app/run/metrics.h"
+#include "app/record/metrics.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
@@ -83,10 +83,10 @@ TEST(SceneFlow, CamerasAndRangesKnowWhereSnowWillBe) {
   app::scene::Scene scene = flow_scene(spout + "[[collider]]\nshape = { plane = {} }\n");
   // Falls 1 m from 2 m/s.
   EXPECT_NEAR(app::setup::impact_speed(scene), std::sqrt(4 + 2 * 9.81), 1e-6);
-  const std::vector<app::setup::Moment> moments = app::setup::coarse_run(scene);
+  const std::vector<app::setup::CoarseMoment> moments = app::setup::coarse_run(scene);
   ASSERT_FALSE(moments.empty());
   double lowest = 1;
-  for (const app::setup::Moment& moment : moments)
+  for (const app::setup::CoarseMoment& moment : moments)
     for (const sim::Vec3d& x : moment.x) lowest = std::min(lowest, x.y());
   EXPECT_LT(lowest, 0.2) << "the coarse copy's snow reaches the floor";
   app::setup::resolve(scene, 1000);
@@ -103,7 +103,7 @@ TEST(SceneFlow, AMomentWithoutParticlesIsDrawnAndMeasured) {
   const app::picture::FrameBuilder builder(scene, seeded, {.quality = app::setup::Quality::draft});
   for (const app::scene::View& view : scene.views)
     EXPECT_TRUE(builder.build(view, snapshot).points.position.empty());
-  EXPECT_EQ(app::run::measure(snapshot.particles, 0.02).fragments, 0u);
+  EXPECT_EQ(app::record::measure(snapshot.particles, 0.02).fragments, 0u);
 }
 
 TEST(SceneFlow, IdsStayWhereParticlesWereRemoved) {

@@ -4,7 +4,7 @@
 
 #include "app/scene/edit_text.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 
 namespace neve::app {
 namespace {
@@ -51,7 +51,7 @@ std::string edited_objects(const std::vector<std::string>& sets,
 std::string object_error(const std::string& argument) {
   try {
     with_objects({argument});
-  } catch (const scene::toml::UsageError& error) {
+  } catch (const UsageError& error) {
     return error.what();
   }
   return "no usage error";
@@ -146,7 +146,7 @@ TEST(Objects, AListInOnePlaceIsLeftToItsAuthor) {
       "sphere = { radius = 0.2 } } }]\n";
   EXPECT_EQ(edited_objects({"body.a=none"}, text),
             "body = [{ name = \"b\", shape = { sphere = { radius = 0.2 } } }]\n");
-  EXPECT_THROW(edited_objects({added_egg}, text), scene::toml::UsageError);
+  EXPECT_THROW(edited_objects({added_egg}, text), UsageError);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "app/scene/read.h"
 #include "app/scene/toml/toml_source.h"
+#include "app/support/errors.h"
 
 namespace neve::app {
 namespace {
@@ -34,7 +35,7 @@ app::scene::Scene set(const std::vector<std::string>& arguments, const char* tex
 std::string override_error(const std::string& argument) {
   try {
     set({argument});
-  } catch (const app::scene::toml::UsageError& error) {
+  } catch (const app::UsageError& error) {
     return error.what();
   }
   return "no usage error";
@@ -123,9 +124,9 @@ TEST(Set, UnknownAddressesNameTheNearest) {
 }
 
 TEST(Set, SettingNeedsAnAddressAndAValue) {
-  EXPECT_THROW(app::scene::parse_override("frames"), app::scene::toml::UsageError);
-  EXPECT_THROW(app::scene::parse_override("=3"), app::scene::toml::UsageError);
-  EXPECT_THROW(app::scene::parse_override(""), app::scene::toml::UsageError);
+  EXPECT_THROW(app::scene::parse_override("frames"), app::UsageError);
+  EXPECT_THROW(app::scene::parse_override("=3"), app::UsageError);
+  EXPECT_THROW(app::scene::parse_override(""), app::UsageError);
 }
 
 TEST(Set, HostileTextIsAUsageError) {
@@ -133,8 +134,7 @@ TEST(Set, HostileTextIsAUsageError) {
                                   "\xFF", "é", "[é]", "{é=1}", "nan", "-inf", "1e999", "\x1b"}) {
     for (const std::string address : {"frames", "solver.gravity", "camera", "body.ball.shape",
                                       "view.close.layers", "solver.kernel"}) {
-      EXPECT_THROW(set({address + "=" + value}), app::scene::toml::UsageError)
-          << address << "=" << value;
+      EXPECT_THROW(set({address + "=" + value}), app::UsageError) << address << "=" << value;
     }
   }
 }
@@ -150,7 +150,7 @@ TEST(FindView, ViewLookupKnowsTheBuiltInOne) {
   const app::scene::Scene scene = set({});
   EXPECT_EQ(app::scene::find_view(scene, "close").camera->fov, 20);
   EXPECT_EQ(app::scene::find_view(scene, "particles").name, "particles");
-  EXPECT_THROW(app::scene::find_view(scene, "clos"), app::scene::toml::UsageError);
+  EXPECT_THROW(app::scene::find_view(scene, "clos"), app::UsageError);
 }
 
 TEST(ValueAt, ValueLookupFindsTheValueOfAnAddress) {

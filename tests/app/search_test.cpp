@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "app/advice/wishes.h"
+#include "app/advice/words.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
-#include "app/scene/wishes.h"
 #include "app/support/json.h"
 
 namespace neve::app {
@@ -66,11 +67,11 @@ TEST(Search, EverydayNamesMeanParametersThatExist) {
   const auto exists = [](const std::string& address) {
     return scene::param_at(address).has_value();
   };
-  for (const scene::EverydayName& name : scene::everyday_names())
-    for (const char* address : name.addresses)
-      EXPECT_TRUE(exists(address)) << name.words << ": " << address;
-  for (const scene::Wish& wish : scene::wishes())
-    for (const scene::WishChange& change : wish.changes)
+  for (const advice::Entry& entry : advice::entries_of("parameter"))
+    for (const std::string& address : entry.names)
+      EXPECT_TRUE(exists(address)) << entry.words.front() << ": " << address;
+  for (const advice::Wish& wish : advice::wishes())
+    for (const advice::WishChange& change : wish.changes)
       EXPECT_TRUE(exists(change.address)) << wish.name << ": " << change.address;
 }
 
@@ -79,9 +80,9 @@ TEST(Wishes, ValuesOfLooksAreTaken) {
   const std::string text =
       "[[body]]\nname = \"ball\"\nshape = { sphere = { center = [0, 1, 0], radius = 0.1 } }\n"
       "[[collider]]\nname = \"floor\"\nshape = { plane = {} }\n";
-  for (const scene::Wish& wish : scene::wishes()) {
+  for (const advice::Wish& wish : advice::wishes()) {
     EXPECT_GE(wish.changes.size(), 1u);
-    for (const scene::WishChange& change : wish.changes) {
+    for (const advice::WishChange& change : wish.changes) {
       std::string address = change.address;
       const std::string item = address.starts_with("material") ? "snow"
                                : address.starts_with("body")   ? "ball"
@@ -98,20 +99,20 @@ TEST(Wishes, ValuesOfLooksAreTaken) {
 }
 
 TEST(Wishes, TablesHaveALineForEachChange) {
-  std::vector<const scene::Wish*> all;
+  std::vector<const advice::Wish*> all;
   std::size_t changes = 0;
-  for (const scene::Wish& wish : scene::wishes()) {
+  for (const advice::Wish& wish : advice::wishes()) {
     all.push_back(&wish);
     changes += wish.changes.size();
   }
   const auto lines = [](const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   };
-  EXPECT_EQ(lines(scene::wishes_table(all)), changes + 1);
-  EXPECT_EQ(lines(scene::wishes_markdown(all)), changes + 2);
-  EXPECT_EQ(parse_json(std::string_view(scene::wishes_json(all))).size(), all.size());
-  ASSERT_EQ(scene::wishes_for("stick").size(), 1u);
-  EXPECT_STREQ(scene::wishes_for("stick")[0]->name, "stickier");
+  EXPECT_EQ(lines(advice::wishes_table(all)), changes + 1);
+  EXPECT_EQ(lines(advice::wishes_markdown(all)), changes + 2);
+  EXPECT_EQ(parse_json(std::string_view(advice::wishes_json(all))).size(), all.size());
+  ASSERT_EQ(advice::wishes_for("stick").size(), 1u);
+  EXPECT_STREQ(advice::wishes_for("stick")[0]->name, "stickier");
 }
 
 }  // namespace

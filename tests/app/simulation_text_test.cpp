@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/run/kept_states.h"
+#include "app/run/identity.h"
 #include "app/scene/read.h"
 #include "tests/cli/run_neve.h"
 

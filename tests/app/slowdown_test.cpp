@@ -9,9 +9,9 @@ namespace {
 using namespace neve;
 using namespace neve::app;
 
-run::FrameRecord frame(int number, double seconds, std::size_t steps, std::size_t particles,
-                       std::size_t grid_blocks = 100) {
-  run::FrameRecord record;
+record::FrameRecord frame(int number, double seconds, std::size_t steps, std::size_t particles,
+                          std::size_t grid_blocks = 100) {
+  record::FrameRecord record;
   record.frame = number;
   record.seconds_sim = seconds;
   record.advance.steps = steps;

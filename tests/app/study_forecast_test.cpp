@@ -39,19 +39,25 @@ TEST_F(StudyForecasts, StiffSnowAndLateFramesCostMore) {
   const plan::StudyForecast forecast =
       plan::foresee_study(plan, all(plan), plan::whole_effort(1), 1);
   ASSERT_EQ(forecast.own.size(), 4u);
-  EXPECT_GT(forecast.work[1], forecast.work[0]);
-  EXPECT_GT(forecast.work[2], forecast.work[0]);
-  EXPECT_GT(forecast.work[3], forecast.work[1]);
-  EXPECT_GT(forecast.work[3], forecast.work[2]);
+  EXPECT_GT(forecast.work[1].expected, forecast.work[0].expected);
+  EXPECT_GT(forecast.work[2].expected, forecast.work[0].expected);
+  EXPECT_GT(forecast.work[3].expected, forecast.work[1].expected);
+  EXPECT_GT(forecast.work[3].expected, forecast.work[2].expected);
   EXPECT_GT(forecast.seconds_per_work, 0);
-  EXPECT_GE(forecast.seconds_of_all(all(plan), 2), forecast.seconds(3));
+  const auto together = forecast.seconds_of_all(all(plan), 2);
+  EXPECT_GE(together.expected, forecast.seconds(3).expected);
+  EXPECT_LT(together.least, together.expected);
+  EXPECT_GT(together.most, together.expected);
 }
 
 /// Counts of steps, not of seconds, bound the copies.
 TEST_F(StudyForecasts, CostsAreTheSameAtAnyNumberOfThreads) {
   const plan::SweepPlan plan = plan_of("\"material.snow.hardening\" = [2, 5, 10, 20]\n");
   const auto work = [&](int cores) {
-    return plan::foresee_study(plan, all(plan), {1e6}, cores).work;
+    std::vector<double> list;
+    for (const forecast::Cost& cost : plan::foresee_study(plan, all(plan), {1e6}, cores).work)
+      list.push_back(cost.expected);
+    return list;
   };
   EXPECT_EQ(work(1), work(3));
 }
@@ -67,9 +73,11 @@ TEST_F(StudyForecasts, ARunWithoutACopyCostsAsTheNearestWithOne) {
   for (const std::size_t k : {2u, 3u, 4u, 5u})
     EXPECT_EQ(std::count(some.own.begin(), some.own.end(), k), 0) << "corners have copies first";
   // Beside a corner, and far from it.
-  EXPECT_NEAR(some.work[2] / some.work[0], whole.work[2] / whole.work[0], 0.3);
-  EXPECT_NEAR(some.work[5] / some.work[7], whole.work[5] / whole.work[7], 0.3);
-  EXPECT_GT(some.work[5], some.work[3]);
+  EXPECT_NEAR(some.work[2].expected / some.work[0].expected,
+              whole.work[2].expected / whole.work[0].expected, 0.3);
+  EXPECT_NEAR(some.work[5].expected / some.work[7].expected,
+              whole.work[5].expected / whole.work[7].expected, 0.3);
+  EXPECT_GT(some.work[5].expected, some.work[3].expected);
 }
 
 TEST_F(StudyForecasts, TheLongestRunsAreNamedAndABudgetIsCompared) {

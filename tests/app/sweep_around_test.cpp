@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/sweep/plan/around.h"
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/read/read_sweep.h"
@@ -59,10 +59,10 @@ TEST(ValuesAround, ChoicesTakeAllValuesAndVectorsAreStretched) {
   EXPECT_EQ(around("solver.transfer"), "[\"flip\", \"apic\", \"mls\", \"aflip\", \"asflip\"]");
   EXPECT_EQ(around("body.ball.velocity"),
             "[[0, -2, 0], [0, -3, 0], [0, -4, 0], [0, -5, 0], [0, -6, 0]]");
-  EXPECT_THROW(around("body.ball.angular_velocity"), app::scene::toml::UsageError);
-  EXPECT_THROW(around("title"), app::scene::toml::UsageError);
-  EXPECT_THROW(around("body.ball.name"), app::scene::toml::UsageError);
-  EXPECT_THROW(around("camera"), app::scene::toml::UsageError);
+  EXPECT_THROW(around("body.ball.angular_velocity"), app::UsageError);
+  EXPECT_THROW(around("title"), app::UsageError);
+  EXPECT_THROW(around("body.ball.name"), app::UsageError);
+  EXPECT_THROW(around("camera"), app::UsageError);
 }
 
 /// All parameters that have values around them: each value is valid, the present one among them.
@@ -73,7 +73,7 @@ TEST(ValuesAround, AllValuesAreValidAndThePresentOneIsAmongThem) {
     std::vector<app::scene::toml::Value> values;
     try {
       values = app::sweep::plan::values_around(param);
-    } catch (const app::scene::toml::UsageError&) {
+    } catch (const app::UsageError&) {
       continue;
     }
     ++count;

@@ -7,7 +7,7 @@
 #include <csignal>
 #include <thread>
 
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/support/progress.h"
 #include "app/sweep/jobs/child.h"
 #include "app/sweep/jobs/local.h"
@@ -106,7 +106,7 @@ TEST(SweepStore, FailedRunsAreRepeatedByTheirState) {
   EXPECT_EQ(parse_retry("all").size(), 6u);
   EXPECT_FALSE(parse_retry("all").contains(RunState::ok));
   for (const char* wrong : {"", "ok", ",crashed", "timeout;crashed", "pending"})
-    EXPECT_THROW(parse_retry(wrong), app::scene::toml::UsageError) << wrong;
+    EXPECT_THROW(parse_retry(wrong), app::UsageError) << wrong;
 }
 
 TEST(SweepOrder, CornersRunFirstThenMiddles) {

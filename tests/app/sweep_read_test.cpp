@@ -79,7 +79,7 @@ TEST_F(SweepFileTest, GridsCombineAllAxesAndTheLastVariesFastest) {
 
 TEST_F(SweepFileTest, NoValueOfTheCommandLineIsLost) {
   const app::sweep::read::SweepChanges twice{{"seed=1,2", "fps=24,30", "seed=3"}, {}};
-  EXPECT_THROW(read(head + "[axis]\n\"seed\" = [1]\n", twice), app::scene::toml::UsageError);
+  EXPECT_THROW(read(head + "[axis]\n\"seed\" = [1]\n", twice), app::UsageError);
   const app::sweep::read::Sweep sweep =
       read(head + "[axis]\n\"fps\" = [24, 30, 24]\n", {{"seed=1,2,1"}, {}});
   EXPECT_EQ(app::sweep::read::repeated_values(sweep), (Strings{"fps = 24", "seed = 1"}));
@@ -190,14 +190,12 @@ TEST_F(SweepFileTest, ScenesAreVariedFromTheCommandLine) {
       file, {{"body.ball.velocity=[0,-1,0],[0,-2,0]", "solver.transfer=flip,apic"}, {}}));
   ASSERT_EQ(list.size(), 4u);
   EXPECT_EQ(values(list[3]), (Strings{"[0,-2,0]", "apic"}));
-  EXPECT_THROW(app::sweep::read::read_sweep(file, {}), app::scene::toml::UsageError);
-  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed"}, {}}), app::scene::toml::UsageError);
-  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed=1,,2"}, {}}),
-               app::scene::toml::UsageError);
+  EXPECT_THROW(app::sweep::read::read_sweep(file, {}), app::UsageError);
+  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed"}, {}}), app::UsageError);
+  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed=1,,2"}, {}}), app::UsageError);
   EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed={ linspce = [1, 2] }"}, {}}),
-               app::scene::toml::UsageError);
-  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed=1,2"}, {"seed=3"}}),
-               app::scene::toml::UsageError);
+               app::UsageError);
+  EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed=1,2"}, {"seed=3"}}), app::UsageError);
 }
 
 TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
@@ -264,7 +262,7 @@ TEST_F(SweepFileTest, FramesAreGivenForAllRunsOrVaried) {
   const app::sweep::plan::SweepPlan plan = app::sweep::plan::plan_sweep(options);
   EXPECT_EQ(plan.runs[1].run.frames.last, 2);
   options.frames = app::setup::FrameRange{0, 3};
-  EXPECT_THROW(app::sweep::plan::plan_sweep(options), app::scene::toml::UsageError);
+  EXPECT_THROW(app::sweep::plan::plan_sweep(options), app::UsageError);
 }
 
 TEST_F(SweepFileTest, RunsNeedTheMemoryOfTheirProcess) {
@@ -281,7 +279,7 @@ TEST_F(SweepFileTest, RangesOfOtherProgramsAndComponentsAreExplained) {
   const auto hint = [&](const std::string& axis) -> std::string {
     try {
       app::sweep::read::read_sweep((folder_ / "scene.toml").string(), {{axis}, {}});
-    } catch (const app::scene::toml::UsageError& error) {
+    } catch (const app::UsageError& error) {
       return error.hint;
     }
     return "";

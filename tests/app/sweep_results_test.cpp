@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/run/metrics.h"
-#include "app/run/run_json.h"
+#include "app/record/metrics.h"
+#include "app/record/run_json.h"
 #include "app/sweep/jobs/outcome.h"
 #include "app/sweep/sheet/data_csv.h"
 #include "app/sweep/sheet/metric_plots.h"
@@ -33,17 +33,18 @@ void add_cube(const sim::Vec3d& corner, int cells, sim::ParticleArrays& particle
 TEST(Metrics, CountFragmentsThatDoNotTouch) {
   sim::ParticleArrays particles;
   add_cube({0, 0, 0}, 4, particles);
-  EXPECT_EQ(app::run::measure(particles, 1).fragments, 1u);
+  EXPECT_EQ(app::record::measure(particles, 1).fragments, 1u);
   add_cube({4, 4, 4}, 2, particles);  // touches with a corner
-  EXPECT_EQ(app::run::measure(particles, 1).fragments, 1u);
+  EXPECT_EQ(app::record::measure(particles, 1).fragments, 1u);
   add_cube({-5, 0, 0}, 4, particles);  // a cell between them
-  EXPECT_EQ(app::run::measure(particles, 1).fragments, 2u);
+  EXPECT_EQ(app::record::measure(particles, 1).fragments, 2u);
   add_cube({0, 9, 0}, 1, particles);
-  const app::run::Metrics metrics = app::run::measure(particles, 1);
+  const app::record::Metrics metrics = app::record::measure(particles, 1);
   EXPECT_EQ(metrics.fragments, 3u);
   EXPECT_NEAR(metrics.largest_fragment, 72.0 / 137, 1e-12);  // cells of 8 particles each
   EXPECT_NEAR(metrics.mean_J_P, 0.9, 1e-12);
-  EXPECT_EQ(app::run::measure(particles, 2).fragments, 2u);  // larger cells bridge the gap of one
+  EXPECT_EQ(app::record::measure(particles, 2).fragments,
+            2u);  // larger cells bridge the gap of one
 }
 
 TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
@@ -53,7 +54,7 @@ TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
     particles.m.push_back(1);
     particles.J_P.push_back(1);
   }
-  const app::run::Metrics metrics = app::run::measure(particles, 0.1);
+  const app::record::Metrics metrics = app::record::measure(particles, 0.1);
   // A spiral of radius 1 about a centre that is the axis but for its last turn.
   EXPECT_NEAR(metrics.spread, 1, 0.02);
   EXPECT_NEAR(metrics.height, 9.6, 0.02);  // 96 % of 10
@@ -61,11 +62,11 @@ TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
 
 TEST(Metrics, MetricsOfDivergedStatesCountFiniteParticles) {
   sim::ParticleArrays particles;
-  EXPECT_EQ(app::run::measure(particles, 1).fragments, 0u);
+  EXPECT_EQ(app::record::measure(particles, 1).fragments, 0u);
   add_cube({0, 0, 0}, 1, particles);
   particles.x[0].setConstant(NAN);
   particles.x[1].setConstant(1e300);
-  EXPECT_EQ(app::run::measure(particles, 1).fragments, 1u);
+  EXPECT_EQ(app::record::measure(particles, 1).fragments, 1u);
 }
 
 app::sweep::store::Manifest manifest_of(const std::vector<int>& sizes) {
@@ -266,9 +267,10 @@ TEST(RunResults, ResultsCountTheStepsUntilARunDiverged) {
   const test::TemporaryFolder folder;
   app::sweep::store::Manifest m = manifest_of({1});
   m.runs[0].key = "k";
-  app::run::FrameRecord frame;
+  app::record::FrameRecord frame;
   frame.advance.steps = 5;
-  Json run = {{"frames", Json::array({app::run::to_json(frame)})}, {"divergence", {{"step", 17}}}};
+  Json run = {{"frames", Json::array({app::record::to_json(frame)})},
+              {"divergence", {{"step", 17}}}};
   folder.write("runs/0000/run.json", to_text(run));
   app::sweep::store::RunStatus status;
   status.state = app::sweep::store::RunState::diverged;
@@ -295,9 +297,9 @@ TEST(RunResults, FramesOfKilledRunsHaveTheirPictures) {
   m.runs[0].key = "k";
   Json frames = Json::array();
   for (const int number : {0, 1, 2}) {
-    app::run::FrameRecord frame;
+    app::record::FrameRecord frame;
     frame.frame = number;
-    frames.push_back(app::run::to_json(frame));
+    frames.push_back(app::record::to_json(frame));
     if (number < 2)
       folder.write("runs/0000/particles/000" + std::to_string(number) + ".png", "a picture");
   }
@@ -361,22 +363,21 @@ TEST(SweepReport, SweepReportKeepsParametersAsTheyWereWritten) {
 
 TEST(MetricPlots, PlotsHaveAPointForEachRunWithTheMetric) {
   const app::sweep::store::Manifest m = manifest_of({4});
-  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results_of(m), true);
+  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results_of(m));
   const auto count = [&](const std::string& what) {
     std::size_t found = 0;
     for (std::size_t at = 0; (at = svg.find(what, at)) != std::string::npos; ++at) ++found;
     return found;
   };
   EXPECT_EQ(count("<circle"), 3 * app::sweep::store::metric_infos().size());
-  EXPECT_EQ(count("class=\"run failed\""), app::sweep::store::metric_infos().size());
+  EXPECT_EQ(count("fill=\"none\""), app::sweep::store::metric_infos().size()) << "rings";
   EXPECT_EQ(
       app::sweep::sheet::metric_plots_svg(
           m,
           std::vector<app::sweep::store::RunResult>(
               4, {{},
                   {},
-                  std::vector<std::optional<double>>(app::sweep::store::metric_infos().size())}),
-          true),
+                  std::vector<std::optional<double>>(app::sweep::store::metric_infos().size())})),
       "");
 }
 
@@ -429,17 +430,17 @@ TEST(RunWarnings, WarningsNameFiveRunsAndCountTheOthers) {
 TEST(MetricPlots, DivergedRunsDoNotScaleTheAxes) {
   const app::sweep::store::Manifest m = manifest_of({4});
   std::vector<app::sweep::store::RunResult> results = results_of(m);
-  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results, true);
+  const std::string svg = app::sweep::sheet::metric_plots_svg(m, results);
   // The second run diverged: wherever above the others it was, its ring is at the edge.
   for (std::optional<double>& value : results[1].metrics) value = 1e6;
-  const std::string far = app::sweep::sheet::metric_plots_svg(m, results, true);
+  const std::string far = app::sweep::sheet::metric_plots_svg(m, results);
   for (std::optional<double>& value : results[1].metrics) value = 1e9;
   const auto without_tooltips = [](std::string text) {
     for (std::size_t at; (at = text.find("<title>")) != std::string::npos;)
       text.erase(at, text.find("</title>", at) + 8 - at);
     return text;
   };
-  EXPECT_EQ(without_tooltips(app::sweep::sheet::metric_plots_svg(m, results, true)),
+  EXPECT_EQ(without_tooltips(app::sweep::sheet::metric_plots_svg(m, results)),
             without_tooltips(far));
   EXPECT_NE(without_tooltips(svg), without_tooltips(far));
 }

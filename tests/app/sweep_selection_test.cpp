@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/sweep/jobs/slurm.h"
 
 namespace neve::app {
@@ -15,8 +15,7 @@ TEST(SweepSelection, SelectionsOfRunsAreNumbersAndRanges) {
   EXPECT_EQ(app::sweep::plan::parse_selection("2,2,1-3", 3), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(app::sweep::plan::parse_selection("0", 0), (std::vector<int>{0}));
   for (const char* wrong : {"", ",", "1,", "a", "-1", "3-1", "1-", "1 2", "21", "5-21", "1--2"})
-    EXPECT_THROW(app::sweep::plan::parse_selection(wrong, 20), app::scene::toml::UsageError)
-        << wrong;
+    EXPECT_THROW(app::sweep::plan::parse_selection(wrong, 20), app::UsageError) << wrong;
 }
 
 TEST(SweepSelection, SelectionsOfRunsAreWrittenInTheShortestWay) {
@@ -29,7 +28,7 @@ TEST(SweepSelection, ShardsAreCountedFromOne) {
   EXPECT_EQ(app::sweep::plan::parse_shard("2/8").index, 2);
   EXPECT_EQ(app::sweep::plan::parse_shard("2/8").count, 8);
   for (const char* wrong : {"", "2", "0/8", "9/8", "a/b", "1/", "/8", "-1/8", "1/0"})
-    EXPECT_THROW(app::sweep::plan::parse_shard(wrong), app::scene::toml::UsageError) << wrong;
+    EXPECT_THROW(app::sweep::plan::parse_shard(wrong), app::UsageError) << wrong;
 }
 
 TEST(SlurmArrays, ArraysHoldTheMissingRunsBelowTheLimitOfTheSite) {

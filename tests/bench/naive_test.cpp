@@ -6,7 +6,7 @@
 
 #include "app/bench/bench_case.h"
 #include "app/bench/naive.h"
-#include "app/bench/window.h"
+#include "app/bench/timed_run.h"
 #include "app/support/errors.h"
 
 namespace neve::app {
@@ -74,12 +74,12 @@ TEST(NaiveSnow, NaiveSnowRefusesWhatItDoesNotImplement) {
                std::invalid_argument);
 }
 
-TEST(Window, WindowOfACaseThatDivergesIsAnError) {
+TEST(TimedRun, ACaseThatDivergesIsAnError) {
   app::bench::BenchCase c =
       app::bench::packed_case(4, app::bench::BenchMethod::flip_cubic, sim::Precision::single);
   c.settings.dt = 5e-3;  // sound crosses ten cells
   try {
-    app::bench::time_window(c, 1, "too_long_steps");
+    app::bench::time_run(c, 1, "too_long_steps");
     FAIL() << "its time was taken for a figure";
   } catch (const Error& error) {
     EXPECT_EQ(error.code, exit_diverged);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "app/bench/measure.h"
+#include "app/support/errors.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {

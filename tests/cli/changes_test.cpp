@@ -1,11 +1,12 @@
 /// Changes during a run are repeated from its picture.
 
-#include "app/run/changes.h"
+#include "app/timeline/changes.h"
+#include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
-#include "app/run/picture_record.h"
-#include "app/run/run_json.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
+#include "app/run/render_options.h"
 #include "app/scene/read.h"
-#include "app/setup/command_text.h"
 #include "app/setup/seed_scene.h"
 #include "app/sweep/plan/around.h"
 #include "tests/support/resume.h"
@@ -21,15 +22,15 @@ class Changes : public Cli {
     if (!more.empty()) render.insert(render.end(), {"--set", more});
     ASSERT_EQ(neve(render).exit_code, 0);
     const std::string plain = (folder / "plain/particles/0004.png").string();
-    record = app::run::read_picture_record(plain);
+    record = app::record::read_picture_record(plain);
     plain_hash = record.state_hash;
     const app::scene::Scene scene = app::scene::read_scene_text(record.scene, "plain");
     sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
                                app::setup::seed_scene(scene).particles, 1);
     const auto set = [&](const std::string& address, const std::string& value) {
       app::scene::note_change(record.changes, {simulation.steps(), address, value});
-      app::scene::Scene now = app::run::with_changes({record.scene, "now", "", {}}, record.changes);
-      app::run::apply_scene(now, simulation);
+      const app::scene::Scene now = app::timeline::with_changes(scene, record.changes);
+      simulation.apply(now.solver, now.materials, app::scene::sim_colliders(now));
     };
     simulation.advance_to(1.0 / 24);
     simulation.advance_to(2.0 / 24, nullptr, simulation.steps() + 3);
@@ -42,10 +43,10 @@ class Changes : public Cli {
     set("solver.transfer", "mls");
     simulation.advance_to(4.0 / 24);
     ASSERT_FALSE(simulation.divergence());
-    record.state_hash = app::run::hash_text(simulation.state_hash());
+    record.state_hash = app::record::hash_text(simulation.state_hash());
     app::output::write_file(folder / "session.png",
                             render::encode_png(render::decode_png(app::output::read_file(plain)),
-                                               app::run::to_png_text(record)));
+                                               app::record::to_png_text(record)));
   }
 
   std::vector<std::string> hashes(const std::string& out) {
@@ -56,7 +57,7 @@ class Changes : public Cli {
     return all;
   }
 
-  app::run::PictureRecord record;
+  app::record::PictureRecord record;
   std::string plain_hash;
 };
 
@@ -69,7 +70,7 @@ TEST_F(Changes, APictureOfASessionIsMadeAgainWithTheSameState) {
   const app::Json run = json_of("again/run.json");
   EXPECT_EQ(app::scene::live_changes(run["changes"]), record.changes);
   // The picture made again is one that can be made again.
-  const auto made = app::run::read_picture_record(folder / "again/particles/0004.png");
+  const auto made = app::record::read_picture_record(folder / "again/particles/0004.png");
   EXPECT_EQ(made.changes, record.changes);
   EXPECT_EQ(made.scene, record.scene);
   ASSERT_EQ(neve({"render", "again/particles/0004.png", "--out", "third"}).exit_code, 0);
@@ -83,7 +84,7 @@ TEST_F(Changes, PicturesBeforeAChangeDoNotListIt) {
   std::size_t before = 0;
   for (const char* frame : {"0000", "0001", "0002", "0003", "0004"}) {
     const auto made =
-        app::run::read_picture_record(folder / ("all/particles/" + std::string(frame) + ".png"));
+        app::record::read_picture_record(folder / ("all/particles/" + std::string(frame) + ".png"));
     EXPECT_GE(made.changes.size(), before);
     before = made.changes.size();
     const bool is_first = std::string(frame) < "0002";
@@ -122,7 +123,7 @@ TEST_F(Changes, AResumedRunMakesTheRestOfThem) {
       folder / "session.png",
       render::encode_png(
           render::decode_png(app::output::read_file(folder / "plain/particles/0004.png")),
-          app::run::to_png_text(record)));
+          app::record::to_png_text(record)));
   EXPECT_EQ(render("0-4", "parts", true).exit_code, 2);
 }
 
@@ -147,7 +148,7 @@ TEST_F(Changes, InvalidChangesAreRefused) {
   const auto image =
       render::decode_png(app::output::read_file(folder / "plain/particles/0004.png"));
   const auto render_with = [&](const std::string& changes) {
-    render::PngText text = app::run::to_png_text(record);
+    render::PngText text = app::record::to_png_text(record);
     text["neve:changes"] = changes;
     app::output::write_file(folder / "bad.png", render::encode_png(image, text));
     return neve({"render", "bad.png", "--out", "bad"});
@@ -189,15 +190,12 @@ TEST_F(Changes, ASweepAroundAValueRuns) {
 }
 
 TEST_F(Changes, ACopiedCommandMakesTheSamePicture) {
-  app::setup::RenderCommand command;
-  command.scene_file = "scene.toml";
-  command.overrides = {app::scene::parse_override("title=It's « mine »"),
-                       app::scene::parse_override("material.snow.hardening=5")};
-  command.frames = app::setup::FrameRange{1, 1};
-  command.out = "by hand";
-  std::string line = app::setup::command_line(command);
-  ASSERT_TRUE(line.starts_with("neve "));
-  line = app::setup::shell_word(NEVE_BINARY) + line.substr(4);
+  app::run::RenderOptions options;
+  options.scene = "scene.toml";
+  options.overrides = {"title=It's « mine »", "material.snow.hardening=5"};
+  options.frames = app::setup::FrameRange{1, 1};
+  options.out = "by hand";
+  const std::string line = app::options::shell_line(app::options::words_of(options), NEVE_BINARY);
   const auto shell = app::output::run_process("/bin/sh", {"-c", line}, folder.path());
   ASSERT_EQ(shell.exit_code, 0) << shell.errors;
   ASSERT_EQ(neve({"render", "scene.toml", "--set", "title=It's « mine »", "--set",

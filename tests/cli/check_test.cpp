@@ -417,5 +417,19 @@ TEST_F(Check, CheckRefusesTheScenesThatRenderRefuses) {
   EXPECT_EQ(neve({"check", "nothing.toml"}).exit_code, 3);
 }
 
+TEST_F(Check, ARunAndItsPictureAreCheckedLikeTheirScene) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--no-movie", "--out", "a"}).exit_code, 0);
+  const auto findings_of = [&](const std::string& origin) {
+    const auto result = neve({"check", origin, "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return app::parse_json(std::string_view(result.output))["findings"];
+  };
+  EXPECT_EQ(findings_of("a"), findings_of("scene.toml"));
+  EXPECT_EQ(findings_of("a/particles/0002.png"), findings_of("scene.toml"));
+  const auto nothing = neve({"check", folder.path().string()});
+  EXPECT_EQ(nothing.exit_code, 3) << nothing.errors;
+  EXPECT_TRUE(contains(nothing.errors, "is a directory")) << nothing.errors;
+}
+
 }  // namespace
 }  // namespace neve::test

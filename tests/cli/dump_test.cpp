@@ -211,5 +211,31 @@ TEST_F(Dump, ABrokenStateIsShownToo) {
   EXPECT_TRUE(app::parse_json(std::string_view(result.output)).contains("quantities"));
 }
 
+TEST_F(Dump, ARunIsDumpedFromTheMomentsThatItKeeps) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--no-movie", "--keep-states", "--out", "a"}).exit_code,
+            0);
+  const std::string third = hashes("a")[3];
+  const auto dump = [&](const std::string& origin, const std::string& at) {
+    const auto result = neve({"dump", origin, "--at", at, "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    app::Json json = app::parse_json(std::string_view(result.output));
+    return std::pair(result.errors, json);
+  };
+  const auto [said, at_frame] = dump("a", "0.125");
+  EXPECT_TRUE(contains(said, "continues from the checkpoint of frame 3")) << said;
+  EXPECT_EQ(at_frame["state_hash"], third);
+  // Between two frames the steps are those of the run; a picture is of the same run.
+  auto [unsaid, fresh] = dump("scene.toml", "0.14");
+  EXPECT_FALSE(contains(unsaid, "continues from")) << unsaid;
+  for (const char* origin : {"a", "a/particles/0002.png"}) {
+    app::Json other = dump(origin, "0.14").second;
+    for (app::Json* json : {&fresh, &other}) json->erase("scene");
+    EXPECT_EQ(other, fresh) << origin;
+  }
+  const auto set = neve({"dump", "a", "--set", "seed=2"});
+  EXPECT_EQ(set.exit_code, 2);
+  EXPECT_TRUE(contains(set.errors, "a run has the scene it was made from")) << set.errors;
+}
+
 }  // namespace
 }  // namespace neve::test

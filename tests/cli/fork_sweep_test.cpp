@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "app/output/checkpoint.h"
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/child.h"
 
@@ -68,7 +68,7 @@ TEST_F(ForkSweep, EveryBranchEqualsTheWholeRunWithItsChange) {
   std::filesystem::remove_all(folder / "f.cdb/beginning");
   for (const std::size_t run : {0u, 2u}) {
     const std::string picture = "f.cdb/runs/000" + std::to_string(run) + "/particles/0008.png";
-    const auto record = app::run::read_picture_record(folder / picture);
+    const auto record = app::record::read_picture_record(folder / picture);
     ASSERT_EQ(record.changes.size(), 1u);
     EXPECT_EQ(record.changes[0].address, "material.snow.hardening");
     ASSERT_EQ(neve({"render", picture, "--frames", "0-8", "--out", "whole"}).exit_code, 0);

@@ -1,10 +1,10 @@
 /// Runs that take another way from a moment of another run.
 
-#include "app/run/changes.h"
-#include "app/run/picture_record.h"
-#include "app/run/run_json.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
 #include "app/scene/read.h"
 #include "app/setup/seed_scene.h"
+#include "app/timeline/changes.h"
 #include "tests/support/resume.h"
 
 namespace neve::test {
@@ -29,11 +29,11 @@ class Fork : public Cli {
     for (int k = 1; k <= frame; ++k) simulation.advance_to(k / 24.0);
     if (steps > 0) simulation.advance_to((frame + 1) / 24.0, nullptr, simulation.steps() + steps);
     changed_at = simulation.steps();
-    app::scene::Scene now = app::run::with_changes(
-        {text, "run", "", {}}, {{simulation.steps(), address, value}}, simulation.steps());
-    app::run::apply_scene(now, simulation);
+    const app::scene::Scene now = app::timeline::with_changes(
+        scene, {{simulation.steps(), address, value}}, simulation.steps());
+    simulation.apply(now.solver, now.materials, app::scene::sim_colliders(now));
     for (int k = frame + 1; k <= 4; ++k) simulation.advance_to(k / 24.0);
-    return app::run::hash_text(simulation.state_hash());
+    return app::record::hash_text(simulation.state_hash());
   }
 
   std::size_t changed_at = 0;

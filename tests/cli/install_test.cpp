@@ -1,6 +1,7 @@
 /// neve where cmake --install puts it: anywhere, with man pages and completions.
 
 #include <regex>
+#include <sstream>
 
 #include "tests/cli/run_neve.h"
 #include "tests/support/needs.h"
@@ -33,27 +34,37 @@ TEST_F(Install, InstalledProgramFindsItsFilesWhereverItIsMoved) {
   EXPECT_TRUE(contains(check.output, (folder / "moved").string())) << check.output;
 }
 
-TEST_F(Install, ManPagesHaveEveryFlagOfTheHelp) {
+/// neve help --json lists them.
+TEST_F(Install, HelpManPagesAndCompletionsHaveEveryOption) {
   ASSERT_EQ(neve({"manual", "m"}).exit_code, 0);
-  for (const char* command :
-       {"new", "render", "check", "export", "dump", "sweep", "view", "compare"}) {
-    const auto help = neve({command, "--help"});
-    std::string page = read_text(folder / ("m/man1/neve-" + std::string(command) + ".1"));
-    page = std::regex_replace(page, std::regex("\\\\-"), "-");
-    const std::string bash = read_text(folder / "m/bash/neve"),
-                      fish = read_text(folder / "m/fish/neve.fish");
-    const std::regex flag("\n  (?:-[a-z],)?(--[a-z-]+)");
-    int flags = 0;
-    for (std::sregex_iterator at(help.output.begin(), help.output.end(), flag), end; at != end;
-         ++at) {
-      const std::string name = (*at)[1];
-      ++flags;
-      EXPECT_TRUE(contains(page, "\\fB" + name + "\\fR")) << command << " " << name;
-      EXPECT_TRUE(contains(bash, name)) << command << " " << name;
-      EXPECT_TRUE(contains(fish, " -l " + name.substr(2) + " ")) << command << " " << name;
+  const std::string bash = read_text(folder / "m/bash/neve"),
+                    zsh = read_text(folder / "m/zsh/_neve"),
+                    fish = read_text(folder / "m/fish/neve.fish");
+  int options = 0;
+  for (const app::Json& command :
+       app::parse_json(std::string_view(neve({"help", "--json"}).output))) {
+    const std::string name = command["command"];
+    std::vector<std::string> words{"help"};
+    std::istringstream in(name);
+    for (std::string word; in >> word;)
+      if (word != "neve") words.push_back(word);
+    const std::string help = neve(words).output;
+    const std::string file = "m/man1/" + std::regex_replace(name, std::regex(" "), "-") + ".1";
+    const std::string page = std::regex_replace(read_text(folder / file), std::regex("\\\\-"), "-");
+    for (const app::Json& option : command["options"]) {
+      const std::string flag = option["name"], place = name + " " + flag;
+      ++options;
+      EXPECT_TRUE(contains(help, flag)) << place;
+      EXPECT_TRUE(contains(help, option["help"].get<std::string>())) << place;
+      EXPECT_TRUE(contains(page, flag + "\\fR")) << place;
+      if (option["is_argument"] == true || words.size() != 2) continue;
+      EXPECT_TRUE(contains(bash, flag)) << place;
+      EXPECT_TRUE(contains(zsh, "'" + flag + "[")) << place;
+      EXPECT_TRUE(contains(fish, " -l " + flag.substr(2) + " ")) << place;
     }
-    EXPECT_GT(flags, 1) << command;
   }
+  EXPECT_GT(options, 300);
+  EXPECT_EQ(neve({"help", "sweep", "run", "--json"}).exit_code, 0);
 }
 
 TEST_F(Install, BashCompletesCommandsFlagsAndFiles) {

@@ -212,7 +212,7 @@ TEST_F(Strangers, NoSceneRaisesTheCapsOfWhoeverStartsTheProgram) {
       "--max-particles 100 --emit commands --quiet");
   EXPECT_EQ(emitted.exit_code, 0) << emitted.errors;
   EXPECT_TRUE(contains(read_text(folder.path() / "commands"),
-                       "--quiet --max-memory 2GiB --max-particles 100\n"))
+                       "--max-memory 2GiB --max-particles 100 --threads 1 --quiet\n"))
       << "commands that run elsewhere keep the caps";
   const auto sweep =
       shell("\"$0\" sweep greedy.toml -p seed=1,2 --frames 0-1 --out s --max-particles 100 --json");

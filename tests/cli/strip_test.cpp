@@ -66,6 +66,11 @@ TEST_F(Strip, ARunWithCheckpointsGivesTheSamePictureAsItsScene) {
   const render::Image of_scene = strip({"fall.toml"}, "a.png"), of_run = strip({"run"}, "b.png");
   const render::Difference difference = render::compare(of_scene, of_run);
   EXPECT_EQ(difference.max, 0);
+  // A view that the run has not drawn, too.
+  EXPECT_EQ(render::compare(strip({"fall.toml", "--view", "slice"}, "c.png"),
+                            strip({"run", "--view", "slice"}, "d.png"))
+                .max,
+            0);
 }
 
 TEST_F(Strip, MakesItselfAgain) {

@@ -1,6 +1,6 @@
 /// Sweeps whose runs leave a run, or a picture, that is there.
 
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -72,7 +72,8 @@ TEST_F(SweepFrom, ChangesMadeBeforeAreTakenAlongAndLaterOnesAreNot) {
           "c"});
   ASSERT_EQ(sweep("c", three).exit_code, 0);
   expect_whole("f.cdb/runs/0000", 6);
-  const auto record = app::run::read_picture_record(folder / "f.cdb/runs/0000/particles/0006.png");
+  const auto record =
+      app::record::read_picture_record(folder / "f.cdb/runs/0000/particles/0006.png");
   ASSERT_EQ(record.changes.size(), 2u);
   EXPECT_EQ(record.changes[0].address, "solver.gravity");
   EXPECT_EQ(record.changes[1].value, "4");

@@ -85,7 +85,8 @@ std::string shortened(std::string command) {
   if (name == "sweep" && !is_tiny && !is_collected) add("--dry-run");
   if (name == "view") add("--replay", "wait.json");
   const bool is_run = name == "view" || name == "dump" || name == "check" || name == "sweep";
-  if (is_run && !is_tiny && !is_collected) add("--coarsen", "3");
+  const bool has_cells = std::regex_search(command, std::regex("^[a-z]+ out/[a-z]+( |$)"));
+  if (is_run && !is_tiny && !is_collected && !has_cells) add("--coarsen", "3");
   if (name != "render") return command;
   const bool is_picture = std::regex_search(command, std::regex("^render [^ ]+\\.(png|exr)"));
   if (!is_picture) add("--frames", "0");

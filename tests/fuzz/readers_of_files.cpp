@@ -70,7 +70,7 @@ void try_to(const Read& read) {
   try {
     read();
   } catch (const scene::toml::SceneError&) {
-  } catch (const scene::toml::UsageError&) {
+  } catch (const UsageError&) {
   } catch (const sim::ShapeError&) {
   } catch (const Error&) {
   }

@@ -5,13 +5,13 @@
 #include <stdexcept>
 
 #include "app/output/checkpoint.h"
-#include "app/run/picture_record.h"
-#include "app/run/resumed_run.h"
-#include "app/run/run_json.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
 #include "app/scene/read.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/sweep/store/manifest.h"
+#include "app/timeline/timeline.h"
 #include "render/image/image.h"
 #include "tests/fuzz/readers.h"
 
@@ -48,30 +48,30 @@ velocity = [0.1, 0, 0]
 
 struct SmallRun {
   scene::Scene scene = scene::read_scene_text(small_scene, "small.toml");
-  setup::SeededScene seeded = setup::seed_scene(scene);
-  sim::Simulation simulation = setup::make_simulation(scene, seeded.particles, 1);
-  Bytes good;
+  timeline::Timeline timeline{
+      scene, {}, std::make_shared<setup::SeededScene>(setup::seed_scene(scene)), 1};
+  timeline::Moment good;
   output::Checkpoint checkpoint;
 
   SmallRun() {
-    std::vector<picture::PlotSample> history;
-    run::RunRecord record;
-    sim::AdvanceReport advance;
+    timeline::Made made;
     for (int frame = 0; frame <= 1; ++frame) {
-      if (frame > 0) advance = simulation.advance_to(frame / scene.fps);
-      const sim::Summary summary = simulation.summary();
-      history.push_back(picture::plot_sample(frame / scene.fps, 1 / scene.fps, summary, advance));
-      run::add_frame(
-          record.frames,
-          {frame, frame / scene.fps, advance, 0, 0, summary, simulation.state_hash(), {}, {}});
+      if (frame > 0) timeline.advance_frame();
+      made.frames.push_back({frame,
+                             frame / scene.fps,
+                             timeline.here().advance,
+                             0,
+                             0,
+                             timeline.summary(),
+                             timeline.simulation().state_hash(),
+                             {},
+                             {}});
     }
-    good = simulation.save();
-    checkpoint.identity = "identity";
-    checkpoint.simd = simulation.simd();
-    checkpoint.frame = 1;
-    checkpoint.steps = simulation.steps();
-    checkpoint.progress = run::progress_json(1, {}, history, record);
-    checkpoint.state = good;
+    good = timeline.moment();
+    timeline::Moment written = good;
+    written.made = made;
+    checkpoint =
+        timeline::to_checkpoint(std::move(written), "identity", timeline.simulation().simd());
   }
 };
 
@@ -107,18 +107,18 @@ Bytes with_right_checksums(std::span<const std::uint8_t> bytes) {
 }
 
 /// A run that is resumed from it takes two steps and tells about its particles.
-void resume(const run::ResumedRun& resumed) {
-  SmallRun& small = small_run();
+void resume(const timeline::Moment& moment) {
+  timeline::Timeline& timeline = small_run().timeline;
   try {
-    run::restore_frame(resumed, small.scene.fps, small.simulation);
-  } catch (const std::runtime_error&) {
+    timeline.restore(moment);
+  } catch (const Error&) {
     return;
   }
-  sim::Simulation& simulation = small.simulation;
-  simulation.advance_to(simulation.time() + 1e-4, {}, simulation.steps() + 2);
-  simulation.particles();
-  simulation.summary();
-  simulation.restore(small.good);
+  timeline.advance_step();
+  timeline.advance_step();
+  timeline.simulation().particles();
+  timeline.summary();
+  timeline.restore(small_run().good);
 }
 
 }  // namespace
@@ -127,11 +127,12 @@ void read_checkpoint(std::span<const std::uint8_t> bytes) {
   output::Checkpoint checkpoint;
   try {
     checkpoint = output::parse_checkpoint(mended(bytes));
+    checkpoint.file = "stranger.ckpt";
   } catch (const std::exception&) {
     return;
   }
   try {
-    resume(run::read_resumed_run(checkpoint));
+    resume(timeline::to_moment(checkpoint));
   } catch (const Error&) {
   }
 }
@@ -144,9 +145,9 @@ void read_run_json(std::span<const std::uint8_t> bytes) {
   } catch (const nlohmann::json::exception&) {
     return;
   }
-  run::frame_records(json);
-  run::file_hashes(json);
-  run::is_untouched(json);
+  record::frame_records(json);
+  record::file_hashes(json);
+  record::is_untouched(json);
   try {
     scene::live_changes(json.is_object() ? json.value("changes", Json::array()) : json);
   } catch (const std::runtime_error&) {
@@ -165,7 +166,7 @@ void read_manifest(std::span<const std::uint8_t> bytes) {
 void read_picture(std::span<const std::uint8_t> given) {
   const Bytes bytes = with_right_checksums(given);
   try {
-    run::picture_record_of(render::read_png_text(bytes), "picture.png");
+    record::picture_record_of(render::read_png_text(bytes), "picture.png");
   } catch (const render::ImageError&) {
   } catch (const Error&) {
   }
@@ -180,24 +181,24 @@ std::vector<Bytes> checkpoints() {
 }
 
 std::vector<Bytes> run_records() {
-  run::RunRecord record;
+  record::RunRecord record;
   record.scene = small_scene;
   record.views = {"particles"};
   for (const Json& frame : small_run().checkpoint.progress["frames"])
-    record.frames.push_back(run::frame_record(frame));
+    record.frames.push_back(record::frame_record(frame));
   record.files = {{"particles/0000.png", "0123456789abcdef"}};
-  return {bytes_of(run::with_own_hash(run::to_json(record)))};
+  return {bytes_of(record::with_own_hash(record::to_json(record)))};
 }
 
 std::vector<Bytes> pictures() {
-  run::PictureRecord record;
+  record::PictureRecord record;
   record.scene = small_scene;
   record.overrides = {"material.snow.hardening=5"};
   record.view = "particles";
   record.state_hash = "0123456789abcdef";
   record.quality = "preview";
   const render::Image image{2, 2, 3, std::vector<std::uint8_t>(12, 100)};
-  return {render::encode_png(image, run::to_png_text(record)), render::encode_png(image)};
+  return {render::encode_png(image, record::to_png_text(record)), render::encode_png(image)};
 }
 
 }  // namespace neve::test::fuzz

@@ -19,14 +19,15 @@ TEST(PickAxes, ARangeIsItsTwoEnds) {
 }
 
 TEST(RoundRuns, HaveEndedWhenNoneIsLeft) {
-  RoundRuns runs;
-  EXPECT_FALSE(have_all_ended(runs));
-  runs.tiles.resize(2);
-  runs.tiles[0].state = TileRun::State::done;
-  runs.tiles[1].state = TileRun::State::running;
-  EXPECT_FALSE(have_all_ended(runs));
-  runs.tiles[1].state = TileRun::State::failed;
-  EXPECT_TRUE(have_all_ended(runs));
+  using sweep::store::RunState;
+  sweep::jobs::SweepProgress runs;
+  EXPECT_FALSE(runs.have_all_ended());
+  runs.runs.resize(2);
+  runs.runs[0].state = RunState::ok;
+  runs.runs[1].state = RunState::running;
+  EXPECT_FALSE(runs.have_all_ended());
+  runs.runs[1].state = RunState::timeout;
+  EXPECT_TRUE(runs.have_all_ended());
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(Learned, TheMapHasEveryTileAndTheFavourite) {
   const search::Preference taste = search::learn(rounds, 2);
   const search::Point best = search::favourite(rounds, taste);
   const std::string svg =
-      map_svg(two_axes, taste_map(taste, rounds, axis_tastes(two_axes, taste, best), best));
+      map_svg(taste_map(two_axes, taste, rounds, axis_tastes(two_axes, taste, best), best));
   std::size_t circles = 0;
   for (std::size_t at = 0; (at = svg.find("<circle", at)) != std::string::npos; ++at) ++circles;
   EXPECT_EQ(circles, rounds.size() * search::tiles_in_round + 1);

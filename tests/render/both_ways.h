@@ -18,7 +18,7 @@ inline Frame rough_ball(int width, int height) {
   add_ball(frame, {0, 0, 0}, 0.4f, 0.025f);
   for (std::size_t i = 0; i < frame.points.position.size(); ++i) {
     const float x = static_cast<float>(i);
-    frame.points.position[i] =
+    frame.points.position.edit()[i] =
         frame.points.position[i] + 0.01f * Vec3f{std::sin(x), std::sin(2.3f * x), std::sin(5 * x)};
   }
   return frame;

@@ -114,7 +114,7 @@ TEST(Channels, NormalsAreOfUnitLengthAndPointOutwards) {
 TEST(Channels, NumbersAreThoseOfTheParticleInThePixel) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = rough_ball(160, 100);
-  for (std::uint32_t& id : frame.points.id) id = 5 * id + 3;
+  for (std::uint32_t& id : frame.points.id.edit()) id = 5 * id + 3;
   channels::Request request = request_for(frame);
   for (std::size_t i = 0; i < request.body.size(); ++i)
     request.body[i] = static_cast<std::int32_t>(i % 3);
@@ -296,7 +296,7 @@ TEST(SnowValues, AColorIsThatOfTheSnowAroundItsPlaceByOpenGlAndOnTheCpu) {
   frame.points.colormap = ColorMap::viridis;
   constexpr float steepest = 2.6f;  // values a metre
   for (const Vec3f& p : frame.points.position)
-    frame.points.value.push_back(0.5f + 0.5f * std::sin(2 * steepest * p.x));
+    frame.points.value.edit().push_back(0.5f + 0.5f * std::sin(2 * steepest * p.x));
   frame.points.range_min = 0;
   frame.points.range_max = 1;
   // A place has the color of the grains nearest to it, whose particles are up to 1.2 spacings away,

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "render/overlay/ticks.h"
+#include "render/frame/ticks.h"
 #include "render/shapes/mesh_shapes.h"
 
 namespace neve::render {
@@ -50,8 +50,7 @@ TEST(ColorMap, ColorMapClampsAndMarksNan) {
 
 std::string labels(double min, double max, int count = 5) {
   std::string out;
-  for (const render::overlay::Tick& tick : render::overlay::nice_ticks(min, max, count))
-    out += tick.label + " ";
+  for (const render::Tick& tick : render::nice_ticks(min, max, count)) out += tick.label + " ";
   return out;
 }
 
@@ -66,7 +65,7 @@ TEST(Ticks, TicksAreRoundAndReadable) {
 TEST(Ticks, ExtremeRangesGiveFewDifferentLabels) {
   for (const auto& [min, max] :
        {std::pair{0.0, 1e-30}, {-3e38, 3e38}, {1e6, 1e6 + 10}, {-1e-5, 2e-5}}) {
-    const std::vector<render::overlay::Tick> ticks = render::overlay::nice_ticks(min, max, 5);
+    const std::vector<render::Tick> ticks = render::nice_ticks(min, max, 5);
     ASSERT_GE(ticks.size(), 2u) << min << " " << max;
     ASSERT_LE(ticks.size(), 7u) << min << " " << max;
     for (std::size_t i = 1; i < ticks.size(); ++i) {

@@ -48,8 +48,8 @@ inline Frame small_frame(int width = 120, int height = 90) {
 }
 
 inline void add_point(Frame& frame, Vec3f position) {
-  frame.points.id.push_back(static_cast<std::uint32_t>(frame.points.position.size()));
-  frame.points.position.push_back(position);
+  frame.points.id.edit().push_back(static_cast<std::uint32_t>(frame.points.position.size()));
+  frame.points.position.edit().push_back(position);
 }
 
 /// A ball of packed points.

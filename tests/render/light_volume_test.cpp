@@ -77,13 +77,13 @@ TEST(LightVolume, StrayHasHardlyABody) {
 TEST(LightVolume, LightVolumeDependsNeitherOnOrderNorOnThreads) {
   Frame frame = ball();
   for (int i = 0; i < 4; ++i)  // enough for several parts
-    frame.points.position.insert(frame.points.position.end(), frame.points.position.begin(),
-                                 frame.points.position.begin() + 10000);
+    frame.points.position.edit().insert(frame.points.position.end(), frame.points.position.begin(),
+                                        frame.points.position.begin() + 10000);
   ASSERT_GT(frame.points.position.size(), 40000u);
   const render::light::LightVolume one = render::light::make_light_volume(frame, {}, nullptr);
   for (const int threads : {2, 3, 5}) {
     ThreadPool pool(threads);
-    std::reverse(frame.points.position.begin(), frame.points.position.end());
+    std::ranges::reverse(frame.points.position.edit());
     const render::light::LightVolume many = render::light::make_light_volume(frame, {}, &pool);
     EXPECT_EQ(one.body, many.body);
     EXPECT_EQ(one.light, many.light);
@@ -98,7 +98,7 @@ TEST(Lighting, LightingComputesAVolumeOnlyAfterAChangeOfItsInputs) {
   EXPECT_NE(first, 0u);
   // Another view of the same state.
   frame.camera.eye = {3, 2, 1};
-  frame.points.value.assign(frame.points.position.size(), 0.5f);
+  frame.points.value.edit().assign(frame.points.position.size(), 0.5f);
   frame.width = 33;
   EXPECT_EQ(lighting.volume(frame, {}, nullptr).serial, first);
 
@@ -112,17 +112,18 @@ TEST(Lighting, LightingComputesAVolumeOnlyAfterAChangeOfItsInputs) {
     EXPECT_EQ(volume.light, fresh.light) << what;
     EXPECT_EQ(volume.grid.origin, fresh.grid.origin) << what;
   };
-  frame.points.position.back().x += 1e-3f;
+  frame.points.position.edit().back().x += 1e-3f;
   expect_new("a point");
-  frame.points.position.pop_back();
+  frame.points.position.edit().pop_back();
   expect_new("fewer points");
   frame.points.spacing *= 1.5f;
   expect_new("the spacing, and with it a smaller grid in the same memory");
   frame.light.direction.x += 0.5f;
   expect_new("the light");
-  frame.meshes[0].position[0].y += 0.1f;
+  frame.meshes[0].position.edit()[0].y += 0.1f;
   expect_new("a vertex");
-  std::swap(frame.meshes[0].index[0], frame.meshes[0].index[4]);
+  std::vector<std::uint32_t>& index = frame.meshes[0].index.edit();
+  std::swap(index[0], index[4]);
   expect_new("a face");
   frame.meshes.clear();
   expect_new("no mesh");
@@ -151,7 +152,7 @@ TEST(LightGrid, LightGridStaysWithin96CellsAndAroundThePoints) {
                 frame.points.position[1][axis]);
     }
   }
-  frame.points.position.clear();
+  frame.points.position.edit().clear();
   EXPECT_EQ(render::light::fit_light_grid(frame.points, {}).count(), 1u);
 }
 

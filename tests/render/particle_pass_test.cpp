@@ -116,15 +116,15 @@ TEST_P(ParticlePass, PictureDoesNotDependOnTheOrderOfPoints) {
   // Two in the same place, told apart only by their id and colour.
   add_point(frame, frame.points.position.front());
   for (const std::uint32_t id : frame.points.id)
-    frame.points.value.push_back(static_cast<float>(id % 7) / 7);
+    frame.points.value.edit().push_back(static_cast<float>(id % 7) / 7);
   Frame reversed = frame;
-  std::reverse(reversed.points.position.begin(), reversed.points.position.end());
-  std::reverse(reversed.points.id.begin(), reversed.points.id.end());
-  std::reverse(reversed.points.value.begin(), reversed.points.value.end());
+  std::ranges::reverse(reversed.points.position.edit());
+  std::ranges::reverse(reversed.points.id.edit());
+  std::ranges::reverse(reversed.points.value.edit());
   EXPECT_EQ(renderer.draw(frame).pixels, renderer.draw(reversed).pixels);
   // The test can see a change of colour.
   Frame other = frame;
-  other.points.value.front() += 0.5f;
+  other.points.value.edit().front() += 0.5f;
   EXPECT_NE(renderer.draw(frame).pixels, renderer.draw(other).pixels);
 }
 
@@ -138,9 +138,9 @@ TEST(PointList, LeavingOutHiddenSpheresDoesNotChangeThePicture) {
   add_ball(frame, {0.2f, 0.1f, 0}, 0.4f, 0.04f);
   for (std::size_t i = 0; i < frame.points.position.size(); ++i) {
     const float x = static_cast<float>(i);  // off the lattice
-    frame.points.position[i] =
+    frame.points.position.edit()[i] =
         frame.points.position[i] + 0.015f * Vec3f{std::sin(x), std::sin(2.3f * x), std::sin(5 * x)};
-    frame.points.value.push_back(static_cast<float>(i % 11) / 10);
+    frame.points.value.edit().push_back(static_cast<float>(i % 11) / 10);
   }
   for (const float fov : {10.0f, 30.0f, 100.0f}) {
     for (const float radius : {0.004f, 0.03f, 0.05f}) {

@@ -16,13 +16,13 @@ Frame frame_with_plots(int width, int height, float now) {
   Frame frame = small_frame(width, height);
   for (const char* title : {"energy", "speed", "time step"}) {
     Plot plot{
-        .title = title, .unit = "J", .time_end = 2, .now = now, .min = 0, .max = 10, .series = {}};
-    PlotSeries curve{.name = "kinetic", .color = pure_red, .time = {}, .value = {}};
-    PlotSeries bars{.name = "cfl", .color = pure_green, .time = {}, .value = {}, .bar_width = 0.1f};
+        .title = title, .unit = "J", .x_end = 2, .now = now, .min = 0, .max = 10, .series = {}};
+    PlotSeries curve{.name = "kinetic", .color = pure_red, .x = {}, .value = {}};
+    PlotSeries bars{.name = "cfl", .color = pure_green, .x = {}, .value = {}, .bar_width = 0.1f};
     for (float t = 0; t <= now + 1e-4f; t += 0.1f) {
-      curve.time.push_back(t);
+      curve.x.push_back(t);
       curve.value.push_back(5);
-      bars.time.push_back(t);
+      bars.x.push_back(t);
       bars.value.push_back(3);
     }
     plot.series = {bars, curve};
@@ -122,11 +122,11 @@ TEST(Plots, OddNumbersAreHarmless) {
   for (const float odd : {0.0f, -1.0f, 1e38f, INFINITY, NAN}) {
     Frame frame = frame_with_plots(320, 180, 1);
     frame.plots[0].max = odd;
-    frame.plots[0].time_end = odd;
+    frame.plots[0].x_end = odd;
     frame.plots[0].now = odd;
     frame.plots[0].series[0].value[1] = odd;
     frame.plots[0].series[1].value[1] = odd;
-    frame.plots[0].series[1].time[1] = odd;
+    frame.plots[0].series[1].x[1] = odd;
     EXPECT_NO_THROW(renderer.draw(frame)) << odd;
   }
   Frame torn = frame_with_plots(320, 180, 1);

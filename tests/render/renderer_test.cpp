@@ -155,7 +155,7 @@ TEST(MeshPass, MeshHidesWhatIsBehindAndIsHiddenByWhatIsInFront) {
   frame.meshes.push_back(render::shapes::box_mesh({0, 0, 0}, {0.4f, 0.4f, 0.1f}));
   add_point(frame, {0.1f, 0, -0.3f});
   const int covered = pixel(renderer.draw(frame), 68, 45).brightness();
-  frame.points.position[0] = {0.1f, 0, 0.3f};
+  frame.points.position.edit()[0] = {0.1f, 0, 0.3f};
   const int in_front = pixel(renderer.draw(frame), 70, 45).brightness();
   EXPECT_LT(covered, 190);
   EXPECT_GT(in_front, covered + 30);
@@ -219,12 +219,12 @@ TEST(Renderer, InconsistentFramesAreRefused) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
   Frame frame = small_frame();
-  frame.points.position.resize(3);
-  frame.points.value.resize(2);
+  frame.points.position.edit().resize(3);
+  frame.points.value.edit().resize(2);
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
   frame.points = {};
   frame.meshes.push_back(render::shapes::box_mesh({}, {1, 1, 1}));
-  frame.meshes[0].index.push_back(1000);
+  frame.meshes[0].index.edit().push_back(1000);
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
 }
 
@@ -247,7 +247,7 @@ TEST(Renderer, SceneFarFromTheOriginLooksTheSame) {
   frame.grounds[0].line_spacing = 8;  // divides the shift: the same lines
   const Image here = renderer.draw(frame);
   const Vec3f shift{1024, 512, -2048};
-  for (Vec3f& p : frame.points.position) p = p + shift;
+  for (Vec3f& p : frame.points.position.edit()) p = p + shift;
   frame.grounds[0].point = frame.grounds[0].point + shift;
   frame.camera.eye = frame.camera.eye + shift;
   frame.camera.target = frame.camera.target + shift;

@@ -257,7 +257,7 @@ TEST(SliceFrame, LengthsThatDisagreeAreErrors) {
   Renderer renderer(*context);
   Frame frame = small_frame();
   frame.arrows = {one_arrow({0, 0, 0}, {1, 0, 0})};
-  frame.arrows[0].vector.clear();
+  frame.arrows[0].vector.edit().clear();
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
   frame = small_frame();
   frame.heat_maps = {full_map({1, 2, 3}, 2, 2)};

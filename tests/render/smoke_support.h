@@ -27,7 +27,7 @@ inline Smoke make_smoke(Vec3f low, Vec3f high, float spacing,
       const Vec3f at = {static_cast<float>(4 * b.x + n / 16),
                         static_cast<float>(4 * b.y + n / 4 % 4),
                         static_cast<float>(4 * b.z + n % 4)};
-      smoke.density.push_back(smoke.full_density * share(spacing * at));
+      smoke.density.edit().push_back(smoke.full_density * share(spacing * at));
     }
   }
   smoke.nodes = std::move(nodes);

@@ -111,7 +111,7 @@ TEST(Smoke, EmptySmokeChangesNoPixel) {
   const Smoke ball = frame.smoke;
   EXPECT_NE(renderer.draw(frame).pixels, without.pixels);
   for (const float nothing : {0.0f, -1.0f, nan, std::numeric_limits<float>::infinity()}) {
-    std::fill(frame.smoke.density.begin(), frame.smoke.density.end(), nothing);
+    std::ranges::fill(frame.smoke.density.edit(), nothing);
     EXPECT_EQ(renderer.draw(frame).pixels, without.pixels) << nothing;
   }
   frame.smoke = ball;
@@ -225,10 +225,10 @@ TEST(Smoke, ColoursShowValues) {
   for (const Vec3i block : frame.smoke.nodes->block) {
     // A value without density, or not a number, must not colour anything.
     for (int n = 0; n < 64; ++n)
-      frame.smoke.value.push_back(4 * block.x + n / 16 < 0 ? 2.0f : 7.0f);
+      frame.smoke.value.edit().push_back(4 * block.x + n / 16 < 0 ? 2.0f : 7.0f);
   }
   for (std::size_t i = 0; i < frame.smoke.density.size(); ++i) {
-    if (!(frame.smoke.density[i] > 0)) frame.smoke.value[i] = i % 2 ? nan : 1e30f;
+    if (!(frame.smoke.density[i] > 0)) frame.smoke.value.edit()[i] = i % 2 ? nan : 1e30f;
   }
   frame.smoke.range_min = 2;
   frame.smoke.range_max = 7;
@@ -269,7 +269,7 @@ TEST(Smoke, SmokeThatFitsNoLatticeIsRefused) {
   Renderer renderer(*context);
   Frame frame = ball_of_smoke();
   const Smoke good = frame.smoke;
-  frame.smoke.density.pop_back();
+  frame.smoke.density.edit().pop_back();
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
   frame.smoke = good;
   frame.smoke.value = {1, 2};
@@ -320,7 +320,7 @@ Smoke blocks_at(const std::vector<Vec3i>& places) {
   auto nodes = std::make_shared<NodeLattice>();
   nodes->spacing = 0.01f;
   nodes->block = places;
-  smoke.density.assign(64 * places.size(), smoke.full_density);
+  smoke.density.edit().assign(64 * places.size(), smoke.full_density);
   smoke.nodes = nodes;
   return smoke;
 }

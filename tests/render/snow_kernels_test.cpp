@@ -221,7 +221,7 @@ struct SeenRelief {
 /// @param place  in spacings from the grain @param pixels  samples per spacing
 SeenRelief relief_at(const cpu::DrawKernels& kernels, Vec3f place, float pixels) {
   const cpu::Grain grain{{}, 0xffffffffu, 0, {32767, 0, 0, 0}};
-  GrainSamples<cpu::most_light_lanes> samples;
+  GrainSamples<cpu::max_light_lanes> samples;
   for (std::size_t axis = 0; axis < 3; ++axis)
     samples.world[axis][0] = place[static_cast<int>(axis)];
   samples.sample_size[0] = 1 / pixels;
@@ -288,7 +288,7 @@ TEST(Snow, LooksOfGrainsDoNotDependOnTheInstructionSet) {
         looks.emplace_back(samples.look(*k, static_cast<int>(count), 0.3f, list.data(), true));
     for (std::size_t n = 0; n < count; ++n) {
       const Vec3f facet{to[7][n], to[8][n], to[9][n]};
-      const bool is_seen = 0.3f / samples.sample_size[n] > cpu::least_sparkling;
+      const bool is_seen = 0.3f / samples.sample_size[n] > cpu::min_sparkling;
       (is_seen ? facets : without) += 1;
       EXPECT_NEAR(length(facet), is_seen ? 1 : 0, 1e-6) << k->simd;
       const float root = static_cast<float>(list[samples.grain[n]].color & 0xff) / 255;

@@ -16,7 +16,7 @@ inline Frame snow_ball(int width, int height) {
 inline Frame torn_snow(int width, int height) {
   Frame frame = snow_ball(width, height);
   Points& points = frame.points;
-  for (Vec3f& p : points.position)
+  for (Vec3f& p : points.position.edit())
     if (p.x + 0.2f * p.y > 0.1f) p.x += 0.08f;
   for (int i = -8; i <= 8; ++i)
     for (int j = -8; j <= 8; ++j)

@@ -23,9 +23,9 @@ Points slab(float spacing, int across, int layers) {
   for (int k = 0; k < across; ++k)
     for (int j = 0; j < layers; ++j)
       for (int i = 0; i < across; ++i)
-        points.position.push_back({(static_cast<float>(i - across / 2) + 0.5f) * spacing,
-                                   -(static_cast<float>(j) + 0.5f) * spacing,
-                                   (static_cast<float>(k - across / 2) + 0.5f) * spacing});
+        points.position.edit().push_back({(static_cast<float>(i - across / 2) + 0.5f) * spacing,
+                                          -(static_cast<float>(j) + 0.5f) * spacing,
+                                          (static_cast<float>(k - across / 2) + 0.5f) * spacing});
   return points;
 }
 
@@ -76,7 +76,7 @@ void cut_open(Vec3f point, Vec3f normal, Points& points) {
   points.spacing = whole.spacing;
   points.cut = CutAway{point, normal, {}, {}, {}, {}, {}};
   for (const Vec3f& p : whole.position)
-    (dot(p - point, normal) > 0 ? points.cut->position : points.position).push_back(p);
+    (dot(p - point, normal) > 0 ? points.cut->position : points.position).edit().push_back(p);
 }
 
 TEST(Snow, ACutIsFlatAndLiesInItsPlane) {
@@ -121,7 +121,7 @@ float side_at(const Body& body, float height) {
 TEST(Snow, SidesGoStraightDownToTheGround) {
   constexpr float spacing = 0.02f;
   Points points = slab(spacing, 30, 20);
-  for (Vec3f& p : points.position) p.y += 20 * spacing;  // its lower side lies on y = 0
+  for (Vec3f& p : points.position.edit()) p.y += 20 * spacing;  // its lower side lies on y = 0
   const std::vector<GroundPlane> ground(1);
   const Body body = snow::make_body(points, ground, nullptr);
   const float middle = side_at(body, 10 * spacing);
@@ -140,7 +140,7 @@ TEST(Snow, ACutShowsTheValuesInside) {
   Frame frame = snow_ball(160, 120);
   frame.grounds.clear();
   Points& points = frame.points;
-  points.id.clear();
+  points.id.edit().clear();
   const auto values = [](const std::vector<Vec3f>& from) {
     std::vector<float> to;
     for (const Vec3f& p : from) to.push_back(length(p));
@@ -169,7 +169,7 @@ TEST(Snow, PointsThatAreCutAwayNeedTheArraysOfThePoints) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = snow_ball(32, 24);
   cut_open({}, {0, 0, 1}, frame.points);
-  frame.points.value.assign(frame.points.position.size(), 1.0f);
+  frame.points.value.edit().assign(frame.points.position.size(), 1.0f);
   Renderer renderer(*context, {}, nullptr, ParticlePath::cpu);
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
 }

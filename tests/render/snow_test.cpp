@@ -73,13 +73,13 @@ double difference_after_move(render::gl::Context& context, std::uint32_t first_i
   Frame still = snow_ball(320, 200), moved = still;
   // A whole number of the field's cells: the lattice samples the snow alike.
   const float way = 16 * 0.8f * still.points.spacing;
-  for (Vec3f& p : moved.points.position) p.x += way;
+  for (Vec3f& p : moved.points.position.edit()) p.x += way;
   for (GroundPlane& ground : moved.grounds) ground.point.x += way;
   moved.camera.eye.x += way;
   moved.camera.target.x += way;
   still.grounds.clear();
   moved.grounds.clear();
-  for (std::uint32_t& id : moved.points.id) id += first_id;
+  for (std::uint32_t& id : moved.points.id.edit()) id += first_id;
   Renderer a(context, {}, nullptr, ParticlePath::cpu), b(context, {}, nullptr, ParticlePath::cpu);
   return compare(a.draw(still), b.draw(moved)).mean;
 }
@@ -103,8 +103,8 @@ double difference_after_turn(render::gl::Context& context, const PackedTurn& tur
   Frame still = snow_ball(320, 200);
   still.grounds.clear();
   Frame turned = still;
-  for (Vec3f& p : turned.points.position) p = quarter(p);
-  turned.points.turn.assign(turned.points.position.size(), turn);
+  for (Vec3f& p : turned.points.position.edit()) p = quarter(p);
+  turned.points.turn.edit().assign(turned.points.position.size(), turn);
   turned.camera.eye = quarter(still.camera.eye);
   turned.light.direction = quarter(still.light.direction);
   Renderer a(context, {}, nullptr, ParticlePath::cpu), b(context, {}, nullptr, ParticlePath::cpu);
@@ -129,7 +129,7 @@ TEST(Snow, ValuesColorTheSurface) {
   frame.grounds.clear();
   frame.points.colormap = ColorMap::coolwarm;
   const auto middle = [&](float value) {
-    frame.points.value.assign(frame.points.position.size(), value);
+    frame.points.value.edit().assign(frame.points.position.size(), value);
     Renderer renderer(*context, {}, nullptr, ParticlePath::cpu);
     return pixel(renderer.draw(frame), 80, 50);
   };
@@ -256,20 +256,20 @@ TEST(Snow, BadAndMissingParticlesAreNoSurface) {
   Renderer renderer(*context);
   Frame frame = torn_snow(96, 64);
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  frame.points.position[3].x = nan;
-  frame.points.position[4].y = std::numeric_limits<float>::infinity();
-  frame.points.position[5].z = 1e30f;
-  frame.points.volume.assign(frame.points.position.size(), 1e-5f);
-  frame.points.volume[6] = nan;
-  frame.points.volume[7] = -1;
-  frame.points.volume[8] = 1e30f;
+  frame.points.position.edit()[3].x = nan;
+  frame.points.position.edit()[4].y = std::numeric_limits<float>::infinity();
+  frame.points.position.edit()[5].z = 1e30f;
+  frame.points.volume.edit().assign(frame.points.position.size(), 1e-5f);
+  frame.points.volume.edit()[6] = nan;
+  frame.points.volume.edit()[7] = -1;
+  frame.points.volume.edit()[8] = 1e30f;
   const Image bad = renderer.draw(frame);
-  frame.points.volume.clear();
+  frame.points.volume.edit().clear();
   frame.camera.eye = {0.01f, 0, 0};  // inside
   renderer.draw(frame);
   for (const std::size_t count : {std::size_t{1}, std::size_t{0}}) {
-    frame.points.position.resize(count);
-    frame.points.id.resize(count);
+    frame.points.position.edit().resize(count);
+    frame.points.id.edit().resize(count);
     renderer.draw(frame);
   }
   Frame nothing = torn_snow(96, 64);

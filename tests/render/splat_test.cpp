@@ -15,7 +15,7 @@ namespace neve::render {
 namespace {
 
 void add_values(Frame& frame) {
-  for (const Vec3f& p : frame.points.position) frame.points.value.push_back(p.y + 0.4f);
+  for (const Vec3f& p : frame.points.position) frame.points.value.edit().push_back(p.y + 0.4f);
 }
 
 TEST(Splat, SplattingDrawsThePictureOfOpenGl) {
@@ -120,13 +120,13 @@ TEST(Splat, OrderOfPointsDoesNotMatterAndEqualsGoByTheirId) {
     return length(a - frame.camera.eye) < length(b - frame.camera.eye);
   });
   add_point(frame, nearest);  // in the same place, another colour
-  frame.points.value.push_back(1);
+  frame.points.value.edit().push_back(1);
   const Samples one = splat(frame, render::cpu::chosen_draw_kernels(), nullptr);
-  std::reverse(frame.points.position.begin(), frame.points.position.end());
-  std::reverse(frame.points.id.begin(), frame.points.id.end());
-  std::reverse(frame.points.value.begin(), frame.points.value.end());
+  std::ranges::reverse(frame.points.position.edit());
+  std::ranges::reverse(frame.points.id.edit());
+  std::ranges::reverse(frame.points.value.edit());
   EXPECT_TRUE(splat(frame, render::cpu::chosen_draw_kernels(), nullptr) == one);
-  std::reverse(frame.points.id.begin(), frame.points.id.end());
+  std::ranges::reverse(frame.points.id.edit());
   EXPECT_FALSE(splat(frame, render::cpu::chosen_draw_kernels(), nullptr) == one) << "ids of others";
 }
 
@@ -136,13 +136,13 @@ TEST(Splat, HidingChangesNothing) {
   const Samples all = splat(frame, render::cpu::chosen_draw_kernels(), nullptr);
   const Vec3f toward_eye = normalized(frame.camera.eye);
   Points shell = frame.points;
-  shell.position.clear();
-  shell.id.clear();
+  shell.position.edit().clear();
+  shell.id.edit().clear();
   for (std::size_t i = 0; i < frame.points.position.size(); ++i) {
     const Vec3f p = frame.points.position[i];
     if (length(p) < 0.25f || dot(p, toward_eye) < -0.25f) continue;
-    shell.position.push_back(p);
-    shell.id.push_back(frame.points.id[i]);
+    shell.position.edit().push_back(p);
+    shell.id.edit().push_back(frame.points.id[i]);
   }
   ASSERT_LT(shell.position.size(), frame.points.position.size() * 4 / 5);
   frame.points = shell;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "both_ways.h"
 #include "render/cpu/smoke_march.h"
@@ -27,7 +28,7 @@ Frame ball_in_smoke() {
 
 void color_smoke(Frame& frame) {
   for (std::size_t i = 0; i < frame.smoke.density.size(); ++i)
-    frame.smoke.value.push_back(0.5f + 0.5f * std::sin(0.01f * static_cast<float>(i)));
+    frame.smoke.value.edit().push_back(0.5f + 0.5f * std::sin(0.01f * static_cast<float>(i)));
 }
 
 Frame ball_in_slices() {
@@ -44,9 +45,9 @@ Frame ball_in_slices() {
   for (int k = 0; k < 81; ++k) {
     const Vec3f p = {0.17f * static_cast<float>(k % 9 - 4), 0.1f,
                      0.17f * static_cast<float>(k / 9 - 4)};
-    arrows.position.push_back(p);
-    arrows.vector.push_back({-p.z, 0.3f, p.x});
-    map.value.push_back(length(p));
+    arrows.position.edit().push_back(p);
+    arrows.vector.edit().push_back({-p.z, 0.3f, p.x});
+    map.value.edit().push_back(length(p));
   }
   frame.arrows.push_back(arrows);
   frame.heat_maps.push_back(map);
@@ -179,6 +180,27 @@ TEST(Surfaces, KeptTilesGiveTheSamePicture) {
 
 // ---- what is kept from one picture to the next --------------------------------------------------
 
+TEST(Values, CopiesShareAnArrayUntilOneIsEdited) {
+  Values<float> a{1, 2, 3};
+  Values<float> b = a;
+  EXPECT_EQ(b.data(), a.data());
+  b.edit()[1] = 5;
+  EXPECT_EQ(a[1], 2);
+  EXPECT_EQ(b[1], 5);
+  const float* own = b.data();
+  b.edit()[1] = 6;
+  EXPECT_EQ(b.data(), own) << "an array of one owner is not copied";
+}
+
+TEST(Values, AreEqualWhereTheirBytesAre) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  using Floats = Values<float>;
+  EXPECT_EQ(Floats({1, nan}), Floats({1, nan}));
+  EXPECT_FALSE(Floats({0.0f}) == Floats({-0.0f}));
+  EXPECT_FALSE(Floats({1}) == Floats({1, 1}));
+  EXPECT_EQ(Floats(), Floats(std::vector<float>()));
+}
+
 TEST(SolidCache, SolidCacheHoldsOnlyWhatIsTheSame) {
   Frame frame = ball_in_slices();
   frame.meshes.push_back(render::shapes::box_mesh({0, 0, 0}, {0.2f, 0.2f, 0.2f}));
@@ -187,7 +209,7 @@ TEST(SolidCache, SolidCacheHoldsOnlyWhatIsTheSame) {
   EXPECT_FALSE(cache.holds(frame, view_of(frame)));
   cache.renew(frame, view_of(frame));
   Frame other = frame;
-  other.points.position.clear();
+  other.points.position.edit().clear();
   other.light.intensity = 0.5f;
   other.caption = {"another moment"};
   EXPECT_TRUE(cache.holds(other, view_of(other))) << "it has no solid";
@@ -199,12 +221,15 @@ TEST(SolidCache, SolidCacheHoldsOnlyWhatIsTheSame) {
   expect_new("camera", [](Frame& f) { f.camera.eye.x += 0.01f; });
   expect_new("size", [](Frame& f) { f.width += 1; });
   expect_new("samples", [](Frame& f) { f.supersampling = 2; });
-  expect_new("vertex", [](Frame& f) { f.meshes[0].position[3].y += 0.01f; });
+  expect_new("vertex", [](Frame& f) { f.meshes[0].position.edit()[3].y += 0.01f; });
   expect_new("colour", [](Frame& f) { f.meshes[0].color.x += 0.01f; });
   expect_new("mesh", [](Frame& f) { f.meshes.push_back(f.meshes[0]); });
-  expect_new("value", [](Frame& f) { f.heat_maps[0].value[5] += 0.01f; });
+  expect_new("value", [](Frame& f) { f.heat_maps[0].value.edit()[5] += 0.01f; });
   expect_new("range", [](Frame& f) { f.heat_maps[0].range_max += 0.01f; });
-  expect_new("arrow", [](Frame& f) { f.arrows[0].vector[5].y += 0.01f; });
+  expect_new("arrow", [](Frame& f) { f.arrows[0].vector.edit()[5].y += 0.01f; });
+  expect_new("cover", [](Frame& f) { f.heat_maps[0].cover = std::vector<float>(81, 0.0f); });
+  expect_new("middle", [](Frame& f) { f.arrows[0].is_centred = true; });
+  expect_new("white", [](Frame& f) { f.arrows[0].is_white = true; });
   expect_new("arrow's colours", [](Frame& f) { f.arrows[0].colormap = ColorMap::magma; });
 }
 
@@ -227,9 +252,9 @@ TEST(SmokeCache, SmokeCacheRecomputesOnlyChangedSmoke) {
   EXPECT_EQ(ask(), 2u) << "another view of the same";
   frame.light.direction.x += 0.3f;
   EXPECT_EQ(ask(), 3u) << "another light on the same grid";
-  frame.points.position[0].x += 0.3f;
+  frame.points.position.edit()[0].x += 0.3f;
   EXPECT_EQ(ask(), 4u) << "another shadow on it";
-  frame.smoke.density[700] += 10;
+  frame.smoke.density.edit()[700] += 10;
   EXPECT_EQ(ask(), 6u) << "a node";
   color_smoke(frame);
   EXPECT_EQ(ask(), 8u) << "values";
@@ -250,10 +275,18 @@ TEST(Surfaces, CachesDoNotShowInThePicture) {
   };
   expect_as_new("the first");
   expect_as_new("the same again");
-  for (Vec3f& p : frame.points.position) p.x += 0.05f;
+  for (Vec3f& p : frame.points.position.edit()) p.x += 0.05f;
   expect_as_new("solids kept, points moved");
   frame.smoke = {};
   expect_as_new("no smoke any more");
+  frame.heat_maps = ball_in_slices().heat_maps;
+  expect_as_new("a heat map");
+  frame.heat_maps[0].cover = std::vector<float>(81, 0.0f);
+  expect_as_new("nothing of it shown");
+  frame.arrows[0].is_centred = true;
+  expect_as_new("arrows with their middle at their places");
+  frame.arrows[0].is_white = true;
+  expect_as_new("white arrows");
   frame.camera.eye.x += 0.2f;
   expect_as_new("another camera");
   frame.arrows.clear();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/engine/time_step.h"
+#include "sim/types/time_step.h"
 #include "tests/support/snow.h"
 
 namespace {
@@ -13,27 +13,27 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-engine::StateLimits slow() {
+StateLimits slow() {
   return {0.1, 1.0, 0.1, 10, 100};
 }
 
 TEST(TimeStep, SmallestLimitRules) {
   SolverSettings s;  // h = 0.02
-  EXPECT_EQ(engine::choose_dt(s, slow(), 1).limit, DtLimit::max_dt);
-  EXPECT_EQ(engine::choose_dt(s, slow(), 1).dt, s.max_dt);
-  engine::StateLimits fast = slow();
+  EXPECT_EQ(choose_dt(s, slow(), 1).limit, DtLimit::max_dt);
+  EXPECT_EQ(choose_dt(s, slow(), 1).dt, s.max_dt);
+  StateLimits fast = slow();
   fast.max_speed = 100;
   fast.max_xi = 0;
-  EXPECT_EQ(engine::choose_dt(s, fast, 1).limit, DtLimit::cfl);
-  EXPECT_NEAR(engine::choose_dt(s, fast, 1).dt, 0.4 * 0.02 / 100, 1e-15);
-  engine::StateLimits stiff = slow();
+  EXPECT_EQ(choose_dt(s, fast, 1).limit, DtLimit::cfl);
+  EXPECT_NEAR(choose_dt(s, fast, 1).dt, 0.4 * 0.02 / 100, 1e-15);
+  StateLimits stiff = slow();
   stiff.max_sound_speed = 40;
-  EXPECT_EQ(engine::choose_dt(s, stiff, 1).limit, DtLimit::acoustic);
-  EXPECT_NEAR(engine::choose_dt(s, stiff, 1).dt, 0.5 * 0.02 / 40, 1e-15);
-  engine::StateLimits strained = slow();
+  EXPECT_EQ(choose_dt(s, stiff, 1).limit, DtLimit::acoustic);
+  EXPECT_NEAR(choose_dt(s, stiff, 1).dt, 0.5 * 0.02 / 40, 1e-15);
+  StateLimits strained = slow();
   strained.max_strain_rate = 3000;
-  EXPECT_EQ(engine::choose_dt(s, strained, 1).limit, DtLimit::strain);
-  EXPECT_NEAR(engine::choose_dt(s, strained, 1).dt, 0.3 / 3000, 1e-15);
+  EXPECT_EQ(choose_dt(s, strained, 1).limit, DtLimit::strain);
+  EXPECT_NEAR(choose_dt(s, strained, 1).dt, 0.3 / 3000, 1e-15);
 }
 
 /// A plate at 80 m/s crosses four cells in the longest step; it hits a block within 0.5 ms.
@@ -74,8 +74,8 @@ TEST(TimeStep, CollidersOutOfReachAndThoseThatRestLimitNothing) {
 
 TEST(TimeStep, FastSnowTakesStepsThatItsHardeningCannotOutrun) {
   SolverSettings s;
-  engine::StateLimits impact{20, 19.7, 0, 10, 1970};
-  const double dt = engine::choose_dt(s, impact, 1).dt;
+  StateLimits impact{20, 19.7, 0, 10, 1970};
+  const double dt = choose_dt(s, impact, 1).dt;
   const double c_after = 19.7 * std::exp(0.5 * 10 * 0.7 * 20 * dt / s.cell_size);
   EXPECT_LE(c_after * dt, 1.0 * s.cell_size);
 }
@@ -87,14 +87,14 @@ TEST(TimeStep, FastSnowThatHardlyHardensKeepsItsLongSteps) {
   s.cfl = 10;
   Material material;
   material.max_hardening = 3;
-  engine::StateLimits impact{20, 19.7};
-  engine::include_hardening(material, impact);
+  StateLimits impact{20, 19.7};
+  include_hardening(material, impact);
   EXPECT_EQ(impact.max_xi, 10);
   EXPECT_NEAR(impact.max_hardened_speed, std::sqrt(3) * sound_speed(material), 1e-12);
   // 1.74 of 19.7 m/s: sound crosses 0.87 of a cell after the step.
-  EXPECT_NEAR(engine::choose_dt(s, impact, 1).dt, 0.5 * 0.02 / 19.7, 1e-15);
+  EXPECT_NEAR(choose_dt(s, impact, 1).dt, 0.5 * 0.02 / 19.7, 1e-15);
   impact.max_hardened_speed = 3 * 19.7;
-  const double dt = engine::choose_dt(s, impact, 1).dt;
+  const double dt = choose_dt(s, impact, 1).dt;
   EXPECT_LE(3 * 19.7 * dt, s.cell_size);
   EXPECT_GE(3 * 19.7 * dt, 0.8 * s.cell_size) << "shorter than it must be";
 }
@@ -103,16 +103,16 @@ TEST(TimeStep, FixedIsTakenAsItIs) {
   SolverSettings s;
   s.time_step = TimeStep::fixed;
   s.dt = 7e-3;
-  engine::StateLimits impact{20, 190, 900, 10, 1970};
-  EXPECT_EQ(engine::choose_dt(s, impact, 1).dt, 7e-3);
-  EXPECT_EQ(engine::choose_dt(s, impact, 1).limit, DtLimit::fixed);
-  EXPECT_EQ(engine::choose_dt(s, impact, 2e-3).dt, 2e-3);
-  EXPECT_EQ(engine::choose_dt(s, impact, 2e-3).limit, DtLimit::frame_end);
+  StateLimits impact{20, 190, 900, 10, 1970};
+  EXPECT_EQ(choose_dt(s, impact, 1).dt, 7e-3);
+  EXPECT_EQ(choose_dt(s, impact, 1).limit, DtLimit::fixed);
+  EXPECT_EQ(choose_dt(s, impact, 2e-3).dt, 2e-3);
+  EXPECT_EQ(choose_dt(s, impact, 2e-3).limit, DtLimit::frame_end);
 }
 
 TEST(TimeStep, LastStepsOfAFrameShareWhatIsLeft) {
   SolverSettings s;
-  const DtChoice choice = engine::choose_dt(s, slow(), 1.5e-3);
+  const DtChoice choice = choose_dt(s, slow(), 1.5e-3);
   EXPECT_EQ(choice.limit, DtLimit::frame_end);
   EXPECT_NEAR(choice.dt, 0.75e-3, 1e-15);
 }
@@ -144,10 +144,10 @@ TEST(TimeStep, FramesEndExactlyAndCountTheirSteps) {
 
 TEST(FlipShare, FlipShareDampsByTimeNotBySteps) {
   SolverSettings s;
-  EXPECT_NEAR(engine::flip_share(s, 5e-4), 0.95, 1e-15);
-  EXPECT_NEAR(std::pow(engine::flip_share(s, 1e-4), 5), 0.95, 1e-14);
+  EXPECT_NEAR(flip_share(s, 5e-4), 0.95, 1e-15);
+  EXPECT_NEAR(std::pow(flip_share(s, 1e-4), 5), 0.95, 1e-14);
   s.flip_reference_dt = 0;
-  EXPECT_EQ(engine::flip_share(s, 1e-5), 0.95);
+  EXPECT_EQ(flip_share(s, 1e-5), 0.95);
 }
 
 TEST(Interruption, InterruptionEndsAfterAStep) {

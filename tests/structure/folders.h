@@ -27,8 +27,7 @@ inline constexpr Folder folders[] = {
     {"sim/health", "sim/base sim/types sim/kernels"},
     {"sim/engine", "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health"},
     {"sim", "sim/base sim/types sim/shapes sim/seeding sim/engine", "neve::sim"},
-    {"sim/checks", "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim"},
-
+    {"sim/checks", "sim/base sim/types sim/shapes sim/seeding sim/health sim"},
     {"render/image", "sim/base", "neve::render"},
     {"render/frame", "sim/base render/image", "neve::render"},
     {"render/shapes", "sim/base render/frame"},
@@ -42,84 +41,97 @@ inline constexpr Folder folders[] = {
     {"render/passes", "sim/base render/frame render/light render/gl render/cpu"},
     {"render/channels", "sim/base render/image render/frame render/light render/cpu"},
     {"render",
-     "sim/base render/image render/frame render/light render/gl render/cpu render/snow "
-     "render/overlay render/passes render/channels",
+     "sim/base render/image render/frame render/light render/gl render/cpu render/overlay "
+     "render/snow render/passes render/channels",
      "neve::render"},
-
     {"app/support", "", "neve::app"},
     {"app/scene/toml", "app/support"},
+    {"app/advice", "app/support app/scene/toml"},
     {"app/scene",
      "sim/base sim/types sim/shapes sim/seeding sim/kernels render/frame app/support "
-     "app/scene/toml"},
+     "app/scene/toml app/advice"},
     {"app/output", "sim/base sim/types sim sim/checks render/image app/support"},
+    {"app/record",
+     "sim/base sim/types sim sim/checks render/image app/support app/scene/toml app/scene "
+     "app/output"},
     {"app/setup",
-     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim/engine sim app/support "
-     "app/scene/toml app/scene app/output"},
+     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim app/support "
+     "app/scene/toml app/advice app/scene app/output"},
+    {"app/options",
+     "render/gl app/support app/scene/toml app/advice app/scene app/output app/setup"},
+    {"app/forecast",
+     "sim/base sim/types sim/seeding sim/health sim app/support app/scene/toml app/scene "
+     "app/setup"},
     {"app/health",
-     "sim/base sim/types sim/shapes sim/seeding sim/health sim/engine sim app/support "
-     "app/scene/toml app/scene app/output app/setup"},
+     "sim/base sim/types sim/shapes sim/seeding sim/health sim app/support app/scene/toml "
+     "app/scene app/output app/setup app/forecast"},
     {"app/picture",
-     "sim/base sim/types sim/shapes sim/health sim/engine sim render/frame render/shapes "
-     "render/channels render app/support app/scene/toml app/scene app/setup app/health"},
+     "sim/base sim/types sim/shapes sim/health sim render/frame render/shapes render/channels "
+     "render app/support app/scene/toml app/scene app/setup app/health"},
     {"app/exports",
      "sim/base sim/types sim/shapes sim render/frame render/surface app/support app/scene/toml "
      "app/scene app/output app/setup app/picture"},
+    {"app/timeline",
+     "sim/base sim/kernels sim app/support app/scene/toml app/scene app/output app/record "
+     "app/setup app/forecast app/health app/picture"},
     {"app/run",
      "sim/base sim/types sim sim/checks render/image render/frame render/gl render/channels render "
-     "app/support app/scene/toml app/scene app/output app/setup app/health app/picture "
-     "app/exports"},
+     "app/support app/scene/toml app/advice app/scene app/output app/record app/setup app/options "
+     "app/forecast app/health app/picture app/exports app/timeline"},
     {"app/compare",
      "sim/base sim/types sim render/image render/frame render/gl render app/support app/scene/toml "
-     "app/scene app/output app/setup app/picture app/run"},
+     "app/advice app/scene app/output app/record app/setup app/picture app/timeline app/run"},
     {"app/dump",
-     "sim/base sim/types sim/health sim app/support app/scene/toml app/scene app/setup "
-     "app/health app/run"},
+     "sim/base sim/types sim/health sim app/support app/scene/toml app/advice app/scene app/record "
+     "app/setup app/health app/run"},
     {"app/sweep", "app/scene app/setup"},
-    {"app/sweep/read", "app/support app/scene/toml app/scene app/setup app/sweep"},
+    {"app/sweep/read",
+     "app/support app/scene/toml app/advice app/scene app/setup app/options app/sweep"},
     {"app/sweep/plan",
-     "sim/base sim/types sim/engine app/support app/scene/toml app/scene app/output app/setup "
-     "app/health app/run app/sweep app/sweep/read"},
+     "sim/base sim/types app/support app/scene/toml app/scene app/output app/record app/setup "
+     "app/options app/forecast app/health app/timeline app/run app/sweep app/sweep/read"},
     {"app/sweep/store",
-     "sim/base app/support app/scene/toml app/scene app/output app/setup app/run app/sweep/read "
-     "app/sweep/plan"},
+     "sim/base app/support app/scene/toml app/scene app/output app/record app/setup app/options "
+     "app/run app/sweep/read app/sweep/plan"},
     {"app/sweep/jobs",
-     "sim app/support app/output app/setup app/run app/sweep/plan app/sweep/store"},
+     "sim app/support app/output app/setup app/options app/run app/sweep/plan app/sweep/store"},
     {"app/sweep/sheet",
      "render/image render/frame render/gl render/overlay render app/support app/scene app/output "
-     "app/setup app/picture app/sweep/plan app/sweep/store app/sweep/jobs"},
+     "app/setup app/options app/picture app/sweep/plan app/sweep/store app/sweep/jobs"},
     {"app/pick/search", "sim/base app/sweep/plan"},
     {"app/pick",
-     "app/support app/scene/toml app/scene app/output app/sweep app/sweep/read app/sweep/plan "
-     "app/sweep/store app/sweep/jobs app/pick/search"},
+     "render/frame render/overlay app/support app/scene/toml app/scene app/output app/sweep "
+     "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/pick/search"},
     {"app/view/session",
-     "sim/types sim app/support app/scene/toml app/scene app/output app/setup app/health "
-     "app/picture app/run app/dump app/sweep/plan app/sweep/jobs app/sweep/store"},
+     "sim/types sim app/support app/scene/toml app/scene app/output app/record app/setup "
+     "app/options app/forecast app/health app/picture app/timeline app/run app/dump app/sweep/plan "
+     "app/sweep/store app/sweep/jobs"},
     {"app/view/frontend", "render/image render"},
     {"app/view/web", "render/image render app/support app/output app/view/frontend"},
     {"app/view/panels",
-     "render/frame render/overlay render app/support app/scene/toml app/scene app/health "
-     "app/picture app/run app/view/session app/view/frontend"},
+     "render/frame render/overlay render app/support app/scene/toml app/scene app/record "
+     "app/health app/picture app/view/session app/view/frontend"},
     {"app/view/replay",
-     "render/image render/frame render app/support app/scene/toml app/scene app/output "
+     "render/image render/frame render app/support app/scene/toml app/advice app/scene app/output "
      "app/view/frontend app/view/panels"},
     {"app/view/picker",
-     "render/image render/frame render app/support app/scene app/output app/setup app/pick/search "
-     "app/pick app/view/frontend app/view/panels"},
+     "render/image render/frame render/overlay render app/support app/scene app/output app/setup "
+     "app/options app/pick/search app/pick app/view/frontend app/view/panels"},
     {"app/view",
-     "render/image render/frame render app/support app/scene app/output app/setup app/picture "
-     "app/run app/view/session app/view/frontend app/view/panels"},
+     "render/image render/frame render app/support app/scene app/output app/record app/setup "
+     "app/picture app/run app/view/session app/view/frontend app/view/panels"},
     {"app/bench",
      "sim/base sim/types sim/kernels sim render/image render/frame render/shapes render/surface "
-     "render/gl render/cpu render app/support app/scene/toml app/scene app/output app/setup "
-     "app/picture app/run app/sweep/plan app/sweep/store app/sweep/jobs app/view"},
+     "render/gl render/cpu render app/support app/scene/toml app/scene app/output app/record "
+     "app/setup app/picture app/sweep/plan app/sweep/store app/sweep/jobs app/view"},
     {"app/cli/devices",
      "render/gl app/support app/scene/toml app/scene app/view/frontend app/view/web "
      "app/view/replay app/view"},
     {"app/cli",
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
-     "app/scene/toml app/scene app/output app/setup app/health app/picture app/exports app/run "
-     "app/compare app/dump app/pick app/pick/search "
-     "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet "
+     "app/scene/toml app/advice app/scene app/output app/record app/setup app/options app/forecast "
+     "app/health app/picture app/exports app/timeline app/run app/compare app/dump app/sweep/read "
+     "app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet app/pick/search app/pick "
      "app/view/picker app/view app/bench app/cli/devices"},
     {"app", "app/output app/cli", "neve::app"},
 };

@@ -25,7 +25,7 @@ struct BallsHistory {
   };
   std::vector<Sample> samples;
   double largest_momentum = 0;  ///< of the pair, in units of one ball's at the start
-  double least_kinetic = 1;     ///< at the turning point
+  double min_kinetic = 1;       ///< at the turning point
   double largest_elastic = 0;   ///< somewhere near it
   double largest_total = 1;     ///< energy from nowhere?
   double final_total = 0;       ///< kinetic and elastic, after 0.6 s
@@ -65,7 +65,7 @@ inline BallsHistory collide_balls(const BallsCase& c) {
     const double kinetic = now.kinetic_energy / energy, elastic = now.elastic_energy / energy;
     history.samples.push_back({now.time, kinetic, elastic});
     history.largest_momentum = std::max(history.largest_momentum, now.momentum.norm() / momentum);
-    history.least_kinetic = std::min(history.least_kinetic, kinetic);
+    history.min_kinetic = std::min(history.min_kinetic, kinetic);
     history.largest_elastic = std::max(history.largest_elastic, elastic);
     history.largest_total = std::max(history.largest_total, kinetic + elastic);
     history.final_total = kinetic + elastic;

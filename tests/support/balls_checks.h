@@ -38,7 +38,7 @@ inline void check_balls(const BallsCase& c, const BallsExpectation& e) {
   // Energy may only be lost; 1e-3 for the splitting of the explicit step.
   verify_at_most({"balls", line, "largest total energy / start"}, 1.001, h.largest_total);
   verify_at_most({"balls", line, "least kinetic energy / start"}, 5 * e.kinetic_at_rest,
-                 h.least_kinetic);
+                 h.min_kinetic);
   // The run is not chaotic, so the reference's numbers, known to three digits, must come out; 0.01
   // leaves room for float.
   verify_near({"balls", line, "largest elastic energy / start"}, e.elastic, h.largest_elastic,

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "app/picture/frame_builder.h"
-#include "app/run/changes.h"
 #include "app/scene/read.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
+#include "app/timeline/timeline.h"
 #include "tests/support/needs.h"
 #include "tests/view/view_support.h"
 
@@ -93,16 +93,12 @@ TEST(GoOn, ItsPicturesAreMadeAgainToTheBit) {
   run.bench.go_on_anyway();
   const auto live = wait_for_ignored(run.bench.session());
   ASSERT_FALSE(live->divergence) << live->divergence->sentence;
-  const run::PictureRecord record = run.bench.picture_record(*live, live->scene->views.front());
+  const record::PictureRecord record = run.bench.picture_record(*live, live->scene->views.front());
   const scene::Scene start = scene::read_scene_text(record.scene, "record");
-  sim::Simulation simulation(start.solver, start.materials, scene::sim_colliders(start),
-                             setup::seed_scene(start).particles);
-  run::ChangePlayer player(start, record.changes, simulation);
-  std::vector<sim::Retry> retries;
-  player.begin();
-  for (int frame = 1; frame <= record.frame; ++frame)
-    player.advance_to(frame / start.fps, nullptr, retries);
-  EXPECT_EQ(simulation.state_hash(), live->state_hash);
+  timeline::Timeline timeline(start, record.changes,
+                              std::make_shared<setup::SeededScene>(setup::seed_scene(start)), 0);
+  timeline.go_to(record.frame / start.fps);
+  EXPECT_EQ(timeline.simulation().state_hash(), live->state_hash);
 }
 
 class GoOnByScript : public Cli {};

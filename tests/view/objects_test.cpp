@@ -4,7 +4,6 @@
 
 #include "app/output/atomic_file.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "tests/support/needs.h"
 #include "tests/view/view_support.h"
@@ -92,7 +91,7 @@ TEST(Objects, ACopyHasTheEditsOfItsOriginalAndAnotherPlace) {
   EXPECT_EQ(view::session::copy_of(document, "body.ball_2").address, "body.ball_3");
   Document unnamed("scene.toml", "[[body]]\nshape = { sphere = { radius = 0.1 } }\n", {}, 1);
   EXPECT_EQ(view::session::copy_of(unnamed, "body.1").address, "body.body_2");
-  EXPECT_THROW(view::session::copy_of(unnamed, "body.2"), scene::toml::UsageError);
+  EXPECT_THROW(view::session::copy_of(unnamed, "body.2"), UsageError);
 }
 
 TEST(Objects, ARemovedObjectTakesItsEditsAlongAndUndoBringsBoth) {
@@ -141,7 +140,7 @@ TEST(Objects, AtTheStartTheyAreThereAtOnceAndLaterTheyWaitForReset) {
   });
   EXPECT_EQ(live->scene->colliders.size(), 2u);
   // A picture of the run has its objects, not those that wait.
-  const run::PictureRecord record =
+  const record::PictureRecord record =
       work.bench.picture_record(*live, work.bench.document().scene()->views.front());
   EXPECT_EQ(scene::read_scene_text(record.scene, "record").colliders.size(), 2u);
   work.bench.reset();
@@ -195,7 +194,8 @@ TEST(Objects, OverTheWebACopyMayNameTheFilesOfItsOriginal) {
           folder.write("scene.toml",
                        "[solver]\ncell_size = 0.1\n[[body]]\nname = \"c\"\nshape = { points = { "
                        "file = \"points.csv\", spacing = 0.1 } }\n"),
-          {}, 1),
+          {}, 1)
+          .document,
       options, {});
   EXPECT_EQ(bench.copy_object("body.c"), "body.c_2");
   EXPECT_EQ(bench.document().scene()->bodies.size(), 2u);

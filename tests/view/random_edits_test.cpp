@@ -28,8 +28,8 @@ class RandomEdits : public testing::Test {
         "shape = { sphere = { center = [0, 0.6, 0], radius = 0.05 } }\n"
         "[[view]]\nname = \"slice\"\n[[view]]\nname = \"smoke\"\n";
     bench = std::make_unique<Workbench>(
-        app::view::session::open_document(folder.write("scene/scene.toml", text), {}, 1), options,
-        std::function<void()>{});
+        app::view::session::open_document(folder.write("scene/scene.toml", text), {}, 1).document,
+        options, std::function<void()>{});
   }
 
   std::size_t below(std::size_t end) { return random() % end; }

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "app/run/changes.h"
 #include "app/setup/seed_scene.h"
 #include "app/view/session/session.h"
 #include "tests/view/view_support.h"
@@ -203,28 +202,6 @@ TEST(Session, SessionRecordsEveryFrameOnce) {
     return live.frame == 4;
   });
   EXPECT_EQ(seen, (std::vector<int>{1, 2, 3, 4}));
-}
-
-TEST(KeptFrames, KeptFramesStayWithinTheirMemory) {
-  view::session::KeptFrames kept(1000);
-  for (int frame = 0; frame <= 40; ++frame) {
-    view::session::KeptFrame one;
-    one.frame = frame;
-    one.state.resize(100);
-    kept.add(std::move(one));
-    ASSERT_LE(kept.bytes(), 1000u);
-  }
-  const std::vector<int> numbers = kept.numbers();
-  EXPECT_EQ(numbers.size(), 10u);
-  EXPECT_EQ(numbers.front(), 0);
-  EXPECT_EQ(numbers.back(), 40);
-  // No gap is more than twice an even one, and the newest are not the ones that went.
-  for (std::size_t k = 1; k < numbers.size(); ++k)
-    EXPECT_LE(numbers[k] - numbers[k - 1], 2 * 40 / 9) << k;
-  EXPECT_EQ(kept.at_or_before(39)->frame, numbers[8]);
-  kept.forget_after(numbers[3]);
-  EXPECT_EQ(kept.numbers().size(), 4u);
-  EXPECT_EQ(kept.bytes(), 400u);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class Study : public testing::Test {
     options.program = NEVE_BINARY;
     std::string text = tiny_scene;
     bench = std::make_unique<session::Workbench>(
-        session::open_document(folder.write("scene.toml", text), {}, 1), options,
+        session::open_document(folder.write("scene.toml", text), {}, 1).document, options,
         std::function<void()>());
   }
 
@@ -79,7 +79,7 @@ TEST_F(Study, EveryRunIsTheRunOfTheViewWithItsChangeAtThatFrame) {
   go_to(3);
   go_to(4);
   const auto live = bench->session().latest();
-  EXPECT_EQ(hash_of(0, 4), app::run::hash_text(live->state_hash));
+  EXPECT_EQ(hash_of(0, 4), app::record::hash_text(live->state_hash));
   EXPECT_NE(hash_of(1, 4), hash_of(0, 4));
   // And a whole run from its start, from the picture alone.
   const auto again = app::output::run_process(

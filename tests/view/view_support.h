@@ -40,8 +40,8 @@ inline app::view::session::Workbench bench_for(const TemporaryFolder& folder,
   app::view::session::WorkbenchOptions options;
   options.folder = folder / "out";
   return app::view::session::Workbench(
-      app::view::session::open_document(folder.write("scene.toml", text), {}, coarsening), options,
-      {});
+      app::view::session::open_document(folder.write("scene.toml", text), {}, coarsening).document,
+      options, {});
 }
 
 }  // namespace neve::test

@@ -4,14 +4,15 @@
 
 #include <array>
 
-#include "app/run/changes.h"
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/setup/seed_scene.h"
+#include "app/support/errors.h"
 #include "app/sweep/read/read_sweep.h"
+#include "app/timeline/changes.h"
+#include "app/timeline/timeline.h"
 #include "app/view/panels/orbit.h"
 #include "app/view/panels/pick.h"
 #include "tests/view/view_support.h"
@@ -23,16 +24,12 @@ using namespace neve::app;
 using namespace neve::test;
 
 /// The state that neve render gets for a picture.
-std::uint64_t hash_of_replay(const run::PictureRecord& record) {
+std::uint64_t hash_of_replay(const record::PictureRecord& record) {
   const scene::Scene start = scene::read_scene_text(record.scene, "record");
-  sim::Simulation simulation(start.solver, start.materials, scene::sim_colliders(start),
-                             setup::seed_scene(start).particles);
-  run::ChangePlayer player(start, record.changes, simulation);
-  std::vector<sim::Retry> retries;
-  player.begin();
-  for (int frame = 1; frame <= record.frame; ++frame)
-    player.advance_to(frame / start.fps, nullptr, retries);
-  return simulation.state_hash();
+  timeline::Timeline timeline(start, record.changes,
+                              std::make_shared<setup::SeededScene>(setup::seed_scene(start)), 0);
+  timeline.go_to(record.frame / start.fps);
+  return timeline.simulation().state_hash();
 }
 
 /// A workbench with the run of a scene on it.
@@ -45,7 +42,7 @@ struct Working {
     session().next_frame();
     rest_at(session(), frame);
   }
-  run::PictureRecord picture(const view::session::LiveFrame& live) {
+  record::PictureRecord picture(const view::session::LiveFrame& live) {
     return bench.picture_record(live, live.scene->views.front());
   }
 
@@ -85,8 +82,8 @@ TEST(Document, OneDragIsOneUndo) {
 TEST(Document, DocumentRefusesInvalidEditsAndStaysTheSame) {
   view::session::Document document("scene.toml", tiny_scene, {}, 1);
   document.set("material.snow.hardening", "5");
-  EXPECT_THROW(document.set("material.snow.poisson_ratio", "0.7"), scene::toml::UsageError);
-  EXPECT_THROW(document.set("material.snow.poison_ratio", "0.1"), scene::toml::UsageError);
+  EXPECT_THROW(document.set("material.snow.poisson_ratio", "0.7"), UsageError);
+  EXPECT_THROW(document.set("material.snow.poison_ratio", "0.1"), UsageError);
   EXPECT_EQ(document.changes().size(), 1u);
   EXPECT_DOUBLE_EQ(document.scene()->materials[0].poisson_ratio, 0.2);
 }
@@ -127,7 +124,7 @@ TEST(Workbench, ChangesAreReplayedToTheBit) {
   work.bench.set("material.snow.youngs_modulus", "50000");
   work.session().run();
   const auto live = rest_at(work.session(), 4);
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 3u);
   EXPECT_DOUBLE_EQ(scene::read_scene_text(record.scene, "record").materials[0].youngs_modulus,
                    1.4e5);
@@ -151,9 +148,10 @@ TEST(Workbench, ARunContinuedFromAnOlderFrameIsReplayedToTheBit) {
   work.bench.continue_from_here();
   work.session().run();
   const auto live = rest_at(work.session(), 4);
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
-  const scene::Scene last = run::with_changes({record.scene, "record", "", {}}, record.changes);
+  const scene::Scene last =
+      timeline::with_changes(scene::read_scene_text(record.scene, "record"), record.changes);
   EXPECT_DOUBLE_EQ(last.materials[0].youngs_modulus, 1.4e5);
   EXPECT_DOUBLE_EQ(last.solver.gravity.x(), 2);
 }
@@ -167,7 +165,7 @@ TEST(Workbench, ChangesOfACoarsenedRunAreReplayedToTheBit) {
   work.bench.undo();
   work.session().run();
   const auto live = rest_at(work.session(), 4);
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 2u);
   EXPECT_NEAR(std::stod(record.changes[0].value), 3e-4, 1e-15);
   EXPECT_NEAR(std::stod(record.changes[1].value), 1.5e-3, 1e-15);
@@ -184,7 +182,7 @@ TEST(Workbench, APausedChangeBelongsToThePicture) {
   const auto live = wait_for(work.session(), [](const view::session::LiveFrame& now) {
     return now.is_frame_end && now.scene->solver.transfer == sim::Transfer::flip;
   });
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   EXPECT_EQ(record.changes.size(), 2u);
   EXPECT_EQ(hash_of_replay(record), live->state_hash);
 }
@@ -203,8 +201,8 @@ TEST(Document, DocumentKeepsAPresetAsTheNumbersThatItChanges) {
   document.redo();
   document.forget("material.snow.preset");
   EXPECT_TRUE(document.changes().empty());
-  EXPECT_THROW(document.set("material.snow.preset", "icey"), scene::toml::UsageError);
-  EXPECT_THROW(document.set("material.ice.preset", "icy"), scene::toml::UsageError);
+  EXPECT_THROW(document.set("material.snow.preset", "icey"), UsageError);
+  EXPECT_THROW(document.set("material.ice.preset", "icy"), UsageError);
 }
 
 TEST(Document, DocumentKnowsTheNumbersOfAPresetInTheFile) {
@@ -228,7 +226,7 @@ TEST(Workbench, APresetChosenWhileItRunsIsReplayedToTheBit) {
   const auto live = rest_at(work.session(), 4);
   EXPECT_DOUBLE_EQ(live->scene->materials[0].density, 500);
   EXPECT_DOUBLE_EQ(live->scene->materials[0].hardening, 5);
-  const run::PictureRecord record = work.picture(*live);
+  const record::PictureRecord record = work.picture(*live);
   ASSERT_EQ(record.changes.size(), 6u);
   EXPECT_EQ(scene::preset_of(scene::read_scene_text(record.scene, "record").materials[0]),
             scene::Preset::wet);
@@ -389,7 +387,7 @@ TEST(Workbench, FromElsewhereNoFileIsNamedAndNoneIsWrittenOutside) {
   options.folder = folder / "out";
   options.is_remote = true;
   view::session::Workbench bench(
-      view::session::open_document(folder.write("scene.toml", text), {}, 1), options, {});
+      view::session::open_document(folder.write("scene.toml", text), {}, 1).document, options, {});
   const auto refused = [&](const std::string& address, const std::string& value) {
     const std::uint64_t before = bench.errors_said();
     bench.set(address, value);

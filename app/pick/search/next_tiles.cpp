@@ -52,15 +52,15 @@ double felt_distance(const Smoothness& smoothness, const Point& x, const Point& 
 
 class Selection {
  public:
-  Selection(const Preference& taste, std::vector<Point> places, double least_distance)
-      : taste_(taste), places_(std::move(places)), least_distance_(least_distance) {}
+  Selection(const Preference& taste, std::vector<Point> places, double min_distance)
+      : taste_(taste), places_(std::move(places)), min_distance_(min_distance) {}
 
   bool is_full() const { return tiles_.size() >= tiles_in_round; }
   void add(const Point& x) { tiles_.push_back(x); }
 
   /// Adds the place with the greatest value that is not near a tile.
   void add_best(const Eigen::VectorXd& values) {
-    for (double apart = least_distance_;; apart *= 0.5) {
+    for (double apart = min_distance_;; apart *= 0.5) {
       int best = -1;
       for (int k = 0; k < values.size(); ++k)
         if ((best < 0 || values[k] > values[best]) && is_apart(place(k), apart)) best = k;
@@ -82,7 +82,7 @@ class Selection {
 
   const Preference& taste_;
   std::vector<Point> places_, tiles_;
-  double least_distance_;
+  double min_distance_;
 };
 
 /// Likings as they may be: samples of the posterior at all places together.

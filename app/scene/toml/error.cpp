@@ -1,5 +1,7 @@
 #include "app/scene/toml/error.h"
 
+#include "app/support/errors.h"
+
 namespace neve::app::scene::toml {
 namespace {
 
@@ -10,28 +12,14 @@ std::string place_text(const std::string& file, int line, int column) {
   return place;
 }
 
-std::string sentence(const std::string& place, const std::string& text, const std::string& advice) {
-  std::string line = place;
-  if (!place.empty()) line.append(": error: ");
-  line.append(text);
-  if (!advice.empty()) line.append("; ").append(advice);
-  return line;
-}
-
 }  // namespace
 
 SceneError::SceneError(std::string file_name, int at_line, int at_column, std::string text,
                        std::string advice)
-    : std::runtime_error(sentence(place_text(file_name, at_line, at_column), text, advice)),
+    : std::runtime_error(error_sentence(place_text(file_name, at_line, at_column), text, advice)),
       file(std::move(file_name)),
       line(at_line),
       column(at_column),
-      message(std::move(text)),
-      hint(std::move(advice)) {}
-
-UsageError::UsageError(std::string argument, std::string text, std::string advice)
-    : std::runtime_error(sentence(argument, text, advice)),
-      where(std::move(argument)),
       message(std::move(text)),
       hint(std::move(advice)) {}
 

@@ -17,12 +17,4 @@ class SceneError : public std::runtime_error {
   std::string message, hint;
 };
 
-/// A mistake on the command line: "WHERE: error: MESSAGE; HINT", where WHERE is the argument.
-class UsageError : public std::runtime_error {
- public:
-  UsageError(std::string argument, std::string text, std::string advice = {});
-
-  std::string where, message, hint;
-};
-
 }  // namespace neve::app::scene::toml

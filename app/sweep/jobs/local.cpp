@@ -10,6 +10,7 @@
 #include <system_error>
 #include <thread>
 
+#include "app/options/arguments.h"
 #include "app/output/checkpoint.h"
 #include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
@@ -74,7 +75,7 @@ class LocalJobs {
     store::RunStatus status;
     Child child;
     int threads;
-    int frame;  ///< the next one that was not there yet
+    int made = 0;  ///< pictures, as far as they have been counted
   };
 
   /// Where the budget is too short for all, the ends of axes come first: long runs would take the
@@ -286,8 +287,8 @@ class LocalJobs {
     ++result_.started;
     progress_.detail(fmt::format("{} starts on {} {}", store::run_text(run), threads,
                                  threads == 1 ? "thread" : "threads"));
-    active_.push_back({&run, folder, std::move(*lock), std::move(status), std::move(child), threads,
-                       run.frames.first});
+    active_.push_back(
+        {&run, folder, std::move(*lock), std::move(status), std::move(child), threads});
   }
 
   /// A process that makes a run, or continues one. @param status  of the run, written
@@ -333,20 +334,18 @@ class LocalJobs {
 
   std::vector<std::string> arguments_of(const Run& run, int threads, bool resumes) const {
     const bool is_branch = manifest_.beginning && &run != &manifest_.beginning->run;
-    std::vector<std::string> words{
-        "render",     is_branch ? "../../beginning" : "scene.toml",
-        "--out",      ".",
-        "--frames",   fmt::format("{}-{}", run.frames.first, run.frames.last),
-        "--threads",  std::to_string(threads),
-        "--backend",  options_.backend,
-        "--no-movie", "--quiet"};
-    if (resumes) words.push_back("--resume");
-    if (manifest_.keeps_states) words.push_back("--keep-states");
-    if (!is_branch) return words;
-    words.insert(words.end(), {"--from", fmt::format("{}", manifest_.beginning->time)});
-    for (const scene::Override& setting : manifest_.beginning->changes_of(run))
-      words.insert(words.end(), {"--set", setting.address + "=" + setting.value});
-    return words;
+    run::RenderOptions options;
+    options.scene = "scene.toml";
+    if (is_branch) options = manifest_.beginning->fork_of(run, "../..");
+    options.out = ".";
+    options.frames = run.frames;
+    options.threads = threads;
+    options.backend = options_.backend;
+    options.has_movies = false;
+    options.verbosity = Verbosity::quiet;
+    options.resume = resumes;
+    options.keeps_states = manifest_.keeps_states;
+    return options::words_of(options);
   }
 
   void collect_ended() {
@@ -394,15 +393,12 @@ class LocalJobs {
     const auto now = Child::Clock::now();
     if (now - shown_at_ < std::chrono::milliseconds(500)) return;
     shown_at_ = now;
-    // Frames that are there count as work done, so that few long runs have an estimate too.
+    // Existing frames count as work done, so that few long runs have an estimate too.
     double begun = 0;
     for (Active& active : active_) {
-      std::error_code error;
-      while (active.frame <= active.run->frames.last &&
-             fs::exists(output::frame_path(active.folder, manifest_.view, active.frame), error))
-        ++active.frame;
-      const int all = active.run->frames.count();
-      begun += active.run->work * (active.frame - active.run->frames.first) / all;
+      const setup::FrameRange& frames = active.run->frames;
+      active.made = store::frames_made(active.folder, manifest_.view, frames, active.made);
+      begun += active.run->work * active.made / frames.count();
     }
     clock_.note(work_done_ + begun);
     counts_.seconds_left = clock_.seconds_for(std::max(0.0, work_left_ - begun));

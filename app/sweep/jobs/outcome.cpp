@@ -7,7 +7,7 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <new>
+#include <iterator>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
@@ -20,19 +20,6 @@ namespace neve::app::sweep::jobs {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// The last line that says something, of the last 64 KiB.
-std::string last_message(const fs::path& log) {
-  std::ifstream in(log, std::ios::binary | std::ios::ate);
-  if (!in) return {};
-  const std::streamoff size = in.tellg(), most = 1 << 16;
-  in.seekg(std::max<std::streamoff>(0, size - most));
-  std::string line, last;
-  while (std::getline(in, line))
-    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
-  const std::string prefix = "neve: error: ";
-  return last.starts_with(prefix) ? last.substr(prefix.size()) : last;
-}
 
 double fps_of(const store::Manifest& manifest, const Run& run) {
   const std::string given = run.value("fps");
@@ -67,10 +54,9 @@ void judge_divergence(const store::Manifest& manifest, const Run& run, const fs:
     status.short_reason = fmt::format(
         "frame {}: {}", frame,
         rule_text(incident.value("rule", ""), value.is_number() ? value.get<double>() : 0));
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
-    status.reason = last_message(folder / "log");
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
+    status.reason = last_error(folder / "log");
   }
 }
 
@@ -93,7 +79,7 @@ void judge_exit(const ChildResult& result, const store::Manifest& manifest, cons
       status.reason = "interrupted";
       return;
     default:
-      status.reason = last_message(folder / "log");
+      status.reason = last_error(folder / "log");
       // A log that cannot be written or read is the machine's too.
       if (status.reason.empty())
         status.reason =
@@ -128,8 +114,7 @@ void judge_signal(const ChildResult& result, const fs::path& folder, store::RunS
   if (result.signal == SIGKILL)
     status.reason += "; the system kills processes that take too much memory, see dmesg";
   // An allocation that fails in a thread ends in abort.
-  if (result.signal != SIGABRT ||
-      last_message(folder / "log").find("bad_alloc") == std::string::npos)
+  if (result.signal != SIGABRT || last_error(folder / "log").find("bad_alloc") == std::string::npos)
     return;
   status.state = store::RunState::out_of_memory;
   status.reason = "an allocation failed";
@@ -137,6 +122,23 @@ void judge_signal(const ChildResult& result, const fs::path& folder, store::RunS
 }
 
 }  // namespace
+
+std::string last_error(const fs::path& log) {
+  std::ifstream in(log, std::ios::binary | std::ios::ate);
+  if (!in) return {};
+  const std::streamoff size = in.tellg(), most = 1 << 16;
+  in.seekg(std::max<std::streamoff>(0, size - most));
+  std::string line = last_line(std::string(std::istreambuf_iterator<char>(in), {}));
+  const Json event = Json::parse(line, nullptr, false);
+  if (event.is_object()) {
+    if (event.value("event", "") != "error") return {};
+    const std::string text = event.value("error", ""), hint = event.value("hint", "");
+    const bool is_said = hint.empty() || text.find(hint) != std::string::npos;
+    return text + (is_said ? "" : "; " + hint);
+  }
+  const std::string prefix = "neve: error: ";
+  return line.starts_with(prefix) ? line.substr(prefix.size()) : line;
+}
 
 void judge(const ChildResult& result, const store::Manifest& manifest, const Run& run,
            const fs::path& run_folder, store::RunStatus& status) {

@@ -6,19 +6,20 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <new>
 #include <set>
 #include <sstream>
 #include <system_error>
 #include <thread>
 
+#include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
 #include "app/output/temporary.h"
-#include "app/setup/command_text.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
+#include "app/support/text.h"
 #include "app/sweep/plan/selection.h"
+#include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/store/store.h"
 
 namespace neve::app::sweep::jobs {
@@ -30,11 +31,6 @@ namespace {
 constexpr auto check_interval = std::chrono::seconds(1);
 constexpr int default_max_array_size = 1001;
 
-std::string without_trailing_space(std::string text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-  return text;
-}
-
 /// Calls a program of Slurm. @throws Error when it fails
 std::string call(const std::string& name, const std::vector<std::string>& arguments) {
   const auto program = output::find_program(name);
@@ -44,9 +40,9 @@ std::string call(const std::string& name, const std::vector<std::string>& argume
                 "--emit work with any scheduler");
   const output::ProcessResult result = output::run_process(*program, arguments, fs::current_path());
   if (!result.has_started || result.exit_code != 0)
-    throw Error(exit_io, name + " failed: " + without_trailing_space(result.errors + result.output),
+    throw Error(exit_io, name + " failed: " + trimmed(result.errors + result.output, " \t\r\n"),
                 name, "sinfo shows the state of Slurm");
-  return without_trailing_space(result.output);
+  return trimmed(result.output, " \t\r\n");
 }
 
 int max_array_size() {
@@ -80,23 +76,30 @@ std::vector<std::string> sbatch_options(const store::Manifest& manifest,
   return words;
 }
 
-/// The script is the sweep's own run, so that signals reach it and its exit code is Slurm's.
-void write_scripts(const fs::path& folder, const SlurmOptions& options) {
-  const std::string program = setup::shell_word(options.program.string()),
-                    where = setup::shell_word(fs::absolute(folder).string()),
-                    backend = setup::shell_word(options.backend);
-  output::write_file(folder / "slurm" / "run.sh",
-                     fmt::format("#!/bin/bash\nexec {} sweep run {} --index "
-                                 "$((SLURM_ARRAY_TASK_ID + $1)) --threads {} --backend {} --quiet "
-                                 "$2\n",
-                                 program, where, options.threads, backend));
-  output::write_file(folder / "slurm" / "beginning.sh",
-                     fmt::format("#!/bin/bash\nexec {} sweep run {} --beginning --threads {} "
-                                 "--backend {} --quiet $1\n",
-                                 program, where, options.threads, backend));
-  output::write_file(folder / "slurm" / "collect.sh",
-                     fmt::format("#!/bin/bash\nexec {} sweep collect {} --backend {} --quiet\n",
-                                 program, where, backend));
+/// Scripts are the sweep's own commands, so that signals reach them and their exit codes are
+/// Slurm's.
+void write_scripts(const fs::path& folder, const SlurmOptions& options,
+                   const std::string& retry_failed) {
+  const auto write = [&](const char* name, const std::vector<std::string>& words,
+                         const std::string& more = "") {
+    output::write_file(
+        folder / "slurm" / name,
+        "#!/bin/bash\nexec " + options::shell_line(words, options.program) + more + "\n");
+  };
+  plan::SweepRunOptions run;
+  run.folder = fs::absolute(folder).string();
+  run.threads = options.threads;
+  run.backend = options.backend;
+  run.verbosity = Verbosity::quiet;
+  run.retry_failed = retry_failed;
+  write("run.sh", options::words_of(run), " --index $((SLURM_ARRAY_TASK_ID + $1))");
+  run.is_beginning = true;
+  write("beginning.sh", options::words_of(run));
+  plan::CollectOptions collect;
+  collect.folder = run.folder;
+  collect.backend = options.backend;
+  collect.verbosity = Verbosity::quiet;
+  write("collect.sh", options::words_of(collect));
 }
 
 std::string job_id(const std::string& answer) {
@@ -115,9 +118,8 @@ fs::path jobs_path(const fs::path& folder) {
 std::vector<std::string> known_jobs(const fs::path& folder) {
   try {
     return parse_json(output::read_file(jobs_path(folder))).get<std::vector<std::string>>();
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     return {};
   }
 }
@@ -139,17 +141,15 @@ std::vector<std::string> submit(const fs::path& folder, const store::Manifest& m
                                 const std::string& retry_failed) {
   output::make_folder(folder / "slurm");
   output::remove_abandoned(folder / "slurm");
-  write_scripts(folder, options);
+  write_scripts(folder, options, retry_failed);
   const std::string log = (fs::absolute(folder) / "slurm" / "%A_%a.log").string();
   std::vector<std::string> jobs;
   std::string after = "--dependency=afterany";
-  const std::string retry = retry_failed.empty() ? "" : "--retry-failed=" + retry_failed;
   std::string beginning;
   if (manifest.beginning) {
     std::vector<std::string> words = sbatch_options(manifest, options);
     words.push_back("--output=" + (fs::absolute(folder) / "slurm" / "beginning.log").string());
     words.push_back((folder / "slurm" / "beginning.sh").string());
-    if (!retry.empty()) words.push_back(retry);
     jobs.push_back(job_id(call("sbatch", words)));
     // Not afterok: runs whose beginning failed say so, instead of waiting for ever.
     beginning = after + ":" + jobs.back();
@@ -162,7 +162,6 @@ std::vector<std::string> submit(const fs::path& folder, const store::Manifest& m
     if (!beginning.empty()) words.push_back(beginning);
     words.push_back((folder / "slurm" / "run.sh").string());
     words.push_back(std::to_string(array.offset));
-    if (!retry.empty()) words.push_back(retry);
     jobs.push_back(job_id(call("sbatch", words)));
     after += ":" + jobs.back();
   }

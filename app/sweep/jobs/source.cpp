@@ -8,8 +8,6 @@
 
 #include "app/output/folder_lock.h"
 #include "app/run/fork.h"
-#include "app/run/moment.h"
-#include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
@@ -34,11 +32,11 @@ void take_beginning(const plan::SweepPlan& plan, const store::Beginning& beginni
   job.scene = plan.beginning->scene;
   progress.note(
       fmt::format("the runs part from {} at {} s", job.scene_file, rough_text(beginning.time)));
-  const setup::SeededScene seeded = setup::seed_scene(job.scene);
-  sim::Simulation simulation = setup::make_simulation(job.scene, seeded.particles, threads);
-  run::ChangePlayer player(job.scene, job.changes, simulation);
-  const run::ResumedRun reached = run::walk_to_fork(job, player, simulation, progress);
-  run::write_moment(folder, run::moment_of(job, reached, player, simulation));
+  timeline::Timeline timeline = timeline::open(job, threads, progress);
+  run::walk_to_fork(job, timeline, progress);
+  record::RunRecord record = run::run_record(job, timeline.simulation());
+  record.changes = timeline.changes();
+  timeline::write_origin(folder, std::move(record), timeline.moment());
   store::RunStatus status = store::read_status(folder);
   status.state = store::RunState::ok;
   store::write_status(folder, status);

@@ -8,9 +8,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/options/arguments.h"
 #include "app/scene/params.h"
-#include "app/scene/toml/error.h"
-#include "app/setup/command_text.h"
+#include "app/support/errors.h"
+#include "app/sweep/plan/sweep_options.h"
 
 namespace neve::app::sweep::plan {
 
@@ -86,8 +87,8 @@ scene::toml::Value value_of(const scene::FlatParam& param, double x) {
 }
 
 [[noreturn]] void refuse(const scene::FlatParam& param, const std::string& why) {
-  throw scene::toml::UsageError(param.address, "no values can be chosen around it: " + why,
-                                "choose a number, a choice, or a vector other than zero");
+  throw UsageError(param.address, "no values can be chosen around it: " + why,
+                   "choose a number, a choice, or a vector other than zero");
 }
 
 std::vector<scene::toml::Value> vectors_around(const scene::FlatParam& param,
@@ -144,8 +145,10 @@ std::vector<scene::toml::Value> values_around(const scene::FlatParam& param) {
 }
 
 std::string sweep_command(const std::string& sweep_file, double coarsening) {
-  return "neve sweep " + setup::shell_word(sweep_file) +
-         (coarsening > 1 ? " --coarsen " + scene::toml::number_text(coarsening) : "");
+  SweepOptions options;
+  options.file = sweep_file;
+  if (coarsening > 1) options.coarsening = coarsening;
+  return options::shell_line(options::words_of(options));
 }
 
 std::string sweep_around(const std::string& scene_file, const std::string& sweep_file,

@@ -41,7 +41,8 @@ Totals totals_of(const SweepPlan& plan) {
   return totals;
 }
 
-void print_json(const SweepPlan& plan, const StudyForecast& forecast, double seconds_of_all) {
+void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
+                const forecast::Cost& seconds_of_all) {
   Json json;
   json["title"] = plan.title;
   json["scene"] = plan.sweep.scene_file;
@@ -60,15 +61,16 @@ void print_json(const SweepPlan& plan, const StudyForecast& forecast, double sec
                             {"particles", count_json(run.particles)},
                             {"memory_bytes", whole_bytes(run.memory)},
                             {"over_memory_limit", is_over_limit(plan, run)},
-                            {"seconds", forecast.seconds(k)}});
+                            {"seconds", foreseen.seconds(k).expected}});
   }
   if (plan.beginning)
     json["beginning"] = {{"time", plan.fork},
                          {"frame", plan.beginning->run.frames.last},
-                         {"seconds", forecast.beginning * forecast.seconds_per_work}};
+                         {"seconds", foreseen.beginning.expected * foreseen.seconds_per_work}};
   if (plan.keeps_states) json["state_bytes"] = whole_bytes(bytes_of_states(plan));
   json["memory_bytes"] = whole_bytes(totals_of(plan).largest);
-  json["seconds"] = seconds_of_all;
+  json["seconds"] = seconds_of_all.expected;
+  json["seconds_range"] = {seconds_of_all.least, seconds_of_all.most};
   std::cout << to_text(json) << "\n";
 }
 
@@ -105,7 +107,7 @@ void print_table(const SweepPlan& plan, const StudyForecast& forecast) {
     std::cout << padded(std::to_string(run.index), 6) << padded(what[k], width)
               << padded(fixed_text(run.particles, 0), 12, true)
               << padded(bytes_text(whole_bytes(run.memory)), 11, true)
-              << padded(duration_text(forecast.seconds(k)), 11, true)
+              << padded(duration_text(forecast.seconds(k).expected), 11, true)
               << (is_over_limit(plan, run) ? "  over [limits] memory" : "") << "\n";
   }
 }
@@ -117,7 +119,7 @@ void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
   std::iota(all.begin(), all.end(), std::size_t{0});
   const StudyForecast forecast = foresee_study(plan, all, whole_effort(cores), cores);
   const Totals totals = totals_of(plan);
-  const double seconds = forecast.seconds_of_all(all, cores);
+  const auto seconds = forecast.seconds_of_all(all, cores);
   if (is_json) return print_json(plan, forecast, seconds);
   print_table(plan, forecast);
   const std::string longest = longest_text(plan, all, forecast);
@@ -125,9 +127,9 @@ void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
     std::cout << fmt::format("\nthe beginning, to {} s, is that of {}\n", rough_text(plan.fork),
                              plan.sweep.scene_file);
   else if (plan.beginning)
-    std::cout << fmt::format("\nthe beginning, to {} s, is computed once: {}\n",
-                             rough_text(plan.fork),
-                             duration_text(forecast.beginning * forecast.seconds_per_work));
+    std::cout << fmt::format(
+        "\nthe beginning, to {} s, is computed once: {}\n", rough_text(plan.fork),
+        duration_text(forecast.beginning.expected * forecast.seconds_per_work));
   std::cout << fmt::format("\n{} {} of {}, {}, view {} in tiles of {}x{}\n", plan.runs.size(),
                            plan.runs.size() == 1 ? "run" : "runs", plan.sweep.scene_file,
                            frames_text(plan), plan.view, plan.base.size.width,
@@ -135,7 +137,7 @@ void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
             << fmt::format(
                    "about {} on {} {}, measured now on this machine; at most {} of memory "
                    "a run\n",
-                   duration_text(seconds), cores, cores == 1 ? "core" : "cores",
+                   duration_text(seconds.expected), cores, cores == 1 ? "core" : "cores",
                    bytes_text(whole_bytes(totals.largest)))
             << (longest.empty() ? "" : longest + "\n")
             << (plan.keeps_states ? fmt::format("kept states take about {} on disk\n",

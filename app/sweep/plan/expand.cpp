@@ -120,13 +120,13 @@ bool meets(const Run& run, const std::vector<read::Condition>& conditions) {
 /// others stay the same whatever their number.
 std::vector<Run> drawn(const read::Sweep& sweep, const std::vector<read::Condition>& conditions) {
   if (sweep.settings.method == read::Method::lhs) return latin_hypercube(sweep);
-  constexpr std::uint32_t most_tries = 1000;  // for each that is wanted
+  constexpr std::uint32_t max_tries = 1000;  // for each that is wanted
   const bool is_screening = sweep.settings.method == read::Method::morris;
   const auto wanted = static_cast<std::uint32_t>(sweep.settings.samples);
   std::vector<Run> runs;
   std::uint32_t found = 0;
   for (std::uint32_t k = 0; found < wanted; ++k) {
-    if (k / most_tries > found)
+    if (k / max_tries > found)
       sweep.fail("sweep.where", fmt::format("only {} of {} samples meet the conditions", found, k),
                  "make the conditions weaker, or the axes narrower where they rule runs out");
     std::vector<Run> next =

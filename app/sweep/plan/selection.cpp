@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::sweep::plan {
@@ -24,9 +24,13 @@ Shard parse_shard(const std::string& text) {
   const auto index = whole(text.substr(0, slash));
   const auto count = slash == std::string::npos ? std::nullopt : whole(text.substr(slash + 1));
   if (!index || !count || *index < 1 || *index > *count)
-    throw scene::toml::UsageError("--shard", "cannot use \"" + text + "\"",
-                                  "expected I/N with 1 <= I <= N, as in 2/8");
+    throw UsageError("--shard", "cannot use \"" + text + "\"",
+                     "expected I/N with 1 <= I <= N, as in 2/8");
   return {*index, *count};
+}
+
+std::string shard_text(const Shard& shard) {
+  return fmt::format("{}/{}", shard.index, shard.count);
 }
 
 std::vector<int> parse_selection(const std::string& text, int last) {
@@ -39,11 +43,11 @@ std::vector<int> parse_selection(const std::string& text, int last) {
     const auto first = whole(part.substr(0, dash));
     const auto end = dash == std::string_view::npos ? first : whole(part.substr(dash + 1));
     if (!first || !end || *end < *first)
-      throw scene::toml::UsageError("--only", "cannot use \"" + text + "\"",
-                                    "expected numbers of runs, as in 3,7-12");
+      throw UsageError("--only", "cannot use \"" + text + "\"",
+                       "expected numbers of runs, as in 3,7-12");
     if (*end > last)
-      throw scene::toml::UsageError("--only", fmt::format("there is no run {}", *end),
-                                    fmt::format("expected numbers from 0 to {}", last));
+      throw UsageError("--only", fmt::format("there is no run {}", *end),
+                       fmt::format("expected numbers from 0 to {}", last));
     for (int k = *first; k <= *end; ++k) numbers.insert(k);
     if (comma == rest.size()) break;
     rest.remove_prefix(comma + 1);

@@ -13,6 +13,7 @@ struct Shard {
 
 /// @throws UsageError
 Shard parse_shard(const std::string& text);
+std::string shard_text(const Shard& shard);
 
 /// "3,7-12": numbers and ranges, sorted, each once. @throws UsageError, also beyond `last`
 std::vector<int> parse_selection(const std::string& text, int last);

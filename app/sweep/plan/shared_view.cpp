@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
@@ -13,7 +13,6 @@
 #include "app/setup/resolve.h"
 #include "app/support/interrupt.h"
 #include "app/sweep/plan/order.h"
-#include "sim/base/hash.h"
 
 namespace neve::app::sweep::plan {
 
@@ -77,23 +76,24 @@ std::vector<std::vector<int>> coordinates_of(const SweepPlan& plan) {
   return places;
 }
 
-std::vector<setup::Moment> moments_of_corners(const SweepPlan& plan, int cores) {
+std::vector<setup::CoarseMoment> moments_of_corners(const SweepPlan& plan, int cores) {
   std::vector<const scene::Scene*> scenes;
   for (const std::size_t k : coarse_first(coordinates_of(plan), axis_sizes(plan)))
     if (scenes.size() < max_dry_runs && setup::needs_framing(plan.runs[k].scene))
       scenes.push_back(&plan.runs[k].scene);
-  std::vector<setup::Moment> moments;
+  std::vector<setup::CoarseMoment> moments;
   const auto together = static_cast<std::size_t>(std::max(1, cores));
   for (std::size_t first = 0; first < scenes.size(); first += together) {
-    std::vector<std::future<std::vector<setup::Moment>>> runs;
+    std::vector<std::future<std::vector<setup::CoarseMoment>>> runs;
     for (std::size_t k = first; k < std::min(first + together, scenes.size()); ++k)
       runs.push_back(std::async(std::launch::async,
                                 [scene = scenes[k]] { return setup::coarse_run(*scene); }));
     for (auto& run : runs)
-      for (setup::Moment& moment : run.get()) moments.push_back(std::move(moment));
+      for (setup::CoarseMoment& moment : run.get()) moments.push_back(std::move(moment));
   }
-  std::stable_sort(moments.begin(), moments.end(),
-                   [](const setup::Moment& a, const setup::Moment& b) { return a.time < b.time; });
+  std::stable_sort(
+      moments.begin(), moments.end(),
+      [](const setup::CoarseMoment& a, const setup::CoarseMoment& b) { return a.time < b.time; });
   return moments;
 }
 
@@ -111,8 +111,7 @@ scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
 /// Names the scene that the camera and ranges belong to. Axes are no part of it: they may grow.
 std::string mark_of(const SweepPlan& plan) {
   const std::string text = scene::write_scene(plan.base);
-  return "# Camera and colour ranges of all runs. Of scene " +
-         run::hash_text(hash_bytes(text.data(), text.size())) + "\n";
+  return "# Camera and colour ranges of all runs. Of scene " + record::hash_of(text) + "\n";
 }
 
 }  // namespace

@@ -9,8 +9,7 @@
 #include <numeric>
 #include <optional>
 
-#include "app/health/forecast.h"
-#include "app/health/step_time.h"
+#include "app/forecast/step_cost.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/interrupt.h"
 #include "app/support/progress.h"
@@ -26,24 +25,24 @@ namespace {
 constexpr double usual_seconds = 5e-8;
 constexpr double start_seconds = 0.1, tile_seconds = 0.02;
 
-constexpr double most_copied = 1500, least_copied = 200;  // particles of a copy
-constexpr double longest_copy = 2;                        // s
+constexpr double max_copied = 1500, min_copied = 200;  // particles of a copy
+constexpr double longest_copy = 2;                     // s
 /// Above this many particles, seeding the scene itself takes too long.
-constexpr double most_timed = 3e5;
+constexpr double max_timed = 3e5;
 
 /// A copy of N of P particles has cells (P / N)^(1/3) times as large, and takes as many times fewer
 /// steps.
 constexpr double cost_exponent = 4.0 / 3;
 
 double steps_at_rest(const PlannedRun& item) {
-  return foreseen_work(item.scene, item.plan);
+  return forecast::work_at_rest(item.scene, item.plan);
 }
 
 /// A run's copy and what it says.
 struct Copy {
   std::size_t run = 0;
-  health::ForecastBudget budget{longest_copy, 0};
-  health::Forecast forecast{};
+  forecast::ForecastBudget budget{longest_copy, 0};
+  forecast::Forecast foreseen{};
 };
 
 /// As many copies as the effort allows.
@@ -63,7 +62,7 @@ std::vector<Copy> choose_copies(const SweepPlan& plan, const std::vector<std::si
     if (!is_possible(item) || !(item.plan.particles > 0)) continue;
     Copy copy;
     copy.run = chosen[place];
-    copy.budget.particles = std::clamp(fineness * item.plan.particles, least_copied, most_copied);
+    copy.budget.particles = std::clamp(fineness * item.plan.particles, min_copied, max_copied);
     const double share = std::min(1.0, copy.budget.particles / item.plan.particles);
     const double own = steps_at_rest(item) * std::pow(share, cost_exponent);
     if (cost + own > effort.particle_steps) break;
@@ -91,22 +90,22 @@ void side_by_side(std::size_t count, int threads, const Task& task) {
 /// What a run itself tells of its cost, in a moment.
 struct Timing {
   double seconds_per_work = 0;
-  health::Spread spread{};
+  forecast::Spread spread{};
 };
 
 /// Takes some steps of a run on one thread.
 Timing time_run(const PlannedRun& item) {
-  if (item.plan.particles > most_timed) return {};
+  if (item.plan.particles > max_timed) return {};
   const setup::SeededScene seeded = setup::seed_scene(item.scene);
   if (seeded.particles.x.empty()) return {};
   sim::Simulation simulation = setup::make_simulation(item.scene, seeded.particles, 1);
-  Timing timing{0, health::spread_of(simulation)};
-  const health::StepTime step = health::measure_steps(simulation, 1 / item.scene.fps, {20, 0.5});
+  Timing timing{0, forecast::spread_of(simulation)};
+  const forecast::StepTime step =
+      forecast::measure_steps(simulation, 1 / item.scene.fps, {20, 0.5});
   const double iterations =
       static_cast<double>(step.solve.all_iterations) / std::max(1, step.steps);
-  const double explicit_steps = 1 + health::work_of_iteration * iterations;
-  timing.seconds_per_work =
-      step.seconds / explicit_steps / static_cast<double>(seeded.particles.x.size());
+  timing.seconds_per_work = step.seconds / forecast::explicit_steps(iterations) /
+                            static_cast<double>(seeded.particles.x.size());
   return timing;
 }
 
@@ -124,28 +123,25 @@ std::optional<std::size_t> costliest_of(const SweepPlan& plan,
 double median_seconds(const std::vector<Copy>& copies) {
   std::vector<double> seconds;
   for (const Copy& copy : copies)
-    if (copy.forecast.seconds_per_particle_step > 0)
-      seconds.push_back(copy.forecast.seconds_per_particle_step);
-  if (seconds.empty()) return 0;
-  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
-  std::nth_element(seconds.begin(), middle, seconds.end());
-  return *middle;
+    if (copy.foreseen.seconds_per_particle_step > 0)
+      seconds.push_back(copy.foreseen.seconds_per_particle_step);
+  return forecast::median_of(std::move(seconds));
 }
 
 /// Steps of a particle in the frames of a run that are its own.
-double own_work(const SweepPlan& plan, const PlannedRun& item, const health::Forecast& forecast) {
-  const double until_fork =
-      plan.beginning ? forecast.work_until(plan.beginning->run.frames.last) : 0;
-  return (forecast.work_until(item.run.frames.last) - until_fork) * item.plan.particles;
+forecast::Cost own_work(const SweepPlan& plan, const PlannedRun& item,
+                        const forecast::Forecast& foreseen) {
+  const int fork = plan.beginning ? plan.beginning->run.frames.last : 0;
+  return item.plan.particles * foreseen.work(fork, item.run.frames.last);
 }
 
-double beginning_work(const SweepPlan& plan, const ForecastEffort& effort) {
-  if (!plan.beginning || plan.source) return 0;
+forecast::Cost beginning_work(const SweepPlan& plan, const ForecastEffort& effort) {
+  if (!plan.beginning || plan.source) return {};
   const PlannedRun& item = *plan.beginning;
   const int last = item.run.frames.last;
-  health::ForecastBudget budget{longest_copy, effort.particle_steps, most_copied};
-  return health::foresee(item.scene, item.plan.particles, last, budget).work_until(last) *
-         item.plan.particles;
+  forecast::ForecastBudget budget{longest_copy, effort.particle_steps, max_copied};
+  return item.plan.particles *
+         forecast::foresee(item.scene, item.plan.particles, last, budget).work(0, last);
 }
 
 }  // namespace
@@ -162,17 +158,17 @@ ForecastEffort whole_effort(int cores) {
 
 ForecastEffort small_effort(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                             int cores) {
-  constexpr double share = 0.03, least = 4e6, most_seconds = 15;
+  constexpr double share = 0.03, least = 4e6, max_seconds = 15;
   double all = 0;
   for (const std::size_t k : chosen) all += plan.runs[k].run.work;
-  return {std::clamp(share * all, least, most_seconds / usual_seconds * cores)};
+  return {std::clamp(share * all, least, max_seconds / usual_seconds * cores)};
 }
 
 StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                             const ForecastEffort& effort, int cores) {
   StudyForecast result;
   for (const PlannedRun& item : plan.runs) {
-    result.work.push_back(item.run.work);
+    result.work.push_back({item.run.work, item.run.work, item.run.work});
     result.drawing.push_back(start_seconds + tile_seconds * item.run.frames.count());
   }
   const std::optional<std::size_t> costliest = costliest_of(plan, chosen);
@@ -183,9 +179,9 @@ StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t
     Copy& copy = copies[k];
     const PlannedRun& item = plan.runs[copy.run];
     if (is_interrupted()) return;
-    copy.forecast =
-        health::foresee(item.scene, item.plan.particles, item.run.frames.last, copy.budget);
-    copy.forecast.include_spread(timing.spread);
+    copy.foreseen =
+        forecast::foresee(item.scene, item.plan.particles, item.run.frames.last, copy.budget);
+    copy.foreseen.include_spread(timing.spread);
   });
   result.beginning = beginning_work(plan, effort);
   result.seconds_per_work =
@@ -193,8 +189,8 @@ StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t
   if (is_interrupted()) return result;
   for (const Copy& copy : copies) {
     const PlannedRun& item = plan.runs[copy.run];
-    const double work = own_work(plan, item, copy.forecast);
-    if (!(work > 0)) continue;
+    const forecast::Cost work = own_work(plan, item, copy.foreseen);
+    if (!(work.expected > 0)) continue;
     result.own.push_back(copy.run);
     result.work[copy.run] = work;
   }
@@ -203,23 +199,30 @@ StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     if (std::find(result.own.begin(), result.own.end(), k) != result.own.end()) continue;
     const std::size_t near = places.nearest(k, result.own);
-    const double more = result.work[near] / std::max(1.0, plan.runs[near].run.work);
-    result.work[k] = more * plan.runs[k].run.work;
+    const double more = plan.runs[k].run.work / std::max(1.0, plan.runs[near].run.work);
+    result.work[k] = more * result.work[near];
   }
   return result;
 }
 
-double StudyForecast::cost(std::size_t run) const {
-  return work[run] + drawing[run] / usual_seconds;
+forecast::Cost StudyForecast::seconds(std::size_t run) const {
+  return seconds_per_work * work[run] + forecast::Cost{drawing[run], drawing[run], drawing[run]};
 }
 
-double StudyForecast::seconds_of_all(const std::vector<std::size_t>& chosen, int cores) const {
-  double sum = 0, longest = 0;
+double StudyForecast::cost(std::size_t run) const {
+  return work[run].expected + drawing[run] / usual_seconds;
+}
+
+forecast::Cost StudyForecast::seconds_of_all(const std::vector<std::size_t>& chosen,
+                                             int cores) const {
+  forecast::Cost sum, longest;
   for (const std::size_t k : chosen) {
-    sum += seconds(k);
-    longest = std::max(longest, seconds(k));
+    sum = sum + seconds(k);
+    if (seconds(k).expected > longest.expected) longest = seconds(k);
   }
-  return beginning * seconds_per_work / cores + std::max(longest, sum / cores);
+  const forecast::Cost side_by_side = 1.0 / cores * sum;
+  return seconds_per_work / cores * beginning +
+         (longest.expected > side_by_side.expected ? longest : side_by_side);
 }
 
 std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
@@ -228,13 +231,13 @@ std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& 
   constexpr std::size_t most_named = 5;
   std::vector<std::size_t> order = chosen;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return forecast.seconds(a) > forecast.seconds(b);
+    return forecast.seconds(a).expected > forecast.seconds(b).expected;
   });
   if (order.empty()) return {};
-  const double usual = forecast.seconds(order[order.size() / 2]);
+  const double usual = forecast.seconds(order[order.size() / 2]).expected;
   std::string text;
   for (std::size_t k = 0; k < std::min(order.size(), most_named); ++k) {
-    const double seconds = forecast.seconds(order[k]);
+    const double seconds = forecast.seconds(order[k]).expected;
     if (!(seconds > much_longer * usual)) break;
     text += fmt::format("{}run {}, {}", text.empty() ? "the longest: " : "; ",
                         plan.runs[order[k]].run.index, duration_text(seconds));
@@ -247,12 +250,13 @@ namespace {
 /// "the budget is enough for about 12 of 40 runs"; "" where all fit.
 std::string budget_text(const std::vector<std::size_t>& chosen, const StudyForecast& forecast,
                         int cores, double budget) {
-  if (budget <= 0 || forecast.seconds_of_all(chosen, cores) <= budget) return {};
+  if (budget <= 0 || forecast.seconds_of_all(chosen, cores).expected <= budget) return {};
   double sum = 0;
-  for (const std::size_t k : chosen) sum += forecast.seconds(k);
+  for (const std::size_t k : chosen) sum += forecast.seconds(k).expected;
   const double mean = sum / static_cast<double>(chosen.size());
   const double runs = std::floor(
-      std::max(0.0, budget * cores - forecast.beginning * forecast.seconds_per_work) / mean);
+      std::max(0.0, budget * cores - forecast.beginning.expected * forecast.seconds_per_work) /
+      mean);
   return fmt::format("; the budget of {} is enough for about {:.0f} of them", duration_text(budget),
                      runs);
 }
@@ -261,9 +265,10 @@ std::string budget_text(const std::vector<std::size_t>& chosen, const StudyForec
 
 std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                           const StudyForecast& forecast, int cores, double budget) {
-  std::string text = fmt::format(
-      "forecast: {} {}, about {} on {} {}", chosen.size(), chosen.size() == 1 ? "run" : "runs",
-      duration_text(forecast.seconds_of_all(chosen, cores)), cores, cores == 1 ? "core" : "cores");
+  std::string text = fmt::format("forecast: {} {}, about {} on {} {}", chosen.size(),
+                                 chosen.size() == 1 ? "run" : "runs",
+                                 duration_text(forecast.seconds_of_all(chosen, cores).expected),
+                                 cores, cores == 1 ? "core" : "cores");
   if (forecast.own.size() < chosen.size())
     text += fmt::format(", from coarse copies of {} of them", forecast.own.size());
   text += budget_text(chosen, forecast, cores, budget);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/forecast/forecast.h"
 #include "app/sweep/plan/sweep_plan.h"
 
 namespace neve::app::sweep::plan {
@@ -24,19 +25,19 @@ ForecastEffort small_effort(const SweepPlan& plan, const std::vector<std::size_t
 
 /// Costs are in explicit steps of one particle.
 struct StudyForecast {
-  std::vector<double> work;      ///< of every run of the plan, from where it parts from the others
-  std::vector<double> drawing;   ///< s, of its tiles and of the start of its process
-  double beginning = 0;          ///< of the common beginning, unless it is there
-  double seconds_per_work = 0;   ///< s of one thread on this machine, now; 0: not known
-  std::vector<std::size_t> own;  ///< runs with a copy of their own
+  std::vector<forecast::Cost> work;  ///< of every run of the plan, after the common beginning
+  std::vector<double> drawing;       ///< s, of its tiles and of the start of its process
+  forecast::Cost beginning;          ///< of the common beginning, unless it exists already
+  double seconds_per_work = 0;       ///< s of one thread on this machine, now; 0: not known
+  std::vector<std::size_t> own;      ///< runs with a copy of their own
 
   /// Of one thread.
-  double seconds(std::size_t run) const { return work[run] * seconds_per_work + drawing[run]; }
+  forecast::Cost seconds(std::size_t run) const;
   /// A cost by which runs are put in order: of drawing, too, as on a usual machine, so that it is
   /// the same on each.
   double cost(std::size_t run) const;
   /// Until all of these runs have ended, if long ones start first.
-  double seconds_of_all(const std::vector<std::size_t>& chosen, int cores) const;
+  forecast::Cost seconds_of_all(const std::vector<std::size_t>& chosen, int cores) const;
 };
 
 /// Copies as many of the chosen runs as the effort allows, ends of axes first. Any other run is

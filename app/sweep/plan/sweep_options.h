@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "app/options/option.h"
 #include "app/output/movie_format.h"
+#include "app/setup/caps.h"
 #include "app/setup/plan.h"
 #include "app/support/progress.h"
 #include "app/sweep/plan/selection.h"
@@ -17,15 +19,16 @@ struct SweepOptions {
   std::vector<std::string> axes;       ///< -p
   std::vector<std::string> overrides;  ///< --set
   std::optional<setup::FrameRange> frames;
-  std::optional<double> fork;              ///< s, time at which the runs part
+  std::optional<double> fork;              ///< s, time at which the runs fork
   std::optional<double> from;              ///< the same, of the run or picture in `file`
   bool keeps_states = false;               ///< of drawn frames, to draw them again
   std::optional<scene::PictureSize> size;  ///< of a tile
   std::optional<double> coarsening;
-  bool is_fast = false;  ///< with the settings of health::fast_look
+  bool is_fast = false;  ///< with the settings of forecast::fast_look
   std::string out;
   int threads = 0;  ///< cores in all; 0: as many as there are
   int jobs = 0;     ///< runs side by side; 0: as many as keep the cores busy
+  setup::CapTexts caps;
   std::string backend = "auto";
   std::string retry_failed;  ///< "all", or states as in "timeout,crashed"; "": none
   std::optional<Shard> shard;
@@ -44,9 +47,10 @@ struct SweepOptions {
 /// Options for one run of an existing sweep.
 struct SweepRunOptions {
   std::string folder;  ///< of the sweep
-  int index = 0;
+  std::optional<int> index;
   bool is_beginning = false;  ///< the common beginning of forked runs, instead of a run
   int threads = 0;            ///< 0: as many as there are
+  setup::CapTexts caps;
   std::string backend = "auto";
   std::string retry_failed;  ///< "all", or states as in "timeout,crashed"; "": none
   bool is_json = false;
@@ -63,5 +67,12 @@ struct CollectOptions {
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress{};
 };
+
+/// neve sweep
+void describe(options::Command& visit, SweepOptions& options);
+/// neve sweep run
+void describe(options::Command& visit, SweepRunOptions& options);
+/// neve sweep collect
+void describe(options::Command& visit, CollectOptions& options);
 
 }  // namespace neve::app::sweep::plan

@@ -6,22 +6,22 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/forecast/forecast.h"
+#include "app/options/languages.h"
+#include "app/record/picture_record.h"
 #include "app/run/fork.h"
-#include "app/run/kept_states.h"
-#include "app/run/picture_record.h"
+#include "app/run/identity.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
-#include "app/scene/toml/error.h"
-#include "app/setup/argument_text.h"
-#include "app/setup/auto_ranges.h"
+#include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/read/read_sweep.h"
-#include "sim/engine/time_step.h"
-#include "sim/types/material.h"
+#include "app/timeline/changes.h"
+#include "app/timeline/times.h"
 
 namespace neve::app::sweep::plan {
 
@@ -45,7 +45,7 @@ scene::View chosen_view(const read::Sweep& sweep, const scene::Scene& scene) {
   if (sweep.sheet.view.empty()) return scene.views.front();
   try {
     return scene::find_view(scene, sweep.sheet.view);
-  } catch (const scene::toml::UsageError& error) {
+  } catch (const UsageError& error) {
     sweep.fail("sheet.view", "sheet.view = \"" + sweep.sheet.view + "\": " + error.message,
                error.hint);
   }
@@ -67,11 +67,12 @@ class SceneMaker {
   /// @param source  whose scene is varied; without one it is that of the sweep's file
   SceneMaker(const SweepOptions& options, const read::Sweep& sweep,
              const std::optional<run::RenderJob>& source)
-      : options_(options),
-        sweep_(sweep),
-        text_(source ? scene::write_scene(run::scene_before_fork(*source))
-                     : scene::read_toml_file(sweep.scene_file)),
-        base_dir_(source ? "" : scene::base_dir_of(sweep.scene_file)) {}
+      : options_(options), sweep_(sweep) {
+    if (source)
+      at_fork_ = run::scene_before_fork(*source);
+    else
+      text_ = scene::read_toml_file(sweep.scene_file);
+  }
 
   /// With the fixed settings, or of a source as it is there.
   scene::Scene make_base() const { return make({}, options_.from ? none_ : sweep_.fixed); }
@@ -85,7 +86,10 @@ class SceneMaker {
                     const std::vector<scene::Override>& fixed) const {
     std::vector<scene::Override> all = fixed;
     all.insert(all.end(), settings.begin(), settings.end());
-    scene::Scene scene = scene::read_scene_text(text_, sweep_.scene_file, base_dir_, all);
+    scene::Scene scene = at_fork_
+                             ? scene::apply(*at_fork_, all, sweep_.scene_file)
+                             : scene::read_scene_text(text_, sweep_.scene_file,
+                                                      scene::base_dir_of(sweep_.scene_file), all);
     if (options_.coarsening) scene::coarsen(scene, *options_.coarsening);
     prepare_view(options_, sweep_, scene);
     return scene;
@@ -93,14 +97,16 @@ class SceneMaker {
 
   const SweepOptions& options_;
   const read::Sweep& sweep_;
-  std::string text_, base_dir_;
+  std::string text_;  ///< of the sweep's scene
+  std::optional<scene::Scene> at_fork_;
   std::vector<scene::Override> none_;
 };
 
 setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
                             const scene::Scene& scene) {
   if (options.frames) return *options.frames;
-  if (!sweep.settings.frames.empty()) return setup::parse_frames(sweep.settings.frames);
+  if (!sweep.settings.frames.empty())
+    return options::frames().read("--frames", sweep.settings.frames);
   return {0, scene.frames};
 }
 
@@ -120,24 +126,24 @@ void refuse_two_frames(const SweepOptions& options, const read::Sweep& sweep) {
   const scene::Override* setting = frames_setting(sweep);
   if (!setting) return;
   if (options.frames)
-    throw scene::toml::UsageError("--frames", "the sweep varies frames",
-                                  "remove --frames, or remove frames from the axes and runs");
+    throw UsageError("--frames", "the sweep varies frames",
+                     "remove --frames, or remove frames from the axes and runs");
   if (!sweep.settings.frames.empty())
     sweep.fail("sweep.frames", "sweep.frames is for all runs, and the sweep varies frames",
                "remove one of them");
 }
 
 /// The settings of --fast for all runs; what the sweep sets or varies stays.
-health::FastLook take_fast_look(const SweepOptions& options, const scene::Scene& base,
-                                read::Sweep& sweep) {
+forecast::FastLook take_fast_look(const SweepOptions& options, const scene::Scene& base,
+                                  read::Sweep& sweep) {
   std::vector<std::string> chosen = scene::addresses_of(sweep.fixed);
   for (const read::Axis& axis : sweep.axes)
     for (const read::Axis::Parameter& parameter : axis.parameters)
       chosen.push_back(parameter.address);
   for (const Run& row : sweep.rows)
     for (const scene::Override& setting : row.settings) chosen.push_back(setting.address);
-  const health::FastLook look =
-      health::fast_look(base, frames_of(options, sweep, base).last, chosen);
+  const forecast::FastLook look =
+      forecast::fast_look(base, frames_of(options, sweep, base).last, chosen);
   for (const std::string& change : look.overrides)
     sweep.fixed.push_back(scene::parse_override(change));
   return look;
@@ -149,8 +155,8 @@ std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& 
   if (options.from) return options.from;
   if (sweep.settings.fork.empty()) return std::nullopt;
   try {
-    return setup::parse_time(sweep.settings.fork);
-  } catch (const scene::toml::UsageError& error) {
+    return options::time().read("--fork", sweep.settings.fork);
+  } catch (const UsageError& error) {
     sweep.fail("sweep.fork", "sweep.fork = \"" + sweep.settings.fork + "\" is no time",
                "expected seconds, as in fork = \"0.8s\"");
   }
@@ -160,23 +166,22 @@ PlannedRun planned(Run run, scene::Scene scene) {
   const setup::Plan needs = setup::make_plan(scene, run.frames, setup::Quality::preview, 1);
   run.particles = needs.particles;
   run.memory = static_cast<double>(needs.memory + program_memory);
-  run.work = foreseen_work(scene, needs);
+  run.work = forecast::work_at_rest(scene, needs);
   return {std::move(run), std::move(scene), needs};
 }
 
 /// The job of the run or picture that the runs leave. @throws UsageError where it is none
 run::RenderJob source_job(const SweepOptions& options) {
   if (options.fork)
-    throw scene::toml::UsageError("--fork", "cannot be combined with --from",
-                                  "--from forks a run or picture that is there, --fork a scene");
+    throw UsageError("--fork", "cannot be combined with --from",
+                     "--from forks a run or picture that is there, --fork a scene");
   std::error_code error;
   if (!std::filesystem::exists(options.file, error))
-    throw scene::toml::UsageError("--from", options.file + " is not there",
-                                  "expected the folder of a run, or a picture made by neve");
-  if (!run::is_folder(options.file) && !run::is_picture(options.file))
-    throw scene::toml::UsageError(
-        "--from", options.file + " is no folder of a run and no picture made by neve",
-        fmt::format("for a scene or a sweep file, give --fork {}s", *options.from));
+    throw UsageError("--from", options.file + " is not there",
+                     "expected the folder of a run, or a picture made by neve");
+  if (!timeline::is_folder(options.file) && !record::is_picture(options.file))
+    throw UsageError("--from", options.file + " is no folder of a run and no picture made by neve",
+                     fmt::format("for a scene or a sweep file, give --fork {}s", *options.from));
   run::RenderOptions render;
   render.scene = options.file;
   render.from = options.from;
@@ -212,7 +217,7 @@ int axis_called(const read::Sweep& sweep, const char* key, const std::string& wa
 /// Takes the common beginning off the runs. @throws UsageError where they cannot have one
 void share_beginning(double time, SweepPlan& plan) {
   const char* flag = plan.source ? "--from" : "--fork";
-  const int frame = run::frame_before(time, plan.base.fps);
+  const int frame = timeline::frame_at(time, plan.base.fps);
   run::require_whole_frame(plan.base, time, flag);
   plan.fork = time;
   Run beginning;
@@ -221,13 +226,13 @@ void share_beginning(double time, SweepPlan& plan) {
   if (plan.source) beginning.settings = plan.sweep.fixed;
   plan.beginning = planned(std::move(beginning), plan.source ? plan.source->scene : plan.base);
   for (PlannedRun& item : plan.runs) {
-    run::require_live(plan.base, item.scene, flag);
+    timeline::require_live(plan.base, item.scene, flag);
     setup::FrameRange& frames = item.run.frames;
     if (frames.last <= frame)
-      throw scene::toml::UsageError(flag,
-                                    "the runs part at frame " + std::to_string(frame) +
-                                        ", and their last frame is " + std::to_string(frames.last),
-                                    "expected an earlier time, or later frames with --frames");
+      throw UsageError(flag,
+                       "the runs part at frame " + std::to_string(frame) +
+                           ", and their last frame is " + std::to_string(frames.last),
+                       "expected an earlier time, or later frames with --frames");
     item.run.work *= static_cast<double>(frames.last - frame) / frames.last;
     frames.first = std::max(frames.first, frame + 1);
   }
@@ -277,26 +282,6 @@ double bytes_of_states(const SweepPlan& plan) {
   for (const PlannedRun& item : plan.runs)
     bytes += run::state_bytes_per_particle * item.run.particles * item.run.frames.count();
   return bytes;
-}
-
-double foreseen_work(const scene::Scene& scene, const setup::Plan& plan) {
-  const sim::SolverSettings& s = scene.solver;
-  const double duration = plan.frames.last / scene.fps;
-  double dt = s.time_step == sim::TimeStep::fixed ? s.dt : s.max_dt;
-  if (s.time_step == sim::TimeStep::adaptive) {
-    // Snow that is packed conducts sound about three times as fast as at rest.
-    constexpr double packed = 3;
-    for (const sim::Material& material : scene.materials)
-      dt = std::min(dt, sim::engine::acoustic_stretch(s) * s.acoustic_cfl * s.cell_size /
-                            (packed * sim::sound_speed(material)));
-    const double speed = setup::impact_speed(scene);
-    if (speed > 0) dt = std::min(dt, s.cfl * s.cell_size / speed);
-  }
-  // The start of a run costs as much as some steps of few particles.
-  constexpr double start = 1e5;
-  // A solve takes about as long as some explicit steps.
-  const double step = s.is_implicit() ? 8 : 1;
-  return start + step * plan.particles * std::ceil(duration / dt);
 }
 
 }  // namespace neve::app::sweep::plan

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/health/fast.h"
+#include "app/forecast/fast.h"
 #include "app/run/render_job.h"
 #include "app/setup/plan.h"
 #include "app/sweep/read/sweep.h"
@@ -41,9 +41,10 @@ struct SweepPlan {
   /// The run or picture in which the beginning is found; without it is simulated from the start.
   std::optional<run::RenderJob> source;
   bool keeps_states = false;
-  int columns = -1, rows = -1;           ///< axes of the sheet that were asked for; -1: automatic
-  double fork = 0;                       ///< s, where they part
-  std::optional<health::FastLook> fast;  ///< of --fast; its overrides are among the fixed settings
+  int columns = -1, rows = -1;  ///< axes of the sheet that were asked for; -1: automatic
+  double fork = 0;              ///< s, where they part
+  std::optional<forecast::FastLook>
+      fast;  ///< of --fast; its overrides are among the fixed settings
 };
 
 /// Reads the scene of every run; starts nothing.
@@ -55,8 +56,5 @@ std::vector<int> axis_sizes(const SweepPlan& plan);
 
 /// On disk, if the states of all drawn frames of all runs are kept, about.
 double bytes_of_states(const SweepPlan& plan);
-
-/// Particles times steps that the limits on dt allow snow at rest that then meets the ground.
-double foreseen_work(const scene::Scene& scene, const setup::Plan& plan);
 
 }  // namespace neve::app::sweep::plan

@@ -6,17 +6,14 @@
 #include <optional>
 #include <stdexcept>
 
+#include "app/advice/suggest.h"
 #include "app/support/text.h"
 
 namespace neve::app::sweep::read {
 
 namespace {
 
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\n");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t\n") - first + 1));
-}
+constexpr const char* blanks = " \t\n";
 
 /// Longer ones first: "<=" begins with "<".
 constexpr std::array<const char*, 6> comparisons{"<=", ">=", "==", "!=", "<", ">"};
@@ -55,10 +52,9 @@ std::string complaint(const std::string& name, const Sweep& sweep) {
         names_of(sweep).empty() ? "hardening" : names_of(sweep).front());
   if (name.find_first_not_of(letters) != std::string::npos || number_of(name.substr(0, 1)))
     return fmt::format("\"{}\" is neither an axis nor a number times one; {}", name, form);
-  const std::string nearest = nearest_name(name, all_names_of(sweep));
+  const std::string question = advice::suggest(name, {"", all_names_of(sweep)});
   return fmt::format("\"{}\" is no axis of the sweep; {}expected {}", name,
-                     nearest.empty() ? "" : "did you mean " + nearest + "? ",
-                     joined(names_of(sweep), ", "));
+                     question.empty() ? "" : question + " ", joined(names_of(sweep), ", "));
 }
 
 /// The address of an axis by address, label, or the end of an address that no other has.
@@ -96,7 +92,8 @@ Condition::Side Condition::read_side(const std::string& text, const Sweep& sweep
     return {1, {}, text.substr(1, text.size() - 2)};
   const std::size_t star = text.find('*');
   if (star == std::string::npos) return {1, address_of(text, sweep), {}};
-  const std::string first = trimmed(text.substr(0, star)), second = trimmed(text.substr(star + 1));
+  const std::string first = trimmed(text.substr(0, star), blanks),
+                    second = trimmed(text.substr(star + 1), blanks);
   if (const std::optional<double> factor = number_of(first))
     return {*factor, address_of(second, sweep), {}};
   if (const std::optional<double> factor = number_of(second))
@@ -114,13 +111,13 @@ Condition::Condition(const std::string& text, const Sweep& sweep) {
   }
   if (at == std::string::npos)
     throw std::invalid_argument(std::string("it compares nothing; ") + form);
-  left_ = read_side(trimmed(text.substr(0, at)), sweep);
-  right_ = read_side(trimmed(text.substr(at + comparison_.size())), sweep);
+  left_ = read_side(trimmed(text.substr(0, at), blanks), sweep);
+  right_ = read_side(trimmed(text.substr(at + comparison_.size()), blanks), sweep);
   if (left_.address.empty() && right_.address.empty())
     throw std::invalid_argument(std::string("it names no axis; ") + form);
   const bool has_text = !left_.text.empty() || !right_.text.empty();
   if (has_text && comparison_ != "==" && comparison_ != "!=")
-    throw std::invalid_argument("a text is neither smaller nor larger; expected == or !=");
+    throw std::invalid_argument("text compares only with == and !=");
 }
 
 bool Condition::holds(

@@ -156,8 +156,7 @@ Axis::Parameter parse_rule(const scene::Override& change) {
     for (scene::Override& setting : parameter.values) setting.flag = "-p";
     return parameter;
   } catch (const scene::toml::SceneError& error) {
-    throw scene::toml::UsageError("-p " + change.address + "=" + change.value, error.message,
-                                  error.hint);
+    throw UsageError("-p " + change.address + "=" + change.value, error.message, error.hint);
   }
 }
 
@@ -193,19 +192,18 @@ void refuse_foreign_range(const scene::Override& change, const std::string& what
     const TypedRange range = typed_range(text);
     const bool is_whole = info->type == "integer" && !is_call && !has_colons;
     const char* const rule = text.find("logspace(") != std::string::npos ? "logspace" : "linspace";
-    throw scene::toml::UsageError(what, "is not a list of values",
-                                  is_whole ? "for a range write { range = " + range.ends +
-                                                 " }, in quotes for the shell, or all values: 1,2,3"
-                                           : std::string("for a range write { ") + rule + " = " +
-                                                 range.ends + ", num = " + range.count +
-                                                 " }, in quotes for the shell");
+    throw UsageError(what, "is not a list of values",
+                     is_whole ? "for a range write { range = " + range.ends +
+                                    " }, in quotes for the shell, or all values: 1,2,3"
+                              : std::string("for a range write { ") + rule + " = " + range.ends +
+                                    ", num = " + range.count + " }, in quotes for the shell");
   }
   const bool is_in_brackets = text.starts_with("[") && text.ends_with("]");
   std::string list = is_in_brackets ? text.substr(1, text.size() - 2) : text;
   std::replace(list.begin(), list.end(), ';', ',');
   if (list.find(',') == std::string::npos) std::replace(list.begin(), list.end(), ' ', ',');
   if (list != text && list.find_first_not_of("0123456789.eE+-, ") == std::string::npos)
-    throw scene::toml::UsageError(
+    throw UsageError(
         what, "is not a list of values",
         "values have commas between them and nothing else: -p " + change.address + "=" + list);
 }
@@ -216,7 +214,7 @@ void refuse_component(const std::string& address, const std::string& what) {
   if (end == std::string::npos) return;
   const std::optional<scene::ParamInfo> info = scene::param_at(address.substr(0, end));
   if (!info || info->type != "vector") return;
-  throw scene::toml::UsageError(
+  throw UsageError(
       what, "components of a vector cannot be varied alone",
       "write whole vectors, as in -p " + address.substr(0, end) + "=[0,-1,0],[0,-2,0]");
 }
@@ -265,8 +263,7 @@ Axis::Parameter parse_axis(const std::string& argument) {
   const auto equals = argument.find('=');
   const std::string what = "-p " + argument;
   if (equals == std::string::npos || equals == 0)
-    throw scene::toml::UsageError(what, "expected ADDRESS=LIST",
-                                  "for example -p material.snow.hardening=5,10");
+    throw UsageError(what, "expected ADDRESS=LIST", "for example -p material.snow.hardening=5,10");
   scene::Override change = scene::parse_override(argument);
   change.flag = "-p";
   refuse_component(change.address, what);
@@ -276,8 +273,7 @@ Axis::Parameter parse_axis(const std::string& argument) {
   parameter.address = change.address;
   for (const std::string& piece : split_list(change.value)) {
     if (piece.find_first_not_of(" \t") == std::string::npos)
-      throw scene::toml::UsageError(what, "a value is missing",
-                                    "expected values with commas, as in 5,10,20");
+      throw UsageError(what, "a value is missing", "expected values with commas, as in 5,10,20");
     scene::Override setting = change;
     setting.value = piece;
     parameter.values.push_back(setting);

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/options/languages.h"
 #include "app/scene/lister.h"
 #include "app/scene/read.h"
 #include "app/scene/reader.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/toml_source.h"
-#include "app/setup/argument_text.h"
 #include "app/support/errors.h"
 #include "app/sweep/read/describe_sweep.h"
 #include "app/sweep/read/read_axis.h"
@@ -84,8 +84,8 @@ class SweepReader {
   void check_frames(const std::string& frames) const {
     if (frames.empty()) return;
     try {
-      setup::parse_frames(frames);
-    } catch (const scene::toml::UsageError& error) {
+      options::frames().read("--frames", frames);
+    } catch (const UsageError& error) {
       source().fail(reading_.place_of("sweep.frames"), "sweep.frames: " + error.message,
                     error.hint);
     }
@@ -218,7 +218,7 @@ std::vector<Axis::Parameter> parse_axes(const std::vector<std::string>& argument
     Axis::Parameter axis = parse_axis(argument);
     for (const Axis::Parameter& other : axes)
       if (other.address == axis.address)
-        throw scene::toml::UsageError(
+        throw UsageError(
             "-p " + argument, axis.address + " is given twice",
             fmt::format("write all its values into one list, as in -p {}=A,B,C", axis.address));
     axes.push_back(std::move(axis));
@@ -246,7 +246,7 @@ void refuse_duplicates(const Sweep& sweep, bool is_forked) {
 void Sweep::fail(const std::string& key, const std::string& message,
                  const std::string& hint) const {
   const auto found = places.find(key);
-  if (found == places.end()) throw scene::toml::UsageError(key, message, hint);
+  if (found == places.end()) throw UsageError(key, message, hint);
   throw scene::toml::SceneError(file, found->second.line, found->second.column, message, hint);
 }
 
@@ -274,10 +274,9 @@ Sweep parse_sweep(const std::string& text, const std::string& file, const SweepC
     sweep.fixed.push_back(scene::parse_override(argument));
   refuse_duplicates(sweep, changes.is_forked || !sweep.settings.fork.empty());
   if (!is_sweep && sweep.axes.empty())
-    throw scene::toml::UsageError(
-        "", file + " is a scene, and nothing varies",
-        "add -p ADDRESS=LIST, as in -p material.snow.hardening=5,10,20, or give a "
-        "file with [sweep]");
+    throw UsageError("", file + " is a scene, and nothing varies",
+                     "add -p ADDRESS=LIST, as in -p material.snow.hardening=5,10,20, or give a "
+                     "file with [sweep]");
   if (sweep.axes.empty() && sweep.rows.empty())
     throw scene::toml::SceneError(file, 1, 1, "the sweep has no axes and no runs",
                                   "write [axis] or [[run]], or add -p ADDRESS=LIST");

@@ -162,7 +162,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie,
   for (store::RunResult& result : results)
     if (!result.flaws.empty()) result.warnings.push_back(result.flaws);
   output::write_file(folder / "data.csv", data_csv(manifest, results));
-  if (const std::string plots = metric_plots_svg(manifest, results, true); !plots.empty())
+  if (const std::string plots = metric_plots_svg(manifest, results); !plots.empty())
     output::write_file(folder / "plots.svg", plots);
   write_effects(folder, manifest, results, progress);
 

@@ -8,11 +8,13 @@
 
 #include "app/support/text.h"
 #include "app/sweep/plan/designs.h"
-#include "app/sweep/sheet/svg_text.h"
+#include "render/overlay/svg.h"
 
 namespace neve::app::sweep::sheet {
 
 namespace {
+
+using render::overlay::svg_number, render::overlay::svg_text;
 
 /// The axis and the signed share of its range of the step between two runs; axis -1: there is none.
 struct Step {
@@ -217,12 +219,12 @@ std::string effects_svg(const store::Manifest& manifest,
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const double x = left + static_cast<double>(c) * column_width;
     const store::MetricInfo& info = store::metric_infos()[columns[c].metric];
-    body += svg_text(x, head - 30, "start", "head", info.title);
+    body += svg_text(x, head - 30, "start", " class=\"head\"", info.title);
     if (info.unit[0]) body += svg_text(x, head - 16, "start", "", info.unit);
   }
   double y = head;
   for (const std::size_t a : strongest_first(columns, axes)) {
-    body += svg_text(12, y + bar_height - 3, "start", "name", manifest.screened[a].name);
+    body += svg_text(12, y + bar_height - 3, "start", " class=\"name\"", manifest.screened[a].name);
     const bool is_of_numbers = is_ordered(manifest, manifest.screened[a]);
     for (std::size_t c = 0; c < columns.size(); ++c)
       body += bar({columns[c].effects[a], is_of_numbers}, columns[c].strongest,
@@ -234,12 +236,8 @@ std::string effects_svg(const store::Manifest& manifest,
   }
   body += bar_legend(y + 14);
   const double width = std::max(left + static_cast<double>(columns.size()) * column_width, 940.0);
-  const std::string head_line = is_document ? "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" : "";
-  return head_line + "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + svg_number(width) +
-         "\" height=\"" + svg_number(y + foot) + "\" viewBox=\"0 0 " + svg_number(width) + " " +
-         svg_number(y + foot) + "\">\n" + bar_style +
-         (is_document ? "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" : "") + body +
-         "</svg>\n";
+  return render::overlay::svg_drawing(width, y + foot, is_document ? "#ffffff" : "",
+                                      bar_style + body, is_document);
 }
 
 std::vector<std::string> effect_lines(const store::Manifest& manifest,

@@ -4,21 +4,20 @@
 #include <cmath>
 
 #include "app/support/text.h"
-#include "app/sweep/sheet/svg_text.h"
-#include "render/overlay/ticks.h"
+#include "render/overlay/svg.h"
 
 namespace neve::app::sweep::sheet {
 
 namespace {
 
-constexpr double panel_width = 210, panel_height = 120, left_room = 62, top_room = 30,
-                 bottom_room = 34, gap = 16, page_width = 1420;
+constexpr float font_size = 13, panel_width = 210, panel_height = 120, left_room = 62,
+                top_room = 30, bottom_room = 42, gap = 16, page_width = 1420;
 
 /// Positions of the runs along one parameter.
 struct Across {
   std::string title;
-  std::vector<std::optional<double>> place;           ///< 0 to 1, of each run
-  std::vector<std::pair<double, std::string>> ticks;  ///< place and text
+  std::vector<std::optional<double>> place;  ///< 0 to 1, of each run
+  std::vector<render::Tick> ticks;
 };
 
 Across by_run(const store::Manifest& manifest) {
@@ -29,7 +28,7 @@ Across by_run(const store::Manifest& manifest) {
     const double at = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
     across.place.emplace_back(at);
     if (count <= 12 || k % (count / 6) == 0)
-      across.ticks.emplace_back(at, std::to_string(manifest.runs[k].index));
+      across.ticks.push_back({at, std::to_string(manifest.runs[k].index)});
   }
   return across;
 }
@@ -54,7 +53,7 @@ Across by_choice(const store::Manifest& manifest, const Parameter& parameter) {
             : std::optional(place(static_cast<std::size_t>(found - values.begin()))));
   }
   for (std::size_t k = 0; k < values.size() && values.size() <= 8; ++k)
-    across.ticks.emplace_back(place(k), plan::value_text(values[k]));
+    across.ticks.push_back({place(k), plan::value_text(values[k])});
   return across;
 }
 
@@ -84,13 +83,13 @@ Across by_number(const Parameter& parameter, const std::vector<std::optional<dou
   constexpr double room = 0.16;
   if (nearest >= room || kinds.size() == 1) {
     for (const double x : kinds)
-      across.ticks.emplace_back(place(x), plan::value_text(scene::toml::number_text(x)));
+      across.ticks.push_back({place(x), plan::value_text(scene::toml::number_text(x))});
   } else if (is_logarithmic) {
     across.ticks = {{place(low), plan::value_text(scene::toml::number_text(low))},
                     {place(high), plan::value_text(scene::toml::number_text(high))}};
   } else {
-    for (const render::overlay::Tick& tick : render::overlay::nice_ticks(low, high, 4))
-      across.ticks.emplace_back(place(tick.value), tick.label);
+    for (const render::Tick& tick : render::nice_ticks(low, high, 4))
+      across.ticks.push_back({place(tick.value), tick.label});
   }
   return across;
 }
@@ -136,87 +135,66 @@ std::optional<Extent> extent_of(const store::Manifest& manifest,
   return Extent{e.low - room, e.high + room};
 }
 
-std::string svg_panel(const Across& across, const std::vector<store::RunResult>& results,
-                      const store::Manifest& manifest, std::size_t metric, const Extent& extent,
-                      double x0, double y0, bool is_first) {
-  const auto y_of = [&](double value) {
-    return y0 + panel_height * (1 - (value - extent.low) / (extent.high - extent.low));
-  };
-  std::string svg = "<rect x=\"" + svg_number(x0) + "\" y=\"" + svg_number(y0) + "\" width=\"" +
-                    svg_number(panel_width) + "\" height=\"" + svg_number(panel_height) +
-                    "\" class=\"panel\"/>\n";
-  for (const render::overlay::Tick& tick :
-       render::overlay::nice_ticks(extent.low, extent.high, 4)) {
-    const double y = y_of(tick.value);
-    svg += "<line x1=\"" + svg_number(x0) + "\" y1=\"" + svg_number(y) + "\" x2=\"" +
-           svg_number(x0 + panel_width) + "\" y2=\"" + svg_number(y) + "\" class=\"grid\"/>\n";
-    if (is_first) svg += svg_text(x0 - 6, y + 3.5, "end", "tick", tick.label);
-  }
-  for (const auto& [place, label] : across.ticks)
-    svg += svg_text(x0 + place * panel_width, y0 + panel_height + 14, "middle", "tick", label);
+/// Whole runs as dots, others as rings.
+render::Plot plot_of(const Across& across, const std::vector<store::RunResult>& results,
+                     const store::Manifest& manifest, std::size_t metric, const Extent& extent) {
+  const store::MetricInfo& info = store::metric_infos()[metric];
+  render::PlotSeries whole{.name = {}, .color = {86, 180, 233}, .x = {}, .value = {}},
+      failed{.name = {}, .color = {230, 120, 60}, .x = {}, .value = {}};
+  whole.dot_radius = failed.dot_radius = 4.2f;
+  failed.has_rings = true;
   for (std::size_t k = 0; k < results.size(); ++k) {
     const std::optional<double>& value = results[k].metrics[metric];
     if (!value || !across.place[k]) continue;
+    const Run& run = manifest.runs[k];
     const bool is_ok = results[k].status.state == store::RunState::ok;
-    // One that exploded lies far beyond; its tooltip has the number.
-    const double inside = std::clamp(*value, extent.low, extent.high);
-    svg += "<circle cx=\"" + svg_number(x0 + *across.place[k] * panel_width) + "\" cy=\"" +
-           svg_number(y_of(inside)) + "\" r=\"" + (is_ok ? "3.2" : "3.6") + "\" class=\"" +
-           (is_ok ? "run" : "run failed") + "\" data-run=\"" +
-           std::to_string(manifest.runs[k].index) + "\"><title>run " +
-           std::to_string(manifest.runs[k].index) + ": " +
-           xml_text(manifest.runs[k].label.empty()
-                        ? rough_text(*value)
-                        : manifest.runs[k].label + ", " + rough_text(*value)) +
-           "</title></circle>\n";
+    render::PlotSeries& series = is_ok ? whole : failed;
+    series.x.push_back(static_cast<float>(*across.place[k]));
+    // One that exploded lies far beyond; its note has the number.
+    series.value.push_back(static_cast<float>(std::clamp(*value, extent.low, extent.high)));
+    series.notes.push_back("run " + std::to_string(run.index) + ": " +
+                           (run.label.empty() ? "" : run.label + ", ") + rough_text(*value));
   }
-  return svg;
+  render::Plot plot;
+  plot.title = info.title;
+  plot.unit = info.unit;
+  plot.min = static_cast<float>(extent.low);
+  plot.max = static_cast<float>(extent.high);
+  plot.series = {whole, failed};
+  plot.x_title = across.title;
+  plot.x_unit.clear();
+  plot.x_ticks = across.ticks;
+  return plot;
 }
-
-constexpr const char* plot_style = R"(<style>
-text { font-family: "DejaVu Sans", Verdana, sans-serif; fill: #55606e }
-.tick { font-size: 10px } .name { font-size: 12px; fill: #20262e }
-.panel { fill: #f5f7f9 } .grid { stroke: #d8dee5; stroke-width: 1 }
-.run { fill: #2b6cb0; fill-opacity: 0.85 }
-.run.failed { fill: none; stroke: #d9561e; stroke-width: 1.6 }
-</style>
-)";
 
 }  // namespace
 
 std::string metric_plots_svg(const store::Manifest& manifest,
-                             const std::vector<store::RunResult>& results, bool is_document) {
+                             const std::vector<store::RunResult>& results) {
   const std::vector<Across> columns = parameters_across(manifest);
-  const double row_height = top_room + panel_height + bottom_room;
-  const double block_width = left_room + static_cast<double>(columns.size()) * (panel_width + gap);
+  const float row_height = top_room + panel_height + bottom_room;
+  const float block_width = left_room + static_cast<float>(columns.size()) * (panel_width + gap);
   const int side_by_side = std::max(1, static_cast<int>(page_width / block_width));
-  std::string body;
+  render::overlay::SvgCanvas canvas(font_size);
   int count = 0;
   for (std::size_t metric = 0; metric < store::metric_infos().size(); ++metric) {
     const std::optional<Extent> extent = extent_of(manifest, results, metric);
     if (!extent) continue;
-    const store::MetricInfo& info = store::metric_infos()[metric];
-    const std::string unit = info.unit[0] ? std::string(" (") + info.unit + ")" : "";
-    const double left = block_width * (count % side_by_side) + left_room;
-    const double y = row_height * (count / side_by_side);
+    const float left = block_width * static_cast<float>(count % side_by_side) + left_room,
+                top = row_height * static_cast<float>(count / side_by_side) + top_room;
     ++count;
-    body += svg_text(left, y + top_room - 10, "start", "name", info.title + unit);
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      const double x = left + static_cast<double>(c) * (panel_width + gap);
-      body += svg_panel(columns[c], results, manifest, metric, *extent, x, y + top_room, c == 0);
-      body += svg_text(x + panel_width / 2, y + top_room + panel_height + 28, "middle", "tick",
-                       columns[c].title);
+      const float x = left + static_cast<float>(c) * (panel_width + gap);
+      const bool is_first = c == 0;
+      render::overlay::draw_plot(plot_of(columns[c], results, manifest, metric, *extent),
+                                 {x, x + panel_width, top, top + panel_height},
+                                 {.has_title = is_first, .has_values = is_first}, canvas);
     }
   }
-  if (body.empty()) return {};
-  const double width = block_width * std::min(count, side_by_side);
-  const double height = row_height * ((count + side_by_side - 1) / side_by_side);
-  const std::string head = is_document ? "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" : "";
-  return head + "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + svg_number(width) +
-         "\" height=\"" + svg_number(height) + "\" viewBox=\"0 0 " + svg_number(width) + " " +
-         svg_number(height) + "\">\n" + plot_style +
-         (is_document ? "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" : "") + body +
-         "</svg>\n";
+  if (count == 0) return {};
+  return canvas.drawing(block_width * static_cast<float>(std::min(count, side_by_side)),
+                        row_height * static_cast<float>((count + side_by_side - 1) / side_by_side),
+                        true);
 }
 
 }  // namespace neve::app::sweep::sheet

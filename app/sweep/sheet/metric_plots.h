@@ -8,11 +8,10 @@
 
 namespace neve::app::sweep::sheet {
 
-/// A row per metric, a column per parameter that differs; without parameters that are numbers or
-/// choices, against the runs. Runs that did not get to their end are
-/// rings, held at the edges of the range of the others. Empty where no run has a metric.
-/// @param is_document with the XML head of a file of its own
+/// A file of its own: a row per metric, a column per parameter that differs; without parameters
+/// that are numbers or choices, against the runs. Runs that did not get to their end are rings,
+/// held at the edges of the range of the others. Empty where no run has a metric.
 std::string metric_plots_svg(const store::Manifest& manifest,
-                             const std::vector<store::RunResult>& results, bool is_document);
+                             const std::vector<store::RunResult>& results);
 
 }  // namespace neve::app::sweep::sheet

@@ -8,7 +8,7 @@
 #include "app/sweep/sheet/effects.h"
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/report_data.h"
-#include "app/sweep/sheet/svg_text.h"
+#include "render/overlay/svg.h"
 
 namespace neve::app::sweep::sheet {
 
@@ -86,10 +86,10 @@ std::string more_section(const store::Manifest& manifest,
   std::string html = "<details class=\"more\"><summary>Contact sheet in one picture</summary>\n" +
                      paper_section(manifest, layout, sheet_png) + pages_hint(pages) +
                      "</details>\n";
-  if (!metric_plots_svg(manifest, results, false).empty())
+  if (!metric_plots_svg(manifest, results).empty())
     html +=
         "<details class=\"more\"><summary>Every metric against every parameter</summary>\n<div "
-        "class=\"wide white\"><img alt=\"plots.svg, beside this file\" loading=\"lazy\" "
+        "class=\"wide\"><img alt=\"plots.svg, beside this file\" loading=\"lazy\" "
         "src=\"plots.svg\"></div></details>\n";
   return html;
 }
@@ -130,8 +130,8 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
   for (const char* file : {"study.js", "page.js", "walk.js", "lists.js", "charts.js", "start.js"})
     script += find_embedded_report(file);
   return fill_page(find_embedded_report("page.html"),
-                   {{"title", xml_text(manifest.title)},
-                    {"summary", xml_text(summary_of(manifest, results))},
+                   {{"title", render::overlay::xml_text(manifest.title)},
+                    {"summary", render::overlay::xml_text(summary_of(manifest, results))},
                     {"style", std::string(find_embedded_report("style.css"))},
                     {"script", script},
                     {"data", script_json(report_data(folder, manifest, results))},

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/setup/command_text.h"
+#include "app/options/arguments.h"
 #include "app/support/text.h"
 
 namespace neve::app::sweep::sheet {
@@ -84,21 +84,19 @@ Json ranges_of(const std::vector<int>& numbers) {
 }
 
 std::string scene_word(const std::string& folder, const Run& run) {
-  return setup::shell_word(folder + "/runs/" + run.folder + "/scene.toml");
+  return options::shell_word(folder + "/runs/" + run.folder + "/scene.toml");
 }
 
 /// A branch is made again from the beginning that it has in common with others: its own scene file
 /// has the values of that beginning.
 std::string again_command(const std::string& folder, const store::Manifest& manifest,
                           const Run& run) {
-  setup::RenderCommand command;
-  command.scene_file = folder + "/runs/" + run.folder + "/scene.toml";
-  command.frames = run.frames;
-  command.out = "again/" + run.folder;
-  if (!manifest.beginning) return setup::command_line(command);
-  command.scene_file = folder + "/beginning";
-  command.overrides = manifest.beginning->changes_of(run);
-  return setup::command_line(command) + fmt::format(" --from {}", manifest.beginning->time);
+  run::RenderOptions options;
+  options.scene = folder + "/runs/" + run.folder + "/scene.toml";
+  if (manifest.beginning) options = manifest.beginning->fork_of(run, folder);
+  options.frames = run.frames;
+  options.out = "again/" + run.folder;
+  return options::shell_line(options::words_of(options));
 }
 
 Json row_of(const std::string& folder, const store::Manifest& manifest, const Run& run,
@@ -115,7 +113,7 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
           {"pictures", pictures},
           {"view", manifest.beginning ? "" : "neve view " + scene_word(folder, run)},
           // Digits need no quotes either: the page puts the name of the frame in.
-          {"viewFrame", "neve view " + setup::shell_word(folder + "/" + pictures + "FRAME.png")},
+          {"viewFrame", "neve view " + options::shell_word(folder + "/" + pictures + "FRAME.png")},
           {"again", again_command(folder, manifest, run)},
           {"texts", written_values(manifest, run)},
           {"cells", cells_of(manifest, run, result)}};

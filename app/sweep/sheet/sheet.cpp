@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/sweep/jobs/outcome.h"
 #include "app/sweep/sheet/tile_words.h"
@@ -68,9 +68,8 @@ render::Image read_tile(const std::filesystem::path& file, int width, int height
                            {{(width - image.width) / 2, (height - image.height) / 2, image}});
   } catch (const UnreadableError&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     // A picture that is not there or is being replaced is no reason to have no sheet.
     return plain_image(width, height, background);
   }

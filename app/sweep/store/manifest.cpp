@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <exception>
-#include <new>
 #include <stdexcept>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
 #include "app/sweep/read/sweep_leaf.h"
@@ -147,9 +145,8 @@ std::optional<Manifest> earlier_manifest(const std::filesystem::path& folder) {
   if (!std::filesystem::is_regular_file(manifest_path(folder), error)) return std::nullopt;
   try {
     return read_manifest(folder);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     return std::nullopt;
   }
 }
@@ -222,10 +219,13 @@ std::string run_text(const Run& run) {
              : fmt::format("run {} (runs/{})", run.index, run.folder);
 }
 
-std::vector<scene::Override> Beginning::changes_of(const Run& branch) const {
-  std::vector<scene::Override> changes = run.settings;
-  changes.insert(changes.end(), branch.settings.begin(), branch.settings.end());
-  return changes;
+run::RenderOptions Beginning::fork_of(const Run& branch, const std::string& folder) const {
+  run::RenderOptions options;
+  options.scene = folder + "/beginning";
+  options.from = time;
+  for (const std::vector<scene::Override>* settings : {&run.settings, &branch.settings})
+    for (const std::string& text : scene::texts_of(*settings)) options.overrides.push_back(text);
+  return options;
 }
 
 int Manifest::first_frame() const {
@@ -289,7 +289,7 @@ void check_folder(const plan::SweepPlan& plan) {
   const std::optional<std::vector<std::string>> before = axis_addresses(*earlier);
   const std::vector<std::string> now = axis_addresses(plan.sweep);
   if (!before || *before == now) return;
-  throw scene::toml::UsageError(
+  throw UsageError(
       plan.folder.string(),
       fmt::format("has a sweep of {}; this one varies {}", axes_text(*before), axes_text(now)),
       "choose another folder with --out, or remove the old one");
@@ -395,9 +395,8 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     m.seconds_per_work = json.value("seconds_per_work", 0.0);
     check_values(m);
     return m;
-  } catch (const std::bad_alloc&) {
-    throw;
   } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     throw Error(exit_invalid_scene,
                 fmt::format("{}: error: is not a list of runs: {}", file, error.what()), file,
                 "run the sweep again to rewrite it; finished runs are kept");

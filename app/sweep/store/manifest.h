@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run/render_options.h"
 #include "app/support/json.h"
 #include "app/sweep/plan/labels.h"
 
@@ -24,14 +25,14 @@ struct AxisLabels {
   std::vector<std::string> addresses{};  ///< of the parameters that it sets
 };
 
-/// The common beginning of runs that part later than at the start, in DIR/beginning.
+/// The common beginning of runs that fork later than at the start, in DIR/beginning.
 struct Beginning {
-  double time = 0;  ///< s, where the runs part
+  double time = 0;  ///< s, where the runs fork
   Run run;          ///< its frame is the last one before; its settings are made by all runs there
   std::string source{};  ///< run or picture that it was taken from; "": simulated from the start
 
-  /// The settings that a run changes at the fork.
-  std::vector<scene::Override> changes_of(const Run& branch) const;
+  /// The command that forks a run from it. @param folder  of the sweep, as the command sees it
+  run::RenderOptions fork_of(const Run& branch, const std::string& folder) const;
 };
 
 struct Manifest {

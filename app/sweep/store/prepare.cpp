@@ -6,18 +6,16 @@
 #include <map>
 #include <set>
 
+#include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
-#include "app/run/kept_states.h"
-#include "app/run/picture_record.h"
-#include "app/run/run_json.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
+#include "app/run/identity.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
-#include "app/setup/command_text.h"
 #include "app/support/errors.h"
-#include "app/support/version.h"
 #include "app/sweep/store/store.h"
-#include "sim/base/hash.h"
 
 namespace neve::app::sweep::store {
 
@@ -84,11 +82,10 @@ bool has_text(const fs::path& file, const std::string& text) {
 /// The scene of a branch is that of the beginning; its own values are changes on the way.
 std::string text_of_run(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
   if (!plan.beginning) return scene::write_scene(item.scene);
-  setup::RenderCommand command;
-  command.scene_file = "../../beginning";
-  command.overrides = Beginning{plan.fork, plan.beginning->run}.changes_of(item.run);
-  return "# A run that parts from the common beginning. In this folder:\n# " +
-         setup::command_line(command) + " --from " + fmt::format("{}", plan.fork) + "\n" +
+  const run::RenderOptions options =
+      Beginning{plan.fork, plan.beginning->run}.fork_of(item.run, "../..");
+  return "# A run that forks from the common beginning. In this folder:\n# " +
+         options::shell_line(options::words_of(options)) + "\n" +
          scene::write_scene(plan.beginning->scene);
 }
 
@@ -113,17 +110,6 @@ void write_run(const fs::path& folder, const RunFiles& files) {
   write_status(folder, status);
 }
 
-std::string hash_of_text(const std::string& text) {
-  return run::hash_text(hash_bytes(text.data(), text.size()));
-}
-
-/// Version, sources, and the files that a scene names.
-std::string surroundings_of(const scene::Scene& scene) {
-  std::string text = std::string("\nversion ") + version + "\nsources " + build().sources;
-  for (const auto& [file, hash] : run::hash_files(scene)) text += "\n" + file + " " + hash;
-  return text;
-}
-
 /// Changes before the fork, of the run that is forked.
 std::string changes_of_source(const plan::SweepPlan& plan) {
   return plan.source ? to_text(scene::to_json(plan.source->changes)) : "";
@@ -132,30 +118,30 @@ std::string changes_of_source(const plan::SweepPlan& plan) {
 }  // namespace
 
 std::string key_of(const plan::PlannedRun& item) {
-  return hash_of_text(scene::write_scene(item.scene) + surroundings_of(item.scene) + "\nframes " +
-                      std::to_string(item.run.frames.first) + "-" +
-                      std::to_string(item.run.frames.last));
+  return record::hash_of(scene::write_scene(item.scene) + run::surroundings_of(item.scene) +
+                         "\nframes " + std::to_string(item.run.frames.first) + "-" +
+                         std::to_string(item.run.frames.last));
 }
 
 std::string key_of_beginning(const plan::SweepPlan& plan) {
   const std::string key = key_of(*plan.beginning);
-  return plan.source ? hash_of_text(fmt::format("{} at {} after {}", key, plan.fork,
-                                                changes_of_source(plan)))
+  return plan.source ? record::hash_of(fmt::format("{} at {} after {}", key, plan.fork,
+                                                   changes_of_source(plan)))
                      : key;
 }
 
 std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
   if (!plan.beginning) return key_of(item);
-  return hash_of_text(
+  return record::hash_of(
       fmt::format("{}\nfrom {} of {}", key_of(item), plan.fork, key_of_beginning(plan)));
 }
 
 std::string simulation_key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
-  std::string text = run::simulation_text(item.scene) + surroundings_of(item.scene);
+  std::string text = run::simulation_text(item.scene) + run::surroundings_of(item.scene);
   if (plan.beginning)
     text += fmt::format("\nfrom {} of {} after {}", plan.fork,
                         run::simulation_text(plan.beginning->scene), changes_of_source(plan));
-  return hash_of_text(text);
+  return record::hash_of(text);
 }
 
 Manifest prepare_sweep(const plan::SweepPlan& plan, Redrawn* redrawn) {

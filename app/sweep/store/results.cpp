@@ -6,11 +6,11 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <new>
 
 #include "app/output/sequence.h"
-#include "app/run/run_json.h"
-#include "app/run/verify.h"
+#include "app/record/run_json.h"
+#include "app/record/verify.h"
+#include "app/support/errors.h"
 
 namespace neve::app::sweep::store {
 
@@ -21,16 +21,16 @@ std::optional<double> finite(double x) {
 }
 
 /// In the order of metric_infos().
-std::vector<std::optional<double>> metrics_of(const std::vector<run::FrameRecord>& frames,
+std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRecord>& frames,
                                               const RunStatus& status,
                                               std::optional<double> diverged_at) {
   if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
-  const run::FrameRecord& last = frames.back();
+  const record::FrameRecord& last = frames.back();
   double steps = 0, max_speed = 0, max_force = 0, max_pressure = 0;
-  for (const run::FrameRecord& frame : frames) {
+  for (const record::FrameRecord& frame : frames) {
     steps += static_cast<double>(frame.advance.steps);
     max_speed = std::max(max_speed, frame.summary.max_speed);
-    for (const run::ColliderForce& f : frame.forces) {
+    for (const record::ColliderForce& f : frame.forces) {
       max_force = std::max(max_force, f.force.norm());
       max_pressure = std::max(max_pressure, f.max_pressure);
     }
@@ -64,9 +64,8 @@ RunNotes notes_of(const Json& run) {
   try {
     if (run.contains("divergence")) notes.diverged_at = run["divergence"].at("step").get<double>();
     notes.warnings = run.value("warnings", notes.warnings);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     return notes;
   }
   return notes;
@@ -102,8 +101,8 @@ std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
                          const RunStatus& status) {
   const bool is_made = status.state == RunState::ok || status.state == RunState::diverged;
   if (!is_made) return {};
-  const run::Verification found = run::verify_run(runs_folder(folder) / run.folder);
-  if (!found.flaws.empty()) return run::flaw_text(found.flaws);
+  const record::Verification found = record::verify_run(runs_folder(folder) / run.folder);
+  if (!found.flaws.empty()) return record::flaw_text(found.flaws);
   if (status.state == RunState::ok && found.last_frame != run.frames.last)
     return "run.json does not reach frame " + std::to_string(run.frames.last);
   return {};
@@ -116,16 +115,16 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   result.status = read_status(run_folder);
   // A folder that was given to another run in the meantime tells nothing about this one.
   if (result.status.key != run.key) result.status = RunStatus{};
-  std::vector<run::FrameRecord> frames;
+  std::vector<record::FrameRecord> frames;
   RunNotes notes;
   if (result.status.key == run.key) {
-    const Json record = run::read_run_json(run_folder);
-    frames = run::frame_records(record);
+    const Json record = record::read_run_json(run_folder);
+    frames = record::frame_records(record);
     notes = notes_of(record);
     result.warnings = notes.warnings;
   }
   // run.json lists a frame before its pictures are written: a run that was killed lacks the last.
-  for (const run::FrameRecord& frame : frames)
+  for (const record::FrameRecord& frame : frames)
     if (std::filesystem::exists(output::frame_path(run_folder, view, frame.frame)))
       result.frames.push_back(frame.frame);
   result.flaws = result.status.key == run.key ? flaws_of_run(folder, run, result.status) : "";

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <new>
 #include <sstream>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
+#include "app/output/sequence.h"
 #include "app/scene/leaf.h"
-#include "app/scene/toml/error.h"
+#include "app/support/errors.h"
 
 namespace neve::app::sweep::store {
 
@@ -55,6 +55,15 @@ bool has_failed(RunState state) {
          state != RunState::interrupted;
 }
 
+int frames_made(const fs::path& run_folder, const std::string& view,
+                const setup::FrameRange& frames, int known) {
+  std::error_code error;
+  while (known < frames.count() &&
+         fs::exists(output::frame_path(run_folder, view, frames.first + known), error))
+    ++known;
+  return known;
+}
+
 std::filesystem::path beginning_folder(const std::filesystem::path& sweep) {
   return sweep / "beginning";
 }
@@ -79,9 +88,8 @@ RunStatus read_status(const fs::path& run_folder) {
     if (found != states.end()) status.state = static_cast<RunState>(found - states.begin());
   } catch (const UnreadableError&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     return {};
   }
   return status;
@@ -117,15 +125,13 @@ Retry parse_retry(const std::string& text) {
   for (std::string word; std::getline(words, word, ',');) {
     const auto found = std::find(failures.begin(), failures.end(), word);
     if (found == failures.end())
-      throw scene::toml::UsageError("--retry-failed",
-                                    "no failed run has the state \"" + word + "\"",
-                                    "expected " + scene::list_of(failures));
+      throw UsageError("--retry-failed", "no failed run has the state \"" + word + "\"",
+                       "expected " + scene::list_of(failures));
     retry.insert(
         static_cast<RunState>(std::find(states.begin(), states.end(), word) - states.begin()));
   }
   if (retry.empty())
-    throw scene::toml::UsageError("--retry-failed", "names no state",
-                                  "expected " + scene::list_of(failures));
+    throw UsageError("--retry-failed", "names no state", "expected " + scene::list_of(failures));
   return retry;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/setup/plan.h"
 #include "app/support/json.h"
 
 namespace neve::app::sweep::store {
@@ -55,6 +56,10 @@ void write_status(const std::filesystem::path& run_folder, const RunStatus& stat
 bool is_finished(RunState state);
 /// Ended otherwise than ok.
 bool has_failed(RunState state);
+
+/// Pictures of a run that exist, from its first frame on. @param known  so many have been seen
+int frames_made(const std::filesystem::path& run_folder, const std::string& view,
+                const setup::FrameRange& frames, int known = 0);
 
 /// States of runs that are to be made again.
 using Retry = std::set<RunState>;

@@ -6,164 +6,80 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <string>
 
+#include "app/picture/plots.h"
 #include "app/support/text.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/viewer_state.h"
-#include "render/overlay/ticks.h"
+#include "render/overlay/plots.h"
 
 namespace neve::app::view::panels {
 
 namespace {
 
-struct Curve {
-  const char* name;
-  ImU32 color;
-  std::function<double(const session::RunSample&)> value;
-};
+using session::RunSample;
 
-ImU32 limit_color(sim::DtLimit limit) {
-  switch (limit) {
-    case sim::DtLimit::max_dt:
-      return IM_COL32(150, 160, 175, 255);
-    case sim::DtLimit::cfl:
-      return IM_COL32(110, 190, 255, 255);
-    case sim::DtLimit::acoustic:
-      return IM_COL32(255, 175, 80, 255);
-    case sim::DtLimit::strain:
-      return IM_COL32(240, 110, 150, 255);
-    case sim::DtLimit::fixed:
-      return IM_COL32(170, 220, 130, 255);
-    case sim::DtLimit::frame_end:
-      return IM_COL32(110, 120, 130, 255);
-    case sim::DtLimit::collider:
-      return IM_COL32(225, 110, 60, 255);
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+
+/// A curve for each limit, where it set dt.
+std::vector<render::PlotSeries> dt_series(const std::vector<RunSample>& samples) {
+  std::vector<render::PlotSeries> list;
+  for (const picture::LimitStyle& style : picture::limit_styles) {
+    render::PlotSeries series = picture::curve(style.name, style.color, samples,
+                                               [](const RunSample& s) { return 1000 * s.dt; });
+    bool is_used = false;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const bool is_next = k + 1 < samples.size() && samples[k + 1].limit == style.limit;
+      is_used = is_used || samples[k].limit == style.limit;
+      if (samples[k].limit != style.limit && !is_next) series.value[k] = nothing;
+    }
+    if (is_used) list.push_back(std::move(series));
   }
-  return IM_COL32_WHITE;
+  return list;
 }
 
-/// Names of curves in their colours.
-using Legend = std::vector<std::pair<std::string, ImU32>>;
-
-/// On the line of the title where there is room.
-void draw_legend(const Legend& names) {
-  for (const auto& [name, color] : names) {
-    const float width = ImGui::CalcTextSize(name.c_str()).x + em();
+/// Names of curves in their colours, on the line of the title where there is room.
+void draw_legend(const std::vector<render::PlotSeries>& list) {
+  for (const render::PlotSeries& series : list) {
+    if (series.name.empty()) continue;
+    const float width = ImGui::CalcTextSize(series.name.c_str()).x + em();
     if (ImGui::GetItemRectMax().x + width < ImGui::GetWindowPos().x + ImGui::GetWindowWidth())
       ImGui::SameLine(0, em());
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(color), "%s", name.c_str());
+    const auto [r, g, b] = series.color;
+    ImGui::TextColored(ImColor(r, g, b), "%s", series.name.c_str());
   }
 }
 
-/// A panel with its frame, title and legend above it, the range of its axis inside and the time
-/// below it.
-class Chart {
- public:
-  Chart(const std::string& title, const std::string& unit, double t_end, double low, double high,
-        const Legend& legend)
-      : t_end_(std::max(t_end, 1e-9)), low_(low), high_(high > low ? high : low + 1) {
-    ImGui::TextUnformatted((title + (unit.empty() ? "" : " (" + unit + ")")).c_str());
-    draw_legend(legend);
-    const ImVec2 size(ImGui::GetContentRegionAvail().x, 5.2f * em());
-    at_ = ImGui::GetCursorScreenPos();
-    to_ = ImVec2(at_.x + size.x, at_.y + size.y);
-    list_ = ImGui::GetWindowDrawList();
-    list_->AddRectFilled(at_, to_, IM_COL32(10, 13, 19, 255), 3);
-    // At the right: the run comes there last.
-    if (high > low) label(rough_text(high_), at_.y + 1);
-    label(rough_text(low_), to_.y - em() - 2);
-    draw_time_axis();
-    ImGui::Dummy(ImVec2(size.x, size.y + 1.1f * em()));
-    note_label(title.c_str());
-  }
-
-  ImVec2 at(double time, double value) const {
-    const double x = std::clamp(time / t_end_, 0.0, 1.0);
-    const double y = std::clamp((value - low_) / (high_ - low_), 0.0, 1.0);
-    return {at_.x + static_cast<float>(x) * (to_.x - at_.x),
-            to_.y - 2 - static_cast<float>(y) * (to_.y - at_.y - 4)};
-  }
-
-  void curve(const std::vector<session::RunSample>& samples, const Curve& curve) const {
-    std::vector<ImVec2> points;
-    for (const session::RunSample& sample : samples)
-      if (const double value = curve.value(sample); std::isfinite(value))
-        points.push_back(at(sample.time, value));
-    list_->AddPolyline(points.data(), static_cast<int>(points.size()), curve.color, 0, 1.5f);
-  }
-
-  void now(double time) const {
-    const float x = at(time, low_).x;
-    list_->AddLine(ImVec2(x, at_.y), ImVec2(x, to_.y), IM_COL32(255, 255, 255, 90));
-  }
-
-  void segment(ImVec2 a, ImVec2 b, ImU32 color) const { list_->AddLine(a, b, color, 2); }
-
- private:
-  void label(const std::string& text, float y) const {
-    const float width = ImGui::CalcTextSize(text.c_str()).x;
-    list_->AddText(ImVec2(to_.x - width - 4, y), IM_COL32(150, 160, 175, 200), text.c_str());
-  }
-
-  void draw_time_axis() const {
-    const int most = std::clamp(static_cast<int>((to_.x - at_.x) / (4 * em())), 1, 6);
-    const std::vector<render::overlay::Tick> ticks = render::overlay::nice_ticks(0, t_end_, most);
-    // The last one has the unit and comes first; ticks that would run into it have no number.
-    float free = FLT_MAX;
-    for (auto tick = ticks.rbegin(); tick != ticks.rend(); ++tick) {
-      const float x = at(tick->value, low_).x;
-      list_->AddLine(ImVec2(x, at_.y), ImVec2(x, to_.y), IM_COL32(255, 255, 255, 22));
-      const std::string text = tick->label + (tick == ticks.rbegin() ? " s" : "");
-      const float width = ImGui::CalcTextSize(text.c_str()).x;
-      const float left = std::clamp(x - 0.5f * width, at_.x, std::max(at_.x, to_.x - width));
-      if (left + width > free) continue;
-      free = left - 0.5f * em();
-      list_->AddText(ImVec2(left, to_.y), IM_COL32(150, 160, 175, 200), text.c_str());
-    }
-  }
-
-  ImVec2 at_, to_;
-  ImDrawList* list_;
-  double t_end_, low_, high_;
-};
-
-void draw_curves(const ViewerState& state, const char* title, const char* unit,
-                 const std::vector<Curve>& curves) {
-  const std::vector<session::RunSample>& samples = *state.live->samples;
-  double low = 0, high = 0;
-  for (const session::RunSample& sample : samples)
-    for (const Curve& curve : curves) {
-      const double value = curve.value(sample);
+/// Title and legend as words, which wrap, and the panel below them.
+void draw(const ViewerState& state, const char* title, const char* unit,
+          std::vector<render::PlotSeries> list) {
+  render::Plot plot;
+  const scene::Scene& scene = *state.live->scene;
+  plot.x_end = static_cast<float>(scene.frames / scene.fps);
+  plot.now = static_cast<float>(state.live->snapshot.time);
+  plot.min = plot.max = 0;
+  for (const render::PlotSeries& series : list)
+    for (const float value : series.value) {
       if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
+      plot.min = std::min(plot.min, value);
+      plot.max = std::max(plot.max, value);
     }
-  const scene::Scene& scene = *state.live->scene;
-  Legend legend;
-  if (curves.size() > 1)
-    for (const Curve& curve : curves) legend.emplace_back(curve.name, curve.color);
-  const Chart chart(title, unit, scene.frames / scene.fps, low, high, legend);
-  for (const Curve& curve : curves) chart.curve(samples, curve);
-  chart.now(state.live->snapshot.time);
-}
-
-void draw_dt(const ViewerState& state) {
-  const std::vector<session::RunSample>& samples = *state.live->samples;
-  double high = 0;
-  Legend legend;
-  for (const session::RunSample& sample : samples) {
-    high = std::max(high, sample.dt);
-    const std::pair<std::string, ImU32> name{sim::name(sample.limit), limit_color(sample.limit)};
-    if (std::find(legend.begin(), legend.end(), name) == legend.end()) legend.push_back(name);
-  }
-  const scene::Scene& scene = *state.live->scene;
-  const Chart chart("time step", "s", scene.frames / scene.fps, 0, high, legend);
-  for (std::size_t k = 1; k < samples.size(); ++k)
-    chart.segment(chart.at(samples[k - 1].time, samples[k - 1].dt),
-                  chart.at(samples[k].time, samples[k].dt), limit_color(samples[k].limit));
-  chart.now(state.live->snapshot.time);
+  ImGui::TextUnformatted(*unit ? (std::string(title) + " (" + unit + ")").c_str() : title);
+  draw_legend(list);
+  plot.series = std::move(list);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = 5.2f * em();
+  // Numbers are at the left, and the last time reaches over the right end.
+  render::overlay::ImGuiCanvas canvas(*ImGui::GetFont(), *ImGui::GetWindowDrawList());
+  render::overlay::draw_plot(
+      plot,
+      {std::round(at.x + 3.6f * em()), std::round(at.x + width - 1.4f * em()),
+       std::round(at.y + 0.4f * em()), std::round(at.y + height)},
+      {.has_title = false}, canvas);
+  ImGui::Dummy(ImVec2(width, height + 1.6f * em()));
+  note_label(title);
 }
 
 void draw_phases(const session::LiveFrame& live) {
@@ -189,27 +105,30 @@ void draw_phases(const session::LiveFrame& live) {
 }  // namespace
 
 void draw_plots_panel(ViewerState& state) {
-  const auto blue = IM_COL32(110, 190, 255, 255), orange = IM_COL32(255, 175, 80, 255),
-             pink = IM_COL32(240, 110, 150, 255);
-  draw_curves(state, "energy", "J",
-              {{"kinetic", blue, [](const session::RunSample& s) { return s.kinetic_energy; }},
-               {"elastic", orange, [](const session::RunSample& s) { return s.elastic_energy; }}});
-  draw_curves(state, "momentum", "kg m/s",
-              {{"x", pink, [](const session::RunSample& s) { return s.momentum.x(); }},
-               {"y", blue, [](const session::RunSample& s) { return s.momentum.y(); }},
-               {"z", orange, [](const session::RunSample& s) { return s.momentum.z(); }}});
-  draw_dt(state);
-  draw_curves(state, "largest speed", "m/s",
-              {{"speed", blue, [](const session::RunSample& s) { return s.max_speed; }}});
-  draw_curves(state, "J_P, plastic volume", "",
-              {{"least", orange, [](const session::RunSample& s) { return s.min_J_P; }},
-               {"greatest", blue, [](const session::RunSample& s) { return s.max_J_P; }}});
-  draw_curves(state, "deepest in a collider", "m",
-              {{"depth", pink, [](const session::RunSample& s) { return s.max_depth; }}});
-  draw_curves(state, "largest pressure on a collider", "Pa",
-              {{"pressure", blue, [](const session::RunSample& s) { return s.max_pressure; }}});
-  draw_curves(state, "largest force on a collider", "N",
-              {{"force", pink, [](const session::RunSample& s) { return s.max_force; }}});
+  const std::vector<RunSample>& samples = *state.live->samples;
+  const auto curve = [&](const char* name, picture::Rgb color, auto value) {
+    return picture::curve(name, color, samples, value);
+  };
+  constexpr picture::Rgb blue{110, 190, 255}, orange{255, 175, 80}, pink{240, 110, 150};
+  draw(state, "energy", "J",
+       {curve("kinetic", blue, [](const RunSample& s) { return s.kinetic_energy; }),
+        curve("elastic", orange, [](const RunSample& s) { return s.elastic_energy; })});
+  draw(state, "momentum", "kg m/s",
+       {curve("x", pink, [](const RunSample& s) { return s.momentum.x(); }),
+        curve("y", blue, [](const RunSample& s) { return s.momentum.y(); }),
+        curve("z", orange, [](const RunSample& s) { return s.momentum.z(); })});
+  draw(state, "time step", "ms", dt_series(samples));
+  draw(state, "largest speed", "m/s",
+       {curve("", blue, [](const RunSample& s) { return s.max_speed; })});
+  draw(state, "J_P, plastic volume", "",
+       {curve("least", orange, [](const RunSample& s) { return s.min_J_P; }),
+        curve("greatest", blue, [](const RunSample& s) { return s.max_J_P; })});
+  draw(state, "deepest in a collider", "m",
+       {curve("", pink, [](const RunSample& s) { return s.max_depth; })});
+  draw(state, "largest pressure on a collider", "Pa",
+       {curve("", blue, [](const RunSample& s) { return s.max_pressure; })});
+  draw(state, "largest force on a collider", "N",
+       {curve("", pink, [](const RunSample& s) { return s.max_force; })});
   draw_phases(*state.live);
   const session::LiveFrame& live = *state.live;
   ImGui::TextDisabled("%s particles, %s, %d threads, %s",

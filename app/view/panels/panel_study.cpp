@@ -21,7 +21,7 @@ namespace neve::app::view::panels {
 
 namespace {
 
-constexpr std::size_t most_axes = 2, most_found = 8;
+constexpr std::size_t most_axes = 2, max_found = 8;
 
 bool labelled_button(const char* label, const char* name = nullptr) {
   const bool is_pressed = ImGui::Button(label);
@@ -58,7 +58,7 @@ void draw_found(ViewerState& state) {
   note_label("find a parameter to vary");
   const std::vector<scene::FlatParam> found = found_parameters(state);
   if (found.empty()) wrapped_text("No parameter of this name can change while a simulation runs.");
-  for (std::size_t k = 0; k < std::min(found.size(), most_found); ++k) {
+  for (std::size_t k = 0; k < std::min(found.size(), max_found); ++k) {
     if (ImGui::Selectable((found[k].address + " = " + found[k].text()).c_str())) {
       state.study.axes.push_back({found[k].address, session::Workbench::values_around(found[k])});
       state.study.filter.clear();
@@ -66,8 +66,8 @@ void draw_found(ViewerState& state) {
     note_label(("vary " + found[k].address).c_str());
     tip(found[k].help);
   }
-  if (found.size() > most_found)
-    ImGui::TextDisabled("and %zu more: type a part of the name", found.size() - most_found);
+  if (found.size() > max_found)
+    ImGui::TextDisabled("and %zu more: type a part of the name", found.size() - max_found);
 }
 
 void draw_axes(ViewerState& state) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run/run_json.h"
+#include "app/record/run_json.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "app/view/panels/labels.h"

@@ -85,8 +85,8 @@ struct ViewerState {
   std::uint64_t errors_seen = 0;           ///< of the session
   std::uint64_t errors_told = 0;           ///< of the messages: their tab was opened for these
   bool is_divergence_told = false;
-  bool is_reload_offered = false;              ///< the scene file was changed by another program
-  std::optional<session::Document> dropped{};  ///< scene to open instead
+  bool is_reload_offered = false;            ///< the scene file was changed by another program
+  std::optional<session::Opened> dropped{};  ///< to be shown instead
   Hint hint{};
   bool shows_incident = false;  ///< rings around the culprits
 

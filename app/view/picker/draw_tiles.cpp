@@ -49,16 +49,15 @@ void draw_words_over(const Frame& frame, const std::string& text, ImU32 color) {
   list.PopClipRect();
 }
 
-std::string progress_text(const pick::TileRun& run) {
-  using State = pick::TileRun::State;
-  if (run.state == State::running)
-    return std::to_string(run.pictures.size()) + " of " + std::to_string(run.frames) + " frames";
+std::string progress_text(const sweep::jobs::RunProgress& run) {
+  if (run.state == sweep::store::RunState::running)
+    return std::to_string(run.made) + " of " + std::to_string(run.frames) + " frames";
   return run.has_ended() ? "" : "waiting";
 }
 
-void draw_progress(const Frame& frame, const pick::TileRun& run) {
+void draw_progress(const Frame& frame, const sweep::jobs::RunProgress& run) {
   if (run.frames <= 0) return;
-  const float share = static_cast<float>(run.pictures.size()) / static_cast<float>(run.frames);
+  const float share = static_cast<float>(run.made) / static_cast<float>(run.frames);
   const float thick = std::max(2.0f, 0.22f * em()), top = frame.high.y - thick;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(ImVec2(frame.low.x, top), frame.high, colour::line);
@@ -68,7 +67,7 @@ void draw_progress(const Frame& frame, const pick::TileRun& run) {
 }
 
 /// A tile that waits for its run: a picture of the round before, if there is one, behind a veil.
-void draw_waiting(const Frame& frame, const pick::TileRun& run, bool is_stopping) {
+void draw_waiting(const Frame& frame, const sweep::jobs::RunProgress& run, bool is_stopping) {
   ImGui::GetWindowDrawList()->AddRectFilled(frame.low, frame.high, colour::veil);
   draw_words_over(frame, is_stopping ? "" : progress_text(run), colour::text);
   draw_progress(frame, run);
@@ -100,10 +99,9 @@ void draw_tile(PickerState& state, int tile) {
       name.c_str(), ImVec2(frame.high.x - frame.low.x, frame.high.y - frame.low.y));
   panels::note_label(name.c_str());
   if (ImGui::IsItemHovered()) state.pointed = tile;
-  const pick::TileRun run = state.run(tile);
-  const bool has_failed = run.state == pick::TileRun::State::failed;
+  const sweep::jobs::RunProgress run = state.run(tile);
   if (!shown.is_new && state.phase != Phase::over) draw_waiting(frame, run, state.is_stopping);
-  if (shown.is_new && has_failed) {
+  if (shown.is_new && run.has_failed()) {
     ImGui::GetWindowDrawList()->AddRectFilled(frame.low, frame.high, colour::veil);
     draw_words_over(frame, run.reason, colour::wrong);
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/setup/command_text.h"
+#include "app/options/arguments.h"
 #include "app/view/panels/labels.h"
 #include "app/view/picker/colours.h"
 #include "app/view/picker/picker_state.h"
@@ -83,9 +83,9 @@ void draw_command(const PickerState& state, const std::string& command, const ch
 void draw_next(const PickerState& state) {
   const std::filesystem::path& folder = state.game.folder();
   draw_heading("Next");
-  draw_command(state, "neve render " + setup::shell_word((folder / "picked.toml").string()),
+  draw_command(state, "neve render " + options::shell_word((folder / "picked.toml").string()),
                "Copy: render it");
-  draw_command(state, "neve sweep " + setup::shell_word((folder / "picked_sweep.toml").string()),
+  draw_command(state, "neve sweep " + options::shell_word((folder / "picked_sweep.toml").string()),
                "Copy: sweep around it");
 }
 

@@ -7,20 +7,15 @@
 
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
+#include "app/support/machine.h"
 
 namespace neve::app::view::picker {
 
 namespace {
 
 constexpr double look_interval = 0.2;  // s, at the folders of the runs
+constexpr double round_grace = 30;     // s to end, longer than a sweep gives its runs
 constexpr std::size_t max_waiting_input = 64;
-
-std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder,
-                                               const pick::TileRun& run) {
-  std::vector<std::filesystem::path> files;
-  for (const std::filesystem::path& picture : run.pictures) files.push_back(folder / picture);
-  return files;
-}
 
 }  // namespace
 
@@ -99,9 +94,10 @@ void Picker::begin_round() {
     state_.takes_two = false;
     state_.closer.reset();
     for (ShownTile& tile : state_.tiles) tile.is_new = false;
-    state_.runs = {state_.runs.fps, state_.runs.tile_width, state_.runs.tile_height, {}};
+    state_.runs.runs.clear();
     process_.reset();
-    process_.emplace(game_.begin_round());
+    process_.emplace(game_.begin_round(), this_program(), game_.folder() / "round.log",
+                     round_grace);
     settle_ = 3;
   });
 }
@@ -116,24 +112,26 @@ void Picker::follow_round() {
     return;
   }
   try {
-    if (!process_->has_begun() || state_.is_stopping) return;
-    look_at_runs();
+    const std::optional<sweep::jobs::SweepProgress> progress = process_->progress();
+    if (!progress || state_.is_stopping) return;
+    look_at(*progress);
     // Its sheet and its film are still being made.
-    if (state_.phase == Phase::making && pick::have_all_ended(state_.runs)) ask();
+    if (state_.phase == Phase::making && state_.runs.have_all_ended()) ask();
   } catch (const Error&) {
     settle_ = std::max(settle_, 1);  // it is looked at again
   }
 }
 
 /// Shows tiles whose runs have ended.
-void Picker::look_at_runs() {
-  state_.runs = pick::read_round(game_.folder());
-  const std::size_t count = std::min<std::size_t>(tile_count, state_.runs.tiles.size());
+void Picker::look_at(const sweep::jobs::SweepProgress& progress) {
+  state_.runs = progress;
+  const std::size_t count = std::min<std::size_t>(tile_count, progress.runs.size());
   for (std::size_t k = 0; k < count; ++k) {
     ShownTile& tile = state_.tiles[k];
-    const pick::TileRun& run = state_.runs.tiles[k];
-    if (tile.is_new || !run.has_ended()) continue;
-    movies_.load(static_cast<int>(k), pictures_in(game_.folder(), run));
+    if (tile.is_new || !progress.runs[k].has_ended()) continue;
+    std::vector<std::filesystem::path> pictures = pick::pictures_of(progress, k);
+    for (std::filesystem::path& picture : pictures) picture = game_.folder() / picture;
+    movies_.load(static_cast<int>(k), pictures);
     tile.is_new = true;
     tile.place = game_.tiles()[k];
   }
@@ -155,7 +153,7 @@ void Picker::end_round(int code) {
       throw Error(code,
                   error.empty() ? "the runs ended with exit code " + std::to_string(code) : error);
     if (state_.phase != Phase::making) return;
-    look_at_runs();
+    look_at(sweep::jobs::progress_of(game_.folder()));
     ask();
   });
   if (state_.phase == Phase::stuck) retry_ = [this] { begin_round(); };

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "app/pick/game.h"
-#include "app/pick/round_process.h"
 #include "app/support/clock.h"
 #include "app/view/frontend/frontend.h"
 #include "app/view/frontend/imgui_input.h"
@@ -42,7 +41,7 @@ class Picker {
   void attempt(const std::function<void()>& action);
   void begin_round();
   void follow_round();
-  void look_at_runs();
+  void look_at(const sweep::jobs::SweepProgress& progress);
   void end_round(int code);
   void ask();
   void heed();
@@ -68,7 +67,7 @@ class Picker {
   frontend::ImGuiInput input_;
   PickerState state_;
   TileMovies movies_;
-  std::optional<pick::RoundProcess> process_;
+  std::optional<sweep::jobs::BackgroundSweep> process_;
   std::function<void()> then_;       ///< when the process has ended
   std::function<void()> retry_;      ///< of Phase::stuck
   int failure_code_ = 0;             ///< of Phase::stuck

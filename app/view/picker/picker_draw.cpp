@@ -43,8 +43,8 @@ void scroll_by_hand(bool& is_scrolling) {
 /// Pictures since the beginning; the last ones stay for half a second.
 int Picker::moment() const {
   const int length = std::max(1, movies_.length());
-  const int all = length + static_cast<int>(std::ceil(state_.runs.fps / 2));
-  return std::min(static_cast<int>(clock_ * state_.runs.fps) % all, length - 1);
+  const int all = length + static_cast<int>(std::ceil(state_.runs.manifest.fps / 2));
+  return std::min(static_cast<int>(clock_ * state_.runs.manifest.fps) % all, length - 1);
 }
 
 double Picker::seconds_passed() {
@@ -56,9 +56,9 @@ double Picker::seconds_passed() {
 /// True if another picture would show something else.
 bool Picker::is_due(bool is_more) {
   const double passed = options_.has_own_clock ? 1.0 / 60 : seconds_since(drawn_at_);
-  const double later = (clock_ + passed) * state_.runs.fps;
+  const double later = (clock_ + passed) * state_.runs.manifest.fps;
   const bool moves =
-      movies_.length() > 1 && std::floor(later) > std::floor(clock_ * state_.runs.fps);
+      movies_.length() > 1 && std::floor(later) > std::floor(clock_ * state_.runs.manifest.fps);
   if (is_more) settle_ = 3;
   return moves || settle_ > 0 || options_.has_own_clock || panels::is_tip_coming() ||
          front_.is_picture_wanted();
@@ -83,8 +83,8 @@ void Picker::draw(double passed) {
   settle_ = std::max(0, settle_ - 1);
   const int font = panels::font_size(size.scale);
   state_.layout = lay_out(size.width, size.height, static_cast<float>(font),
-                          static_cast<int>(game_.axes().size()), state_.runs.tile_width,
-                          state_.runs.tile_height);
+                          static_cast<int>(game_.axes().size()), state_.runs.manifest.tile_width,
+                          state_.runs.manifest.tile_height);
   screen_.begin(size.width, size.height, font, static_cast<float>(passed));
   draw_panels();
   render::PicturePlace place;

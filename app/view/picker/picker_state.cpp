@@ -19,14 +19,9 @@ void wish_for(PickerState& state, pick::Click click) {
 
 }  // namespace
 
-int PickerState::done() const {
-  return static_cast<int>(std::count_if(runs.tiles.begin(), runs.tiles.end(),
-                                        [](const pick::TileRun& run) { return run.has_ended(); }));
-}
-
-pick::TileRun PickerState::run(int tile) const {
+sweep::jobs::RunProgress PickerState::run(int tile) const {
   const auto k = static_cast<std::size_t>(tile);
-  return k < runs.tiles.size() ? runs.tiles[k] : pick::TileRun{};
+  return k < runs.runs.size() ? runs.runs[k] : sweep::jobs::RunProgress{};
 }
 
 void click_tile(PickerState& state, int tile, bool is_pair) {

@@ -38,7 +38,7 @@ struct PickerState {
   const pick::Game& game;
   Phase phase = Phase::making;
   std::array<ShownTile, tile_count> tiles{};
-  pick::RoundRuns runs{};                 ///< of the present round
+  sweep::jobs::SweepProgress runs{};      ///< of the present round
   bool takes_two = false;                 ///< the next two clicks are one answer
   std::optional<int> first{};             ///< of two
   int pointed = -1;                       ///< tile under the pointer
@@ -48,7 +48,7 @@ struct PickerState {
   bool is_stopping = false;               ///< runs are being ended
   std::vector<scene::Override> values{};  ///< of the pick, in Phase::over
   bool is_scrolling = false;              ///< a finger moves the words
-  std::optional<pick::TasteMap> map{};    ///< of what was learned
+  std::optional<render::Plot> map{};      ///< of what was learned
   Layout layout{};
   Wish wish{};
   std::function<void(const std::string&)> copy{};
@@ -56,8 +56,8 @@ struct PickerState {
   std::function<void(const std::filesystem::path&)> download{};
 
   bool can_undo() const { return game.answered() > 0 && !is_stopping; }
-  int done() const;  ///< runs of the present round
-  pick::TileRun run(int tile) const;
+  int done() const { return runs.counts().finished; }
+  sweep::jobs::RunProgress run(int tile) const;
 };
 
 /// Chooses a tile, or notes it as the first of two. @param is_pair  shift is held

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/advice/suggest.h"
 #include "app/output/atomic_file.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -60,12 +61,9 @@ void ReplayFrontend::give_up(const ReplayStep& step, const std::string& message,
 
 void ReplayFrontend::give_up_label(const ReplayStep& step, const std::string& label) const {
   const panels::Labels& labels = panels::Labels::of_panels();
-  const std::string nearest = nearest_name(label, labels.names());
-  std::string all;
-  for (const std::string& name : labels.names()) all += (all.empty() ? "" : ", ") + name;
-  const std::string hint = !nearest.empty() ? "did you mean \"" + nearest + "\"?"
-                           : all.empty()    ? "there are no labels"
-                                            : "there are: " + all;
+  const std::string all = joined(labels.names(), ", ");
+  const std::string hint = advice::suggest(
+      label, {"", labels.names(), true}, all.empty() ? "there are no labels" : "there are: " + all);
   const auto place = labels.find(label);
   const std::string what = !place              ? " is not on the picture"
                            : place->is_visible ? " does not come to rest"

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/advice/suggest.h"
 #include "app/scene/reader.h"
 #include "app/scene/toml/error.h"
 #include "app/support/text.h"
@@ -35,8 +36,7 @@ Step action_of(const scene::Source& source, const scene::toml::Value& value,
   std::string hint;
   const std::vector<std::string> actions = all_actions();
   for (const scene::toml::Entry& entry : std::get<scene::toml::Table>(value.data).entries) {
-    if (const std::string nearest = nearest_name(entry.key, actions); !nearest.empty())
-      hint = "did you mean \"" + nearest + "\"?";
+    hint = advice::suggest(entry.key, {"", actions, true}, hint);
     if (std::find(actions.begin(), actions.end(), entry.key) == actions.end()) continue;
     if (found)
       source.fail(entry.where, name + ": both " + found->key + " and " + entry.key + " in one step",

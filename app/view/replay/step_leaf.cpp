@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "app/advice/suggest.h"
 #include "app/support/text.h"
 #include "app/view/frontend/key_names.h"
 
@@ -93,12 +94,10 @@ void read_leaf(const scene::Leaf& leaf, Notches& member) {
 void read_leaf(const scene::Leaf& leaf, KeyCode& member) {
   const std::string name = text_of(leaf, "the name of a key");
   const std::optional<int> code = frontend::key_named(name);
-  if (!code) {
-    const std::string nearest = nearest_name(name, frontend::key_names());
-    leaf.fail("the name of a key", nearest.empty() ? "a letter, a digit, a sign, or one of " +
-                                                         joined(frontend::key_names(), ", ")
-                                                   : "did you mean \"" + nearest + "\"?");
-  }
+  if (!code)
+    leaf.fail("the name of a key", advice::suggest(name, {"", frontend::key_names(), true},
+                                                   "a letter, a digit, a sign, or one of " +
+                                                       joined(frontend::key_names(), ", ")));
   member.code = *code;
 }
 

@@ -6,14 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
 #include "app/output/temporary.h"
+#include "app/run/render_options.h"
 #include "app/scene/flat.h"
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
-#include "app/scene/toml/error.h"
-#include "app/setup/command_text.h"
+#include "app/support/errors.h"
 #include "app/sweep/plan/around.h"
 
 namespace neve::app::view::session {
@@ -66,11 +67,11 @@ std::string plain_file_name(const std::string& address) {
 }
 
 std::string render_command(const Document& document) {
-  setup::RenderCommand command;
-  command.scene_file = document.file();
-  command.overrides = document.all_overrides();
-  command.coarsening = document.coarsening();
-  return setup::command_line(command);
+  run::RenderOptions options;
+  options.scene = document.file();
+  options.overrides = scene::texts_of(document.all_overrides());
+  if (document.coarsening() > 1) options.coarsening = document.coarsening();
+  return options::shell_line(options::words_of(options));
 }
 
 void write_sweep_around(const std::filesystem::path& file, const Document& document,
@@ -85,7 +86,7 @@ void write_sweep_around(const std::filesystem::path& file, const Document& docum
                                                        document.coarsening(), set_later));
     return;
   }
-  throw scene::toml::UsageError("", "nothing has the address " + address);
+  throw UsageError("", "nothing has the address " + address);
 }
 
 }  // namespace neve::app::view::session

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "app/scene/leaf.h"
-#include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_source.h"
+#include "app/support/errors.h"
 #include "app/support/round_number.h"
 #include "sim/types/errors.h"
 
@@ -268,8 +268,7 @@ AddedObject copy_of(const Document& document, const std::string& address) {
   each_shape(scene, list, [&](const std::string& other, const Shape& its) {
     if (other == name) shape = &its;
   });
-  if (!table || !shape)
-    throw scene::toml::UsageError("", "there is no " + address, "select one of the list");
+  if (!table || !shape) throw UsageError("", "there is no " + address, "select one of the list");
   const Vec3d way = way_of_copy(scene, list, *shape);
   for (const auto& [place, value] : places_of(*shape))
     move_place(*table, "shape." + place, value + way);

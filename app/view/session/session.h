@@ -1,37 +1,41 @@
 #pragma once
-/// A simulation on a thread of its own: takes requests and publishes LiveFrames.
+/// A run on a thread of its own: takes requests and publishes LiveFrames.
 
-#include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "app/run/changes.h"
-#include "app/run/moment.h"
-#include "app/setup/seed_scene.h"
-#include "app/view/session/kept_frames.h"
+#include "app/timeline/timeline.h"
+#include "app/view/session/inspector.h"
 #include "app/view/session/live_frame.h"
+#include "app/view/session/mailbox.h"
+#include "app/view/session/samples.h"
 
 namespace neve::app::view::session {
+
+/// A run that exists: the session continues it, and shows the moments that it kept.
+struct Past {
+  std::filesystem::path run;                         ///< its folder
+  std::vector<scene::LiveChange> changes;            ///< until that moment
+  std::vector<record::FrameRecord> frames;           ///< that it lists
+  std::shared_ptr<const timeline::Moment> newest{};  ///< that is kept
+};
 
 struct SessionOptions {
   int threads = 0;                ///< 0: one per core
   double coarsening = 1;          ///< of --coarsen, for advice
-  std::uint64_t kept_budget = 0;  ///< bytes of kept frames; 0: a quarter of the free memory
+  std::uint64_t kept_budget = 0;  ///< bytes of kept moments; 0: a quarter of the free memory
+  std::optional<Past> past{};     ///< of the scene that the session begins with
 };
 
 /// All functions but moment(), latest() and taken() only ask: their effect shows in the frames that
 /// follow.
 class Session {
  public:
-  /// @param scene resolved
+  /// @param scene resolved, of the start
   /// @param wake called on the session's thread after each LiveFrame
   Session(std::shared_ptr<const scene::Scene> scene, const SessionOptions& options,
           std::function<void()> wake);
@@ -51,13 +55,13 @@ class Session {
   /// Shows the state between two steps again.
   void leave_stage();
 
-  /// Starts again. On an error the old simulation continues.
+  /// Starts again. On an error the old run continues.
   void reset(std::shared_ptr<const scene::Scene> scene);
   /// Goes on with the live changes that make this scene of the one that runs. They are listed in
   /// all snapshots that follow.
   void apply(std::shared_ptr<const scene::Scene> scene);
 
-  /// Shows a kept frame, the nearest at or before this number. The run waits.
+  /// Shows a kept moment, the nearest at or before this frame. The run waits.
   void show_frame(int frame);
   /// Back to where the run is.
   void show_head();
@@ -75,85 +79,50 @@ class Session {
   /// While on, every frame is shown at its end, and waits until taken() has it.
   void set_recording(bool is_on);
 
-  /// The moment shown, with the changes made before; without the scene it started from. Waits for
-  /// the session's thread.
-  run::Moment moment();
+  /// The moment shown. Waits for the session's thread.
+  timeline::Moment moment();
 
-  std::shared_ptr<const LiveFrame> latest() const;
+  std::shared_ptr<const LiveFrame> latest() const { return mailbox_.latest(); }
   /// The picture of this one is done: the next is welcome.
-  void taken(std::uint64_t number);
+  void taken(std::uint64_t number) { mailbox_.take(number); }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  /// Until when it runs.
+  /// The event that pauses the run.
   enum class Goal { none, step, frame, end };
 
-  void ask(std::function<void()> command);
+  // All of these run on the session's thread.
   void work();
-  void obey(const std::function<void()>& command);
-  void start(const std::shared_ptr<const scene::Scene>& scene);
+  void obey(const std::function<void()>& request);
+  void start(const std::shared_ptr<const scene::Scene>& scene, const std::optional<Past>& past);
   void set_goal(Goal goal);
-  void stop_looking_inside();
+  void load(const timeline::Moment& moment);
   void leave_older();
-  void forget_later();
-  void require_room() const;
+  void take_another_way();
   void advance();
   void reach_frame();
-  double seconds_left() const;
-  sim::Summary note_sample();
-  bool is_publication_due() const;
+  void require_room() const;
+  bool after_step();
+  bool waits_for_picture() const;
   void publish();
-  void after_step();
-  /// As it is simulated now.
-  const scene::Scene& scene() const { return player_->scene(); }
   std::shared_ptr<const scene::Scene> shown_scene() const;
-  void inspect_next_step(LiveFrame& live);
-  void load(const KeptFrame& kept);
-  void keep();
-  KeptFrame state_now() const;
-  run::Moment moment_now() const;
+  const sim::Simulation& simulation() const { return timeline_->simulation(); }
 
   std::function<void()> wake_;
   SessionOptions options_;
-
-  // Only the session's thread.
-  std::unique_ptr<sim::Simulation> simulation_;
-  std::optional<run::ChangePlayer> player_;       ///< advances the simulation
-  std::vector<sim::shapes::Collider> colliders_;  ///< where the simulation has them
-  std::shared_ptr<const setup::SeededScene> seeded_;
-  int frame_ = 0;                   ///< the last one passed
-  sim::AdvanceReport advance_;      ///< of the frame that was reached last, or is on its way
-  bool advance_is_new_ = true;      ///< the next step belongs to another frame
-  std::size_t steps_of_frame_ = 0;  ///< that the simulation had at the frame before
-  std::vector<picture::PlotSample> history_;
-  std::shared_ptr<std::vector<RunSample>> samples_;
-  KeptFrames kept_{0};
-  std::uint64_t memory_at_most_ = 0;  ///< bytes of a simulation whose broken rules are ignored
-  std::optional<KeptFrame> head_;     ///< where the run is, while an older frame is shown
-  bool head_is_broken_ = false;       ///< it broke a rule there
+  std::unique_ptr<timeline::Timeline> timeline_;
+  std::uint64_t memory_limit_ = 0;        ///< bytes of a simulation whose broken rules are ignored
+  std::optional<timeline::Moment> head_;  ///< where the run is, while an older frame is shown
+  bool head_is_broken_ = false;           ///< it broke a rule there
   Goal goal_ = Goal::none;
-  std::optional<int> stage_;  ///< of a step that is looked at: the last one done
   std::vector<scene::View> views_;
-  std::optional<dump::Probe> probe_;
-  std::optional<ProbeReading> last_reading_;
+  Inspector inspector_;
+  Samples samples_;
   bool is_recording_ = false;
   bool has_news_ = true;
-  Clock::time_point published_at_{};
-  Clock::time_point probed_at_{}, sampled_at_{};
-  Clock::duration sampling_took_{};
-  Clock::time_point measured_at_{};
-  double measured_time_ = 0, speed_ = 0;
-  std::uint64_t number_ = 0;
-  std::string error_;
-  std::uint64_t errors_ = 0;
-  std::optional<health::Diagnosis> diagnosis_;
-
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::function<void()>> commands_;
-  std::shared_ptr<const LiveFrame> latest_;
-  std::atomic<bool> has_commands_ = false, is_wanted_ = true, is_ending_ = false;
-  std::atomic<std::uint64_t> taken_ = 0;
+  LiveFrame told_;  ///< the parts of a frame that stay until they change: number, speed, errors
+  Clock::time_point published_at_{}, measured_at_{};
+  double measured_time_ = 0;  ///< s, simulated then
+  Mailbox mailbox_;
   std::thread thread_;
 };
 

@@ -1,191 +1,172 @@
-/// The part of a session that simulates: frame by frame, and on from kept states.
+/// The part of a session that moves its run and publishes it.
 
 #include <stdexcept>
 
+#include "app/health/diagnosis.h"
 #include "app/setup/plan.h"
-#include "app/support/clock.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
+#include "app/timeline/times.h"
 #include "app/view/session/session.h"
+#include "app/view/session/stage_summary.h"
 
 namespace neve::app::view::session {
 
 namespace {
 
-/// Sampling takes at most one part in so many of the time.
-constexpr int sampling_share = 20;
+/// Between two moments of a run that are shown; turning the view draws pictures in between.
+constexpr auto publish_interval = std::chrono::milliseconds(30);
+constexpr double speed_interval = 0.25;  ///< s
 
 }  // namespace
 
-void Session::start(const std::shared_ptr<const scene::Scene>& scene) {
+void Session::start(const std::shared_ptr<const scene::Scene>& scene,
+                    const std::optional<Past>& past) {
   const setup::Plan plan =
       setup::make_plan(*scene, {0, scene->frames}, setup::Quality::preview, options_.threads);
   setup::check_limits(*scene, plan, options_.coarsening);
-  auto seeded = std::make_shared<setup::SeededScene>(setup::seed_scene(*scene));
-  auto simulation = std::make_unique<sim::Simulation>(
-      setup::make_simulation(*scene, seeded->particles, options_.threads));
+  timeline::Moments moments(options_.kept_budget > 0 ? options_.kept_budget
+                                                     : available_memory() / 4);
+  if (past) moments.add_run(past->run);
+  auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(*scene));
+  auto next = std::make_unique<timeline::Timeline>(
+      *scene, past ? past->changes : std::vector<scene::LiveChange>{}, std::move(seeded),
+      options_.threads, std::move(moments), timeline::Watch{[this] { return after_step(); }});
+  next->keep();
+  if (past) next->restore(*past->newest);
   // From here on nothing fails: the old run may go.
-  memory_at_most_ = plan.memory_limit;
-  simulation_ = std::move(simulation);
-  seeded_ = std::move(seeded);
-  player_.emplace(*scene, std::vector<scene::LiveChange>{}, *simulation_);
-  colliders_ = simulation_->colliders();
-  frame_ = 0;
-  advance_ = {};
-  advance_is_new_ = true;
-  steps_of_frame_ = 0;
-  history_.clear();
-  samples_ = std::make_shared<std::vector<RunSample>>();
-  kept_.clear();
+  timeline_ = std::move(next);
+  memory_limit_ = plan.memory_limit;
   head_.reset();
-  stage_.reset();
-  diagnosis_.reset();
-  error_.clear();
-  speed_ = 0;
-  history_.push_back(picture::plot_sample(0, 1 / scene->fps, note_sample(), {}));
-  keep();
+  inspector_.stage.reset();
+  samples_.begin(past ? past->frames : std::vector<record::FrameRecord>{});
+  samples_.note(*timeline_);
+  told_.diagnosis.reset();
+  told_.error.clear();
+  told_.speed = 0;
 }
 
 void Session::set_goal(Goal goal) {
   if (goal != Goal::none) {
     leave_older();
-    stop_looking_inside();
-    if (simulation_->divergence()) return;
-    if (goal == Goal::end && frame_ >= scene().frames) return;
+    inspector_.stage.reset();
+    if (simulation().divergence()) return;
+    if (goal == Goal::end && timeline_->here().frame >= timeline_->here().scene->frames) return;
     measured_at_ = Clock::now();
-    measured_time_ = simulation_->time();
+    measured_time_ = simulation().time();
   }
   goal_ = goal;
 }
 
-void Session::stop_looking_inside() {
-  stage_.reset();
+void Session::load(const timeline::Moment& moment) {
+  try {
+    timeline_->restore(moment);
+  } catch (const std::exception&) {
+    if (head_ && &moment != &*head_) leave_older();
+    throw;
+  }
+  told_.diagnosis.reset();
 }
 
 void Session::leave_older() {
   if (!head_) return;
-  const KeptFrame head = std::move(*head_);
+  load(*head_);
   head_.reset();
-  load(head);
-}
-
-/// The simulation as it was then. With other parameters since, it is made again: a state continues
-/// only with those that it had.
-void Session::load(const KeptFrame& kept) {
-  if (kept.scene != player_->shared_scene()) {
-    sim::Simulation simulation =
-        setup::make_simulation(*kept.scene, seeded_->particles, options_.threads, kept.colliders);
-    simulation.restore(kept.state);
-    *simulation_ = std::move(simulation);
-  } else {
-    simulation_->restore(kept.state);
-  }
-  player_->go_to(kept.steps, kept.scene);
-  colliders_ = kept.colliders;
-  frame_ = kept.frame;
-  advance_ = kept.advance;
-  steps_of_frame_ = kept.steps_of_frame;
-  advance_is_new_ = kept.steps == kept.steps_of_frame;
-  diagnosis_.reset();
-}
-
-void Session::keep() {
-  kept_.add(state_now());
-}
-
-KeptFrame Session::state_now() const {
-  return {frame_,
-          simulation_->steps(),
-          steps_of_frame_,
-          simulation_->save(),
-          player_->shared_scene(),
-          colliders_,
-          advance_};
-}
-
-run::Moment Session::moment_now() const {
-  run::Moment moment;
-  moment.frame = frame_;
-  moment.steps = simulation_->steps();
-  if (moment.steps != steps_of_frame_) moment.advance = advance_;
-  moment.history = history_;
-  moment.history.resize(static_cast<std::size_t>(frame_) + 1);
-  moment.state = simulation_->save();
-  moment.record.changes = player_->changes();
-  scene::forget_changes_after(moment.record.changes, moment.steps);
-  moment.record.threads = simulation_->threads();
-  moment.record.simd = simulation_->simd();
-  return moment;
 }
 
 /// Snow that bursts spreads over ever more of the grid.
 void Session::require_room() const {
-  if (simulation_->warnings().rules_ignored == 0) return;
-  if (simulation_->memory_bytes() <= memory_at_most_) return;
+  if (simulation().warnings().rules_ignored == 0) return;
+  if (simulation().memory_bytes() <= memory_limit_) return;
   throw std::runtime_error("stopped: the snow that bursts takes " +
-                           bytes_text(simulation_->memory_bytes()) + " of memory, more than the " +
-                           bytes_text(memory_at_most_) + " allowed");
+                           bytes_text(simulation().memory_bytes()) + " of memory, more than the " +
+                           bytes_text(memory_limit_) + " allowed");
 }
 
-void Session::after_step() {
-  if (is_publication_due()) {
-    const Clock::time_point now = Clock::now();
-    if (const double wall = seconds_since(measured_at_); wall > 0.25) {
-      speed_ = (simulation_->time() - measured_time_) / wall;
-      measured_at_ = now;
-      measured_time_ = simulation_->time();
+/// @return whether to stop. A run that may return to the beginning of its frame is not stopped
+/// inside the frame.
+bool Session::after_step() {
+  if (mailbox_.is_wanted() && !is_recording_ && Clock::now() - published_at_ > publish_interval) {
+    if (const double wall = seconds_since(measured_at_); wall > speed_interval) {
+      told_.speed = (simulation().time() - measured_time_) / wall;
+      measured_at_ = Clock::now();
+      measured_time_ = simulation().time();
     }
-    if (now - sampled_at_ > sampling_share * sampling_took_) note_sample();
+    samples_.note_if_cheap(*timeline_);
     publish();
   }
+  const bool may_go_back =
+      timeline_->here().scene->solver.on_divergence == sim::OnDivergence::retry;
+  return mailbox_.is_ending() || (mailbox_.has_requests() && !may_go_back);
 }
 
 void Session::advance() {
-  const double time = (frame_ + 1) / scene().fps;
-  if (advance_is_new_) advance_ = {};
-  advance_is_new_ = false;
-  // A run that may return to the beginning of its frame is not stopped inside the frame.
-  const bool may_go_back = scene().solver.on_divergence == sim::OnDivergence::retry;
-  const auto observe = [&] {
-    after_step();
-    return is_ending_ || (has_commands_ && !may_go_back);
-  };
-  std::vector<sim::Retry> retries;
-  const sim::AdvanceReport report = goal_ == Goal::step
-                                        ? player_->step_towards(time, observe)
-                                        : player_->advance_to(time, observe, retries);
-  advance_.append(report);
-  if (simulation_->divergence()) {
-    note_sample();
-    diagnosis_ = health::diagnose(scene(), *simulation_->divergence(), options_.coarsening);
-    goal_ = Goal::none;
-    return;
-  }
-  if (simulation_->time() >= time * (1 - 1e-12)) reach_frame();
-  if (goal_ == Goal::step) {
-    note_sample();
-    goal_ = Goal::none;
-  }
+  const int before = timeline_->here().frame;
+  if (goal_ == Goal::step)
+    timeline_->advance_step();
+  else
+    timeline_->advance_frame();
+  const bool is_at_end = timeline_->here().frame > before;
+  const std::optional<sim::Divergence>& divergence = simulation().divergence();
+  if (divergence || goal_ == Goal::step || is_at_end) samples_.note(*timeline_);
+  if (divergence)
+    told_.diagnosis = health::diagnose(*timeline_->here().scene, *divergence, options_.coarsening);
+  if (divergence || goal_ == Goal::step) goal_ = Goal::none;
+  if (is_at_end) reach_frame();
 }
 
 void Session::reach_frame() {
-  ++frame_;
-  history_.resize(static_cast<std::size_t>(frame_));
-  const sim::Summary summary = note_sample();
-  history_.push_back(
-      picture::plot_sample(frame_ / scene().fps, 1 / scene().fps, summary, advance_));
-  advance_is_new_ = true;
-  steps_of_frame_ = simulation_->steps();
-  keep();
+  timeline_->keep();
   require_room();
-  if (goal_ == Goal::frame || frame_ == scene().frames) goal_ = Goal::none;
+  const timeline::Moment& here = timeline_->here();
+  if (goal_ == Goal::frame || here.frame == here.scene->frames) goal_ = Goal::none;
   if (is_recording_) publish();
 }
 
-/// Until the end of the frame.
-double Session::seconds_left() const {
-  const double left = (frame_ + 1) / scene().fps - simulation_->time();
-  return left > 0 ? left : 1 / scene().fps;
+/// With colliders where they are, and the views that are looked at.
+std::shared_ptr<const scene::Scene> Session::shown_scene() const {
+  auto scene = std::make_shared<scene::Scene>(timeline_->scene());
+  scene->views = views_;
+  if (inspector_.stage)
+    for (scene::View& view : scene->views) view = view_of_stage(*scene, view, *inspector_.stage);
+  return scene;
+}
+
+void Session::publish() {
+  ++told_.number;
+  auto live = std::make_shared<LiveFrame>(told_);
+  const timeline::Moment& here = timeline_->here();
+  live->scene = shown_scene();
+  live->snapshot =
+      picture::take_snapshot(*live->scene, live->scene->views, simulation(), here.frame);
+  live->snapshot.advance = here.advance;
+  live->snapshot.changes = timeline_->changes();
+  scene::forget_changes_after(live->snapshot.changes, simulation().steps());
+  live->history = head_ ? head_->history : here.history;
+  live->snapshot.history = live->history;
+  live->samples = samples_.list();
+  live->seeded = timeline_->shared_seeded();
+  live->frame = here.frame;
+  live->is_frame_end = simulation().steps() == here.steps_of_frame;
+  live->steps = simulation().steps();
+  live->is_running = goal_ != Goal::none;
+  live->is_older = head_.has_value();
+  live->head = head_ ? head_->frame : here.frame;
+  live->is_head_broken = head_ ? head_is_broken_ : simulation().divergence().has_value();
+  live->kept = timeline_->moments().frames();
+  live->kept_bytes = timeline_->moments().bytes();
+  live->kept_budget = timeline_->moments().budget();
+  // Only pictures of frames are kept.
+  if (live->is_frame_end) live->state_hash = simulation().state_hash();
+  live->phases = simulation().phase_seconds();
+  live->memory = simulation().memory_bytes();
+  live->threads = simulation().threads();
+  live->simd = simulation().simd();
+  live->divergence = simulation().divergence();
+  inspector_.inspect(*timeline_, live->is_running, *live);
+  published_at_ = Clock::now();
+  mailbox_.publish(live);
+  if (wake_) wake_();
 }
 
 }  // namespace neve::app::view::session

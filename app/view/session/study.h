@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/run/moment.h"
-#include "app/sweep/jobs/child.h"
+#include "app/sweep/jobs/background.h"
 #include "app/sweep/store/manifest.h"
+#include "app/timeline/moment.h"
 
 namespace neve::app::view::session {
 
@@ -20,7 +20,7 @@ struct StudyAxis {
 struct StudyRequest {
   std::vector<StudyAxis> axes;
   int last_frame = 0;
-  bool has_longer_steps = false;  ///< of health::longer_steps, for a quick look
+  bool has_longer_steps = false;  ///< of forecast::longer_steps, for a quick look
 };
 
 /// State of a study, and its files.
@@ -43,11 +43,11 @@ class Study {
   explicit Study(std::filesystem::path program) : program_(std::move(program)) {}
 
   /// Writes the moment and starts the study beside it, in a new folder.
-  /// @param folder  of the view @param time  of the moment, s
+  /// @param folder  of the view @param run  of the moment, with its scene and changes
   /// @throws UsageError for parameters or values that cannot be varied there, with those that can;
   ///         IoError
-  void start(const std::filesystem::path& folder, const run::Moment& moment, double time,
-             const StudyRequest& request, const std::vector<std::string>& longer_steps);
+  void start(const std::filesystem::path& folder, record::RunRecord run, timeline::Moment moment,
+             double fps, const StudyRequest& request, const std::vector<std::string>& longer_steps);
 
   /// Looks how far it is, a few times a second. @return whether something is new
   bool poll();
@@ -63,14 +63,12 @@ class Study {
   bool is_running() const { return progress_.state == StudyProgress::State::running; }
 
  private:
-  void count_frames();
-  void end(const sweep::jobs::ChildResult& result);
+  void look();
+  void end(int code);
 
   std::filesystem::path program_;
   StudyProgress progress_;
-  std::filesystem::path log_;
-  std::optional<sweep::jobs::Child> child_;
-  std::optional<sweep::store::Manifest> manifest_;
+  std::optional<sweep::jobs::BackgroundSweep> sweep_;
   sweep::jobs::Child::Clock::time_point looked_at_{};
 };
 

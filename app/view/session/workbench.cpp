@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <system_error>
 
-#include "app/health/fast.h"
+#include "app/forecast/fast.h"
 #include "app/output/atomic_file.h"
 #include "app/output/named_file.h"
-#include "app/run/picture_record.h"
-#include "app/run/run_json.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
@@ -15,9 +15,11 @@
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_source.h"
+#include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/version.h"
 #include "app/sweep/plan/around.h"
+#include "app/timeline/origin.h"
 #include "app/view/session/export.h"
 
 namespace neve::app::view::session {
@@ -27,7 +29,7 @@ namespace {
 constexpr std::size_t max_messages = 100;
 
 std::string text_of(const std::exception& error) {
-  if (const auto* usage = dynamic_cast<const scene::toml::UsageError*>(&error))
+  if (const auto* usage = dynamic_cast<const UsageError*>(&error))
     return usage->message + (usage->hint.empty() ? "" : "; " + usage->hint);
   return error.what();
 }
@@ -47,19 +49,47 @@ std::filesystem::file_time_type time_of(const std::string& file) {
 
 }  // namespace
 
-Document open_document(const std::string& file, const std::vector<std::string>& overrides,
-                       double coarsening) {
+namespace {
+
+/// A run at its newest moment, as a session has it in which its changes were made.
+Opened open_run(const std::string& folder, const timeline::Edits& edits) {
+  const timeline::Origin origin = timeline::Origin::of(folder, edits);
+  const std::string beside =
+      origin.scene_file.substr(0, folder.find_last_not_of('/') + 1) + ".toml";
+  Opened opened{Document(beside, scene::write_scene(origin.scene), {}, 1), origin.overrides};
+  timeline::Moments moments;
+  moments.add_run(origin.run);
+  Past past{origin.run, origin.changes, origin.run_frames, moments.find_newest(origin.scene.fps)};
+  if (!past.newest) return opened;
+  scene::forget_changes_after(past.changes, past.newest->steps);
+  for (const scene::LiveChange& change : past.changes)
+    opened.document.set(change.address, change.value);
+  opened.past = std::move(past);
+  return opened;
+}
+
+}  // namespace
+
+Opened open_document(const std::string& file, const std::vector<std::string>& overrides,
+                     double coarsening) {
+  if (timeline::is_folder(file)) {
+    timeline::Edits edits{overrides};
+    if (coarsening > 1) edits.coarsening = coarsening;
+    return open_run(file, edits);
+  }
   std::vector<scene::Override> parsed = scene::parse_overrides(overrides);
-  if (!run::is_picture(file))
-    return Document(file, scene::read_toml_file(file), std::move(parsed), coarsening);
+  if (!record::is_picture(file))
+    return {Document(file, scene::read_toml_file(file), std::move(parsed), coarsening), overrides};
   // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
   const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
-  return Document(beside, run::read_picture_record(file).scene, std::move(parsed), coarsening);
+  return {Document(beside, record::read_picture_record(file).scene, std::move(parsed), coarsening),
+          overrides};
 }
 
 Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
     : document_(std::move(document)),
       options_(std::move(options)),
+      running_(options_.session.past ? document_.edits() : std::vector<scene::Override>{}),
       file_time_(time_of(document_.file())),
       study_(options_.program.empty() ? this_program() : options_.program),
       session_(std::make_unique<Session>(document_.scene(), session_options(), std::move(wake))) {}
@@ -167,9 +197,9 @@ void Workbench::require_allowed(const std::string& address, const std::string& v
   const char* hint = "edit the scene file on the machine where neve runs";
   const std::optional<scene::ParamInfo> info = scene::param_at(address);
   if (info ? info->valid.is_path() : names_file(value))
-    throw scene::toml::UsageError("", address + " names a file: fixed over the web", hint);
+    throw UsageError("", address + " names a file: fixed over the web", hint);
   if (address == "limits" || address.starts_with("limits."))
-    throw scene::toml::UsageError("", address + " is fixed over the web", hint);
+    throw UsageError("", address + " is fixed over the web", hint);
 }
 
 void Workbench::undo() {
@@ -300,7 +330,7 @@ void Workbench::keep_file() {
 bool Workbench::save_scene(const std::filesystem::path& file) {
   try {
     if (options_.is_remote && file.parent_path() != options_.folder)
-      throw scene::toml::UsageError(
+      throw UsageError(
           "", "over the web, files are written into " + options_.folder.string() + " alone");
     const std::string text =
         scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
@@ -363,7 +393,7 @@ std::string Workbench::values_around(const scene::FlatParam& param) {
   try {
     for (const scene::toml::Value& value : sweep::plan::values_around(param))
       text += (text.empty() ? "" : ", ") + scene::toml::toml_literal(value);
-  } catch (const scene::toml::UsageError&) {
+  } catch (const UsageError&) {
     return {};
   }
   return text;
@@ -373,25 +403,30 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
   try {
     const std::shared_ptr<const LiveFrame> live = session_->latest();
     for (const StudyAxis& axis : request.axes) require_allowed(axis.address, axis.values);
-    run::Moment moment = session_->moment();
-    if (!live->is_frame_end || live->is_running || moment.frame != live->frame ||
+    timeline::Moment moment = session_->moment();
+    const int frame = moment.frame;
+    if (!live->is_frame_end || live->is_running || frame != live->frame ||
         moment.steps != live->steps)
-      throw scene::toml::UsageError("", "the run is between two frames",
-                                    "pause, and go to a frame on the time line");
-    const run::PictureRecord record = picture_record(*live, view);
-    moment.record.scene = record.scene;
-    moment.record.scene_file = document_.file();
-    moment.record.overrides = record.overrides;
-    moment.record.coarsening = record.coarsening;
+      throw UsageError("", "the run is between two frames",
+                       "pause, and go to a frame on the time line");
+    const record::PictureRecord picture = picture_record(*live, view);
+    record::RunRecord run;
+    run.scene = picture.scene;
+    run.scene_file = document_.file();
+    run.overrides = picture.overrides;
+    run.changes = picture.changes;
+    run.coarsening = picture.coarsening;
+    run.threads = live->threads;
+    run.simd = live->simd;
     std::vector<std::string> chosen;
     for (const StudyAxis& axis : request.axes) chosen.push_back(axis.address);
-    study_.start(options_.folder, moment, live->frame / live->scene->fps, request,
-                 health::longer_steps(*live->scene, chosen));
-    say(Message::Kind::note, "a study of frame " + std::to_string(moment.frame) + " goes to " +
+    study_.start(options_.folder, std::move(run), std::move(moment), live->scene->fps, request,
+                 forecast::longer_steps(*live->scene, chosen));
+    say(Message::Kind::note, "a study of frame " + std::to_string(frame) + " goes to " +
                                  study_.progress().folder.string() + "; " +
                                  study_.progress().command + " makes it again");
     return {};
-  } catch (const scene::toml::UsageError& error) {
+  } catch (const UsageError& error) {
     const bool is_value = error.where.starts_with("-p ");
     return (is_value ? error.where.substr(3) + ": " : "") + text_of(error);
   } catch (const std::exception& error) {
@@ -403,7 +438,8 @@ std::string Workbench::command() const {
   return render_command(document_);
 }
 
-run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene::View& view) const {
+record::PictureRecord Workbench::picture_record(const LiveFrame& live,
+                                                const scene::View& view) const {
   std::vector<scene::Override> edits = at_start_;
   for (const scene::Override& edit : document_.edits())
     if (effect_of(edit.address) == Effect::display && !waits_with_its_object(edit.address))
@@ -411,7 +447,7 @@ run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene:
   scene::Scene scene = *document_.scene_with(edits);
   scene.views = {view};
   scene.mosaics.clear();
-  run::PictureRecord record;
+  record::PictureRecord record;
   record.scene = scene::write_scene(scene);
   record.overrides = overrides();
   record.coarsening = document_.coarsening();
@@ -421,7 +457,7 @@ run::PictureRecord Workbench::picture_record(const LiveFrame& live, const scene:
   record.frame = live.frame;
   record.view = view.name;
   record.quality = setup::name(options_.quality);
-  record.files = run::hash_files(scene);
+  record.files = record::hash_files(scene);
   record.changes = live.snapshot.changes;
   return record;
 }

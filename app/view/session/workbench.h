@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run/picture_record.h"
+#include "app/record/picture_record.h"
 #include "app/scene/flat.h"
 #include "app/view/session/document.h"
 #include "app/view/session/edit.h"
@@ -95,7 +95,7 @@ class Workbench {
   Study& study() { return study_; }
   std::string command() const;
   /// Record that a picture of this moment needs to be made again.
-  run::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
+  record::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
 
   void say(Message::Kind kind, std::string text);
   /// Says the error. A script of clicks ends with it.
@@ -130,8 +130,16 @@ class Workbench {
   std::unique_ptr<Session> session_;  ///< last: its thread calls back
 };
 
-/// The scene in a file or in a picture, the views in it, as `neve view` starts with it.
-Document open_document(const std::string& file, const std::vector<std::string>& overrides,
-                       double coarsening);
+/// What `neve view` starts with.
+struct Opened {
+  Document document;                   ///< of a run, with its changes as edits
+  std::vector<std::string> overrides;  ///< as they were given, now or to the run
+  std::optional<Past> past{};          ///< of a run with moments to start from
+};
+
+/// @param file  a scene, a picture or the folder of a run; the views in it
+/// @throws SceneError, UsageError, IoError, Error
+Opened open_document(const std::string& file, const std::vector<std::string>& overrides,
+                     double coarsening);
 
 }  // namespace neve::app::view::session

@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A list of more is of no use to choose from.
-constexpr std::size_t most_files = 5000;
+constexpr std::size_t max_files = 5000;
 
 bool is_hidden(const fs::path& path) {
   return path.filename().string().starts_with('.');
@@ -22,7 +22,7 @@ std::vector<WrittenFile> written_files(const fs::path& folder) {
   std::vector<WrittenFile> files;
   std::error_code error;
   fs::recursive_directory_iterator at(folder, error), end;
-  for (; !error && at != end && files.size() < most_files; at.increment(error)) {
+  for (; !error && at != end && files.size() < max_files; at.increment(error)) {
     if (is_hidden(at->path())) {
       at.disable_recursion_pending();
       continue;

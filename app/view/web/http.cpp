@@ -3,24 +3,11 @@
 #include <algorithm>
 #include <cctype>
 
+#include "app/support/lower_text.h"
+#include "app/support/text.h"
+
 namespace neve::app::view::web {
 namespace {
-
-char lower_ascii(char c) {
-  return c >= 'A' && c <= 'Z' ? char(c + 32) : c;
-}
-
-std::string lower_ascii(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = lower_ascii(c);
-  return result;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  return text;
-}
 
 /// Characters of names and methods (RFC 9110, 5.6.2).
 bool is_token(std::string_view text) {
@@ -58,9 +45,9 @@ int read_request_line(std::string_view line, HttpRequest& request) {
 int read_header_line(std::string_view line, HttpRequest& request) {
   const std::size_t colon = line.find(':');
   if (colon == std::string::npos || !is_token(line.substr(0, colon))) return 400;
-  const std::string_view value = trimmed(line.substr(colon + 1));
+  const std::string value = trimmed(line.substr(colon + 1));
   if (!is_printable(value, true)) return 400;
-  std::string name = lower_ascii(line.substr(0, colon));
+  std::string name = lower_text(line.substr(0, colon));
   if ((name == "host" || name == "origin") && request.has_header(name)) return 400;
   // A body would have to be read and to be limited; nothing here takes one.
   if (name == "transfer-encoding" || (name == "content-length" && value != "0")) return 400;
@@ -125,7 +112,7 @@ bool HttpRequest::header_has_word(std::string_view name, std::string_view word) 
     if (key != name) continue;
     for (std::size_t begin = 0; begin <= value.size();) {
       const std::size_t end = std::min(value.find(',', begin), value.size());
-      if (lower_ascii(trimmed(std::string_view(value).substr(begin, end - begin))) == word)
+      if (lower_text(trimmed(std::string_view(value).substr(begin, end - begin))) == word)
         return true;
       begin = end + 1;
     }

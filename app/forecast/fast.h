@@ -1,0 +1,34 @@
+#pragma once
+/// Settings for a look at the snow in less time: see docs/time_step.md, "Fast looks".
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+
+namespace neve::app::forecast {
+
+/// Changes of parameters that shorten a run.
+struct FastLook {
+  std::vector<std::string> overrides;  ///< "ADDRESS=VALUE"; none where nothing would be gained
+  /// Forecasts of the work of the run, in explicit steps; none where the coarse copy diverges.
+  std::optional<double> work, work_before;
+  bool is_implicit = false;
+  /// The changes and what they gain, or why there are none; a sentence.
+  std::string sentence() const;
+};
+
+/// Takes longer steps: a ceiling on hardening and a larger acoustic_cfl for the steps that the
+/// scene has, or the other kind of step (semi-implicit, explicit) where a coarse copy needs less
+/// than half of the work that way. The result depends on the scene alone, never on the machine.
+/// @param last  frame of the run
+/// @param chosen  addresses that the user has set, which stay
+FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen);
+
+/// The settings that take longer steps of the kind that the scene has, without a forecast. All of
+/// them may change while a simulation runs.
+std::vector<std::string> longer_steps(const scene::Scene& scene,
+                                      const std::vector<std::string>& chosen);
+
+}  // namespace neve::app::forecast

@@ -1,0 +1,40 @@
+#pragma once
+/// Cost of a step: its time on this machine, and how it grows as snow spreads over the grid.
+
+#include <vector>
+
+#include "sim/simulation.h"
+
+namespace neve::app::forecast {
+
+/// Spread of the snow over the grid.
+struct Spread {
+  double blocks = 0;  ///< per particle; 0: not known
+  double alone = 0;   ///< share of the blocks that have no neighbour
+};
+
+Spread spread_of(const sim::Simulation& simulation);
+
+/// Cost of a step over that of packed snow.
+double cost_of_step(const Spread& spread);
+
+struct StepTime {
+  double seconds = 0;      ///< the median; 0: none was made
+  int steps = 0;           ///< all of them
+  sim::SolveReport solve;  ///< the worst of them
+};
+
+/// Bounds a measurement.
+struct StepTiming {
+  int steps = 40;
+  double seconds = 1;
+};
+
+/// Takes some steps after two that warm caches up.
+/// @param frame  s, the longest step
+StepTime measure_steps(sim::Simulation& simulation, double frame, const StepTiming& timing = {});
+
+/// 0 of an empty list.
+double median_of(std::vector<double> list);
+
+}  // namespace neve::app::forecast

@@ -1,0 +1,35 @@
+#pragma once
+/// Forecast of the cost of a scene, and findings about its numbers, before a run.
+
+#include <string>
+#include <vector>
+
+#include "app/forecast/forecast.h"
+#include "app/health/finding.h"
+#include "app/setup/plan.h"
+
+namespace neve::app::health {
+
+struct Check {
+  setup::Plan plan;
+  double cells = 0;         ///< that the bodies fill
+  double impact_speed = 0;  ///< m/s, see auto_ranges
+  sim::StepLimits start;    ///< of the initial state
+  double dt_start = 0;      ///< s, of the first step
+  sim::DtLimit limit_start = sim::DtLimit::max_dt;
+  forecast::Forecast foreseen;  ///< by a coarse run
+  double seconds_per_step = 0;  ///< measured on this machine; 0: not measured
+  sim::SolveReport solve;       ///< of these steps; zero where they are explicit
+  double coarsening = 1;        ///< of --coarsen, for advice
+  std::vector<Finding> findings;
+
+  forecast::Cost seconds() const;  ///< of the simulation
+};
+
+/// Seeds the scene, takes some steps, and runs coarse copies: about four seconds.
+/// @param scene resolved is not needed
+/// @param coarsening  factor of --coarsen
+Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
+              double coarsening = 1);
+
+}  // namespace neve::app::health

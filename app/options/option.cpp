@@ -1,0 +1,86 @@
+#include "app/options/option.h"
+
+#include <algorithm>
+
+#include "app/support/errors.h"
+#include "app/support/text.h"
+
+namespace neve::app::options {
+
+std::string Option::long_name() const {
+  const auto found = std::find_if(names.begin(), names.end(),
+                                  [](const std::string& name) { return name.starts_with("--"); });
+  return found == names.end() ? "" : *found;
+}
+
+std::string Option::default_text() const {
+  return joined(write(), ",");
+}
+
+Option& Option::excludes(const std::vector<std::string>& flags, const std::string& hint) {
+  const std::vector<std::string> first(flags.begin(), flags.end() - 1);
+  const std::string all = joined(first, ", ") + (first.empty() ? "" : " or ") + flags.back();
+  rules.push_back({true, flags, "cannot be combined with " + all, hint});
+  return *this;
+}
+
+void Command::about(const std::string& command, const std::string& sentence) {
+  name = command;
+  help = sentence;
+  Option& option = add("--help,-h", "", "", "Print this help");
+  option.is_flag = true;
+  option.read = [](const std::string&) {};
+  option.write = [] { return std::vector<std::string>{}; };
+}
+
+Option& Command::add(const char* names, const std::string& type, const std::string& example,
+                     const std::string& sentence) {
+  Option& option = options.emplace_back();
+  option.names = comma_separated(names);
+  option.type = type;
+  option.example = example;
+  option.help = sentence;
+  return option;
+}
+
+Option& Command::custom(const char* names, const std::string& type, const std::string& example,
+                        std::function<void(const std::string&)> read,
+                        std::function<std::string()> write, const std::string& sentence) {
+  Option& option = add(names, type, example, sentence);
+  option.read = std::move(read);
+  option.write = [write = std::move(write)] {
+    const std::string value = write();
+    return std::vector<std::string>(value.empty() ? 0 : 1, value);
+  };
+  return option;
+}
+
+Option* Command::find(const std::string& name) {
+  for (Option& option : options)
+    if (std::find(option.names.begin(), option.names.end(), name) != option.names.end())
+      return &option;
+  return nullptr;
+}
+
+std::vector<std::string> Command::flags() const {
+  std::vector<std::string> flags;
+  for (const Option& option : options)
+    if (!option.is_argument()) flags.push_back(option.long_name());
+  return flags;
+}
+
+void Command::check_all() const {
+  const auto is_given = [this](const std::string& flag) { return find(flag)->is_given(); };
+  for (const Option& option : options) {
+    if (option.is_required && !option.is_given())
+      throw UsageError("", full_name() + " needs " + option.name(),
+                       "see " + full_name() + " --help");
+    for (const Option::Rule& rule : option.rules)
+      if (option.is_given() &&
+          std::any_of(rule.flags.begin(), rule.flags.end(), is_given) == rule.is_with)
+        throw UsageError(option.name(), rule.message, rule.hint);
+  }
+  for (const auto& check : checks) check();
+}
+
+}  // namespace neve::app::options

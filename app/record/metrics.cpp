@@ -1,0 +1,132 @@
+#include "app/record/metrics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace neve::app::record {
+
+namespace {
+
+using Cell = std::array<int, 3>;
+
+/// The value that a share of all is below; the list is reordered.
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const auto place = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+std::vector<std::size_t> finite_particles(const sim::ParticleArrays& particles) {
+  std::vector<std::size_t> ids;
+  for (std::size_t p = 0; p < particles.x.size(); ++p)
+    if (particles.x[p].allFinite() && particles.x[p].cwiseAbs().maxCoeff() < 1e8) ids.push_back(p);
+  return ids;
+}
+
+/// Occupied cells in order, each with its particles counted.
+struct Occupied {
+  std::vector<Cell> cells;
+  std::vector<std::size_t> count;
+};
+
+Occupied occupied_cells(const sim::ParticleArrays& particles, const std::vector<std::size_t>& ids,
+                        double h) {
+  std::vector<Cell> all;
+  all.reserve(ids.size());
+  for (const std::size_t p : ids) {
+    Cell cell;
+    for (int a = 0; a < 3; ++a)
+      // Far away beyond all counting is one place.
+      cell[static_cast<std::size_t>(a)] =
+          static_cast<int>(std::clamp(std::floor(particles.x[p][a] / h), -1e9, 1e9));
+    all.push_back(cell);
+  }
+  std::sort(all.begin(), all.end());
+  Occupied occupied;
+  for (const Cell& cell : all) {
+    if (occupied.cells.empty() || occupied.cells.back() != cell) {
+      occupied.cells.push_back(cell);
+      occupied.count.push_back(0);
+    }
+    ++occupied.count.back();
+  }
+  return occupied;
+}
+
+/// Groups as trees: each cell points towards the first of its group.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t root(std::size_t k) {
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[root(b)] = root(a); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Each cell is joined with those of its 26 neighbours that come before it. All cells of a row
+/// along z follow each other, so a row needs one search.
+void join_neighbours(const std::vector<Cell>& cells, Groups& groups) {
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const Cell& c = cells[k];
+    for (const auto& [dx, dy] : {std::pair{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 0}}) {
+      const Cell first{c[0] + dx, c[1] + dy, c[2] - 1};
+      const auto end = cells.begin() + static_cast<std::ptrdiff_t>(k);
+      for (auto other = std::lower_bound(cells.begin(), end, first);
+           other != end && (*other)[0] == first[0] && (*other)[1] == first[1] &&
+           (*other)[2] <= c[2] + 1;
+           ++other)
+        groups.join(static_cast<std::size_t>(other - cells.begin()), k);
+    }
+  }
+}
+
+void measure_fragments(const Occupied& occupied, std::size_t particle_count, Metrics& metrics) {
+  Groups groups(occupied.cells.size());
+  join_neighbours(occupied.cells, groups);
+  std::vector<std::size_t> size(occupied.cells.size(), 0);
+  for (std::size_t k = 0; k < occupied.cells.size(); ++k) size[groups.root(k)] += occupied.count[k];
+  std::size_t largest = 0;
+  for (const std::size_t count : size) {
+    if (count > 0) ++metrics.fragments;
+    largest = std::max(largest, count);
+  }
+  metrics.largest_fragment = static_cast<double>(largest) / static_cast<double>(particle_count);
+}
+
+}  // namespace
+
+Metrics measure(const sim::ParticleArrays& particles, double cell_size) {
+  Metrics metrics;
+  const std::vector<std::size_t> ids = finite_particles(particles);
+  if (ids.empty()) return metrics;
+  sim::Vec3d centre = sim::Vec3d::Zero();
+  double mass = 0, J_P = 0;
+  for (const std::size_t p : ids) {
+    centre += particles.m[p] * particles.x[p];
+    J_P += particles.m[p] * particles.J_P[p];
+    mass += particles.m[p];
+  }
+  centre /= mass;
+  metrics.mean_J_P = J_P / mass;
+  std::vector<double> radius, height;
+  for (const std::size_t p : ids) {
+    radius.push_back(std::hypot(particles.x[p].x() - centre.x(), particles.x[p].z() - centre.z()));
+    height.push_back(particles.x[p].y());
+  }
+  metrics.spread = quantile(radius, 0.9);
+  metrics.height = quantile(height, 0.98) - quantile(height, 0.02);
+  measure_fragments(occupied_cells(particles, ids, cell_size), ids.size(), metrics);
+  return metrics;
+}
+
+}  // namespace neve::app::record

@@ -1,0 +1,310 @@
+#include "app/record/picture_record.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "app/output/atomic_file.h"
+#include "app/output/file_hash.h"
+#include "app/output/sequence.h"
+#include "app/record/run_json.h"
+#include "app/scene/toml/value.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+#include "app/support/version.h"
+#include "render/image/exr.h"
+
+namespace neve::app::record {
+
+namespace {
+
+Json to_json(const StripRecord& strip) {
+  return {{"times", strip.times}, {"columns", strip.columns}, {"width", strip.width}};
+}
+
+/// @throws std::runtime_error, nlohmann::json::exception
+StripRecord strip_record(const Json& json) {
+  StripRecord strip;
+  strip.times = json.at("times").get<std::vector<double>>();
+  strip.columns = json.at("columns").get<int>();
+  strip.width = json.at("width").get<int>();
+  const bool is_increasing =
+      std::ranges::adjacent_find(strip.times, std::greater_equal<>()) == strip.times.end();
+  if (strip.times.empty() || !is_increasing || !(strip.times.front() >= 0) ||
+      !(strip.times.back() <= 1e9) || strip.times.size() > 10000)
+    throw std::runtime_error("its moments are not in order");
+  if (strip.columns < 1 || strip.columns > 200 || strip.width < 160 || strip.width > 16384)
+    throw std::runtime_error("its columns or width are out of range");
+  return strip;
+}
+
+/// Reads the texts of one PNG and says which one is wrong.
+class TextReader {
+ public:
+  TextReader(std::string file, const render::PngText& text) : file_(std::move(file)), text_(text) {}
+
+  std::string text(const char* key) const {
+    const auto found = text_.find(key);
+    if (found == text_.end()) fail(std::string("it holds no text ") + key);
+    return found->second;
+  }
+
+  template <class Number>
+  Number number(const char* key) const {
+    const std::optional<Number> value = app::number_of<Number>(text(key));
+    if (!value) fail(std::string("its text ") + key + " is not a number");
+    return *value;
+  }
+
+  Json json(const char* key) const {
+    try {
+      return parse_json(std::string_view(text(key)));
+    } catch (const nlohmann::json::exception&) {
+      fail(std::string("its text ") + key + " is not valid JSON");
+    }
+  }
+
+  std::vector<scene::LiveChange> changes(const char* key) const {
+    try {
+      return scene::live_changes(json(key));
+    } catch (const std::runtime_error& error) {
+      fail(error.what());
+    }
+  }
+
+  /// Separated by commas.
+  std::vector<std::string> list(const char* key) const {
+    std::vector<std::string> words;
+    std::istringstream in(text(key));
+    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+    return words;
+  }
+
+  StripRecord strip(const char* key) const {
+    const Json found = json(key);
+    try {
+      return strip_record(found);
+    } catch (const std::exception& error) {  // also that of a value of another type
+      fail(error.what());
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw Error(exit_invalid_scene, file_ + ": error: not a picture made by neve: " + reason, file_,
+                "name a picture that neve render wrote");
+  }
+
+ private:
+  std::string file_;
+  const render::PngText& text_;
+};
+
+}  // namespace
+
+namespace {
+
+constexpr std::array<std::uint8_t, 4> png_start{0x89, 'P', 'N', 'G'};
+constexpr std::array<std::uint8_t, 4> exr_start{0x76, 0x2f, 0x31, 0x01};
+
+bool is_exr(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 4 && std::ranges::equal(bytes.first(4), exr_start);
+}
+
+}  // namespace
+
+/// The same names and values as in JSON, as text.
+render::PngText to_png_text(const PictureRecord& record) {
+  const auto text_of = [&](const std::string& key, const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return scene::toml::number_text(value.get<double>());
+    return key == "passes" ? joined(record.passes, ",") : to_text(value, -1);
+  };
+  const Json json = to_json(record);
+  render::PngText text;
+  for (const auto& [key, value] : json.items()) text["neve:" + key] = text_of(key, value);
+  return text;
+}
+
+Json to_json(const PictureRecord& record) {
+  Json json;
+  json["scene"] = record.scene;
+  json["overrides"] = record.overrides;
+  json["coarsen"] = record.coarsening;
+  json["changes"] = scene::to_json(record.changes);
+  json["seed"] = record.seed;
+  json["version"] = record.version;
+  json["build"] = record.build;
+  json["state_hash"] = record.state_hash;
+  json["frame"] = record.frame;
+  json["view"] = record.view;
+  json["quality"] = record.quality;
+  if (!record.plate.empty()) json["plate"] = record.plate;
+  if (record.shutter > 0) json["shutter"] = record.shutter;
+  if (!record.passes.empty()) json["passes"] = record.passes;
+  if (record.strip) json["strip"] = to_json(*record.strip);
+  json["files"] = record.files;
+  return json;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_content(const fs::path& file, const std::string& hash) {
+  try {
+    return hash_text(output::hash_file(file)) == hash;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+/// Finds a file of a picture that has moved, as projects move as a whole: in the folder of the
+/// picture or one above, below as much of its recorded path as is there. Empty: no such file has
+/// this content.
+fs::path moved_file(const std::string& recorded, const std::string& hash, const fs::path& picture) {
+  const fs::path path = recorded;
+  const std::vector<fs::path> parts(path.begin(), path.end());
+  std::error_code error;
+  for (fs::path folder = fs::absolute(picture, error).parent_path();;
+       folder = folder.parent_path()) {
+    for (std::size_t first = path.is_absolute() ? 1 : 0; first < parts.size(); ++first) {
+      fs::path file = folder;
+      for (std::size_t k = first; k < parts.size(); ++k) file /= parts[k];
+      error.clear();
+      if (fs::is_regular_file(file, error) && is_content(file, hash))
+        return file.lexically_normal();
+    }
+    if (folder == folder.parent_path()) break;
+  }
+  return {};
+}
+
+/// In texts of TOML: a file, or the pattern of numbered files in its folder, has moved.
+void follow(const std::string& recorded, const std::string& now, std::string& text) {
+  const std::string folder = '"' + recorded.substr(0, recorded.rfind('/') + 1);
+  const std::string name = recorded.substr(recorded.rfind('/') + 1);
+  const std::string new_folder = '"' + now.substr(0, now.rfind('/') + 1);
+  for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos; ++at) {
+    const std::size_t start = at + folder.size(), end = text.find('"', start);
+    const std::string named = text.substr(start, end - start);
+    const bool is_pattern =
+        named.find('%') != std::string::npos && named.find('/') == std::string::npos;
+    if (named == name || is_pattern) text.replace(at, folder.size(), new_folder);
+  }
+}
+
+/// Names the files of the picture where they are now.
+void follow_moved_files(const fs::path& picture, PictureRecord& record) {
+  std::map<std::string, std::string> files;
+  for (const auto& [recorded, hash] : record.files) {
+    // check_files refuses a file that was changed in its place.
+    std::error_code error;
+    const bool is_there =
+        fs::path(recorded).is_absolute() ? fs::exists(recorded, error) : is_content(recorded, hash);
+    const std::string now = is_there ? "" : moved_file(recorded, hash, picture).string();
+    files[now.empty() ? recorded : now] = hash;
+    if (now.empty()) continue;
+    follow(recorded, now, record.scene);
+    for (std::string& change : record.overrides) follow(recorded, now, change);
+    std::string plate = '"' + record.plate + '"';
+    follow(recorded, now, plate);
+    record.plate = plate.substr(1, plate.size() - 2);
+  }
+  record.files = std::move(files);
+}
+
+}  // namespace
+
+PictureRecord read_picture_record(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = output::read_file(file);
+  render::PngText text;
+  try {
+    text = is_exr(bytes) ? render::read_exr_text(bytes) : render::read_png_text(bytes);
+  } catch (const render::ImageError& error) {
+    throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string());
+  }
+  PictureRecord record = picture_record_of(text, file.string());
+  follow_moved_files(file, record);
+  return record;
+}
+
+PictureRecord picture_record_of(const render::PngText& text, const std::string& file) {
+  const TextReader reader(file, text);
+  PictureRecord record;
+  record.scene = reader.text("neve:scene");
+  for (const Json& item : reader.json("neve:overrides"))
+    if (item.is_string()) record.overrides.push_back(item.get<std::string>());
+  if (text.contains("neve:changes")) record.changes = reader.changes("neve:changes");
+  // Pictures of earlier versions do not say.
+  if (text.contains("neve:coarsen")) record.coarsening = reader.number<double>("neve:coarsen");
+  if (!(record.coarsening >= 1)) reader.fail("its coarsening is less than 1");
+  record.seed = reader.number<std::uint64_t>("neve:seed");
+  record.version = reader.text("neve:version");
+  if (text.contains("neve:build")) record.build = reader.text("neve:build");
+  record.state_hash = reader.text("neve:state_hash");
+  record.frame = reader.number<int>("neve:frame");
+  record.view = reader.text("neve:view");
+  record.quality = reader.text("neve:quality");
+  if (text.contains("neve:plate")) record.plate = reader.text("neve:plate");
+  if (text.contains("neve:shutter")) record.shutter = reader.number<double>("neve:shutter");
+  if (!(record.shutter >= 0 && record.shutter <= 360)) reader.fail("its shutter is not 0 to 360");
+  if (text.contains("neve:passes")) record.passes = reader.list("neve:passes");
+  if (text.contains("neve:strip")) record.strip = reader.strip("neve:strip");
+  const Json files = reader.json("neve:files");
+  for (const auto& [path, hash] : files.items())
+    if (hash.is_string()) record.files[path] = hash.get<std::string>();
+  if (record.frame < 0) reader.fail("its frame is negative");
+  if (!output::is_plain_name(record.view)) reader.fail("the name of its view is invalid");
+  return record;
+}
+
+std::map<std::string, std::string> hash_files(const scene::Scene& scene) {
+  std::map<std::string, std::string> files;
+  const auto hash = [&](const std::string& file) {
+    if (files.contains(file)) return;
+    files[file] = hash_text(output::hash_file(file));
+  };
+  const auto add = [&](const sim::shapes::Shape& shape) {
+    if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&shape.form)) hash(mesh->file);
+    if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&shape.form))
+      for (const std::string& file : sim::shapes::files_of(*sequence)) hash(file);
+    if (const auto* points = std::get_if<sim::shapes::Points>(&shape.form)) hash(points->file);
+  };
+  for (const sim::seeding::Body& body : scene.bodies) add(body.shape);
+  for (const scene::Collider& collider : scene.colliders) add(collider.shape);
+  for (const sim::seeding::Emitter& emitter : scene.emitters) add(emitter.shape);
+  for (const sim::seeding::Sink& sink : scene.sinks) add(sink.shape);
+  return files;
+}
+
+void check_files(const PictureRecord& record) {
+  const auto hash_now = [](const std::string& path) {
+    try {
+      return hash_text(output::hash_file(path));
+    } catch (const IoError& failure) {
+      throw IoError(failure.what(), path,
+                    "the picture was made with this file: put it back, or beside the picture");
+    }
+  };
+  for (const auto& [path, hash] : record.files) {
+    if (hash_now(path) != hash)
+      throw Error(
+          exit_invalid_scene,
+          path + ": error: has changed since the picture was made; the picture used " + hash, path,
+          "restore the old file, or render the scene file instead");
+  }
+}
+
+bool is_picture(const std::filesystem::path& file) {
+  // What is read from a pipe is gone for the reader of the scene.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  std::ifstream in(file, std::ios::binary);
+  std::array<std::uint8_t, 4> start{};
+  in.read(reinterpret_cast<char*>(start.data()), start.size());
+  return in && (start == png_start || start == exr_start);
+}
+
+}  // namespace neve::app::record

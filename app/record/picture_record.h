@@ -1,0 +1,65 @@
+#pragma once
+/// Record of the origin of a picture, as text in the PNG.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/live_change.h"
+#include "app/scene/scene.h"
+#include "app/support/json.h"
+#include "render/image/image.h"
+
+namespace neve::app::record {
+
+/// Moments of a picture made by neve strip.
+struct StripRecord {
+  std::vector<double> times;  ///< s, increasing, at least one
+  int columns = 1, width = 1920;
+};
+
+struct PictureRecord {
+  std::string scene;  ///< resolved, TOML
+  std::vector<std::string> overrides;
+  std::vector<scene::LiveChange> changes;  ///< made while the simulation ran, up to this picture
+  double coarsening = 1;                   ///< factor of --coarsen
+  std::uint64_t seed = 0;
+  std::string version;
+  std::string build;       ///< see build_text(); empty in pictures of earlier versions
+  std::string state_hash;  ///< 16 hexadecimal digits
+  int frame = 0;
+  std::string view;
+  std::string quality;                       ///< draft, preview, final
+  std::string plate;                         ///< of --plate; empty: none
+  double shutter = 0;                        ///< degrees of motion blur; 0: none
+  std::vector<std::string> passes;           ///< of --passes; none: only PNGs
+  std::map<std::string, std::string> files;  ///< of the scene: path to content hash
+  std::optional<StripRecord> strip;          ///< frame and state_hash are those of its last moment
+};
+
+render::PngText to_png_text(const PictureRecord& record);
+Json to_json(const PictureRecord& record);
+
+/// @param file  named in errors @throws Error when the texts are no record
+PictureRecord picture_record_of(const render::PngText& text, const std::string& file);
+
+/// Files of its scene that are no longer where they were are looked for in the folder of the
+/// picture and those above, by the end of their path and their content: a project that was moved
+/// draws its pictures again.
+/// @throws Error with exit_invalid_scene when the file is no PNG or OpenEXR file, or holds no or
+/// broken records
+PictureRecord read_picture_record(const std::filesystem::path& file);
+
+/// The files that a scene names, each with the hash of its content. @throws IoError
+std::map<std::string, std::string> hash_files(const scene::Scene& scene);
+
+/// @throws Error naming the file that is missing or has changed since the picture was made
+void check_files(const PictureRecord& record);
+
+/// True if the file starts like a PNG or an OpenEXR file.
+bool is_picture(const std::filesystem::path& file);
+
+}  // namespace neve::app::record

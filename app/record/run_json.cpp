@@ -1,0 +1,289 @@
+#include "app/record/run_json.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <stdexcept>
+
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/support/version.h"
+#include "sim/base/hash.h"
+
+namespace neve::app::record {
+
+namespace {
+
+sim::DtLimit limit_named(const std::string& text) {
+  for (int k = 0; k < sim::dt_limit_count; ++k)
+    if (const auto limit = static_cast<sim::DtLimit>(k); text == sim::name(limit)) return limit;
+  return sim::DtLimit::max_dt;
+}
+
+}  // namespace
+
+const char* name(RunStatus status) {
+  switch (status) {
+    case RunStatus::running:
+      return "running";
+    case RunStatus::ok:
+      return "ok";
+    case RunStatus::diverged:
+      return "diverged";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::failed:
+      return "failed";
+  }
+  return "failed";
+}
+
+std::string hash_text(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+std::string hash_of(const std::string& text) {
+  return hash_text(hash_bytes(text.data(), text.size()));
+}
+
+Json to_json(const FrameRecord& frame) {
+  const bool has_steps = frame.advance.steps > 0;
+  const sim::Summary& s = frame.summary;
+  Json json;
+  json["frame"] = frame.frame;
+  json["time"] = number_or_null(frame.time);
+  json["steps"] = frame.advance.steps;
+  json["dt_min"] = has_steps ? number_or_null(frame.advance.dt_min) : Json();
+  json["dt_max"] = has_steps ? number_or_null(frame.advance.dt_max) : Json();
+  json["dt_limit"] = has_steps ? Json(sim::name(frame.advance.limit())) : Json();
+  const std::optional<sim::SolveReport>& solve = frame.advance.solve;
+  json["solve_iterations"] = solve ? Json(solve->iterations) : Json();
+  json["solve_residual"] = solve ? number_or_null(solve->residual) : Json();
+  json["solves_cut_short"] = solve ? Json(solve->cut_short) : Json();
+  json["solves_given_up"] = solve ? Json(solve->given_up) : Json();
+  json["seconds_sim"] = number_or_null(frame.seconds_sim);
+  json["seconds_render"] = number_or_null(frame.seconds_render);
+  json["particles"] = s.particles;
+  json["emitted"] = s.emitted;
+  json["removed"] = s.removed;
+  json["withheld"] = s.withheld;
+  json["grid_blocks"] = s.grid_blocks;
+  json["mass"] = number_or_null(s.mass);
+  json["kinetic_energy"] = number_or_null(s.kinetic_energy);
+  json["elastic_energy"] = number_or_null(s.elastic_energy);
+  json["momentum"] = output::vector_json(s.momentum);
+  json["centre_of_mass"] = output::vector_json(s.centre_of_mass);
+  json["max_speed"] = number_or_null(s.max_speed);
+  json["min_J_P"] = number_or_null(s.min_J_P);
+  json["max_J_P"] = number_or_null(s.max_J_P);
+  json["max_depth"] = number_or_null(s.max_depth);
+  json["max_depth_cells"] = number_or_null(frame.metrics.max_depth_cells);
+  json["spread"] = number_or_null(frame.metrics.spread);
+  json["height"] = number_or_null(frame.metrics.height);
+  json["mean_J_P"] = number_or_null(frame.metrics.mean_J_P);
+  json["fragments"] = frame.metrics.fragments;
+  json["largest_fragment"] = number_or_null(frame.metrics.largest_fragment);
+  json["forces"] = Json::array();
+  for (const ColliderForce& force : frame.forces) json["forces"].push_back(to_json(force));
+  json["state_hash"] = hash_text(frame.state_hash);
+  return json;
+}
+
+double particle_steps(const FrameRecord& frame) {
+  return static_cast<double>(frame.advance.steps) * static_cast<double>(frame.summary.particles);
+}
+
+Json to_json(const ColliderForce& force) {
+  return {{"collider", force.collider},
+          {"force", output::vector_json(force.force)},
+          {"torque", output::vector_json(force.torque)},
+          {"max_pressure", number_or_null(force.max_pressure)}};
+}
+
+std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance, const sim::Summary& summary,
+                                     const std::vector<scene::Collider>& colliders) {
+  std::vector<ColliderForce> forces;
+  if (!(advance.seconds > 0)) return forces;
+  for (std::size_t k = 0; k < std::min(colliders.size(), advance.loads.size()); ++k)
+    forces.push_back({colliders[k].name, advance.loads[k].impulse / advance.seconds,
+                      advance.loads[k].angular_impulse / advance.seconds, summary.max_pressure[k]});
+  return forces;
+}
+
+void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame) {
+  const auto place =
+      std::lower_bound(frames.begin(), frames.end(), frame.frame,
+                       [](const FrameRecord& other, int number) { return other.frame < number; });
+  if (place != frames.end() && place->frame == frame.frame)
+    *place = frame;
+  else
+    frames.insert(place, frame);
+}
+
+std::string picture_name(const std::string& view, int frame) {
+  return output::frame_path({}, view, frame).generic_string();
+}
+
+FrameRecord frame_record(const Json& json) {
+  FrameRecord frame;
+  frame.frame = whole_number<int>(json.at("frame"));
+  frame.time = output::number_or_nan(json.at("time"));
+  frame.advance.steps = whole_number<std::size_t>(json.at("steps"));
+  if (frame.advance.steps > 0) {
+    frame.advance.dt_min = output::number_or_nan(json.at("dt_min"));
+    frame.advance.dt_max = output::number_or_nan(json.at("dt_max"));
+    const sim::DtLimit limit = limit_named(json.at("dt_limit").get<std::string>());
+    frame.advance.ruled[static_cast<std::size_t>(limit)] = frame.advance.steps;
+  }
+  // Runs of earlier versions have none, explicit steps neither.
+  if (json.contains("solve_iterations") && !json.at("solve_iterations").is_null())
+    frame.advance.solve = {whole_number<int>(json.at("solve_iterations")),
+                           output::number_or_nan(json.at("solve_residual")),
+                           whole_number_or(json, "solves_cut_short", std::size_t(0)),
+                           whole_number_or(json, "solves_given_up", std::size_t(0))};
+  frame.seconds_sim = output::number_or_nan(json.at("seconds_sim"));
+  frame.seconds_render = output::number_or_nan(json.at("seconds_render"));
+  sim::Summary& s = frame.summary;
+  s.time = frame.time;
+  s.particles = whole_number<std::size_t>(json.at("particles"));
+  // Runs of earlier versions knew no emitters.
+  s.emitted = whole_number_or(json, "emitted", std::uint64_t(0));
+  s.removed = whole_number_or(json, "removed", std::uint64_t(0));
+  s.withheld = whole_number_or(json, "withheld", std::uint64_t(0));
+  s.grid_blocks = whole_number_or(json, "grid_blocks", std::size_t(0));
+  s.mass = json.contains("mass") ? output::number_or_nan(json.at("mass")) : std::nan("");
+  s.kinetic_energy = output::number_or_nan(json.at("kinetic_energy"));
+  s.elastic_energy = output::number_or_nan(json.at("elastic_energy"));
+  s.momentum = output::vector_of(json.at("momentum"));
+  s.centre_of_mass = output::vector_of(json.at("centre_of_mass"));
+  s.max_speed = output::number_or_nan(json.at("max_speed"));
+  s.min_J_P = output::number_or_nan(json.at("min_J_P"));
+  s.max_J_P = output::number_or_nan(json.at("max_J_P"));
+  frame.state_hash = std::stoull(json.at("state_hash").get<std::string>(), nullptr, 16);
+  // Runs of earlier versions have none.
+  if (!json.contains("spread")) return frame;
+  frame.metrics = {
+      output::number_or_nan(json.at("spread")), output::number_or_nan(json.at("height")),
+      output::number_or_nan(json.at("mean_J_P")), whole_number<std::size_t>(json.at("fragments")),
+      output::number_or_nan(json.at("largest_fragment"))};
+  if (!json.contains("max_depth")) return frame;
+  s.max_depth = output::number_or_nan(json.at("max_depth"));
+  frame.metrics.max_depth_cells = output::number_or_nan(json.at("max_depth_cells"));
+  if (!json.contains("forces")) return frame;
+  for (const Json& f : json.at("forces"))
+    frame.forces.push_back(
+        {f.at("collider").get<std::string>(), output::vector_of(f.at("force")),
+         output::vector_of(f.at("torque")),
+         f.contains("max_pressure") ? output::number_or_nan(f.at("max_pressure")) : std::nan("")});
+  return frame;
+}
+
+std::string channels_name(const std::string& view, int frame) {
+  return output::channels_path({}, view, frame).generic_string();
+}
+
+Json read_json(const std::filesystem::path& file) {
+  try {
+    return parse_json(output::read_file(file));
+  } catch (const UnreadableError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+Json read_run_json(const std::filesystem::path& folder) {
+  return read_json(output::run_json_path(folder));
+}
+
+Json earlier_exports(const std::filesystem::path& folder) {
+  const Json run = read_run_json(folder);
+  return run.is_object() ? run.value("exports", Json()) : Json();
+}
+
+std::vector<FrameRecord> frame_records(const Json& run) {
+  std::vector<FrameRecord> frames;
+  try {
+    for (const Json& frame : run.at("frames")) frames.push_back(frame_record(frame));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    frames.clear();
+  }
+  return frames;
+}
+
+FileHashes file_hashes(const Json& run) {
+  FileHashes files;
+  if (!run.is_object() || !run.contains("files") || !run["files"].is_object()) return files;
+  for (const auto& [file, hash] : run["files"].items())
+    if (hash.is_string()) files[file] = hash.get<std::string>();
+  return files;
+}
+
+bool is_untouched(Json run) {
+  if (!run.is_object()) return false;
+  if (!run.contains("hash")) return !run.contains("files");
+  const Json hash = run["hash"];
+  run.erase("hash");
+  return hash == hash_of(to_text(run));
+}
+
+std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder) {
+  return frame_records(read_run_json(folder));
+}
+
+Json to_json(const RunRecord& run) {
+  Json json;
+  json["version"] = version;
+  json["build"] = build_json();
+  json["scene"] = run.scene;
+  json["scene_file"] = run.scene_file;
+  json["overrides"] = run.overrides;
+  json["changes"] = scene::to_json(run.changes);
+  json["coarsen"] = run.coarsening;
+  if (!run.forked.is_null()) json["forked"] = run.forked;
+  json["views"] = run.views;
+  if (!run.passes.empty()) {
+    json["passes"] = run.passes;
+    json["views_of_passes"] = run.views_of_passes;
+  }
+  if (!run.exports.is_null()) json["exports"] = run.exports;
+  json["backend"] = run.backend;
+  json["gl_renderer"] = run.gl_renderer;
+  json["threads"] = run.threads;
+  json["simd"] = run.simd;
+  json["status"] = name(run.status);
+  if (!run.error.empty()) json["error"] = run.error;
+  json["frames"] = Json::array();
+  for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
+  if (run.frames_from_states > 0) json["frames_from_states"] = run.frames_from_states;
+  json["files"] = run.files;
+  json["warnings"] = run.warnings;
+  json["slowdown"] = run.slowdown ? Json(*run.slowdown) : Json();
+  if (!run.validation.empty()) json["validation"] = output::to_json(run.validation);
+  if (!run.retries.empty()) json["retries"] = Json::array();
+  for (const sim::Retry& retry : run.retries) json["retries"].push_back(output::to_json(retry));
+  if (run.divergence) {
+    json["divergence"] = output::to_json(*run.divergence);
+    json["divergence"]["cause"] = run.cause;
+  }
+  return json;
+}
+
+std::string with_own_hash(const Json& json) {
+  std::string text = to_text(json);
+  // Becomes the last entry: the text is long, and made once.
+  text.replace(text.size() - 2, 2, ",\n  \"hash\": \"" + hash_of(text) + "\"\n}\n");
+  return text;
+}
+
+void write_run_json(const std::filesystem::path& folder, const RunRecord& run) {
+  output::write_file(output::run_json_path(folder), with_own_hash(to_json(run)));
+}
+
+}  // namespace neve::app::record

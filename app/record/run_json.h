@@ -1,0 +1,134 @@
+#pragma once
+/// run.json: the record of a run so far, in names that scripts depend on.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/output/report_json.h"
+#include "app/record/metrics.h"
+#include "app/scene/live_change.h"
+#include "app/scene/scene.h"
+#include "app/support/json.h"
+#include "sim/checks/watch.h"
+#include "sim/retry.h"
+#include "sim/simulation.h"
+
+namespace neve::app::record {
+
+enum class RunStatus { running, ok, diverged, interrupted, failed };
+const char* name(RunStatus status);
+
+/// Snow presses on a collider: force and torque are means since the frame before.
+struct ColliderForce {
+  std::string collider;
+  sim::Vec3d force{0, 0, 0};   ///< N
+  sim::Vec3d torque{0, 0, 0};  ///< N m, about the point of the collider's shape
+  double max_pressure = 0;     ///< Pa, at the end, see sim::Summary
+};
+
+struct FrameRecord {
+  int frame = 0;
+  double time = 0;  ///< s, frame / fps
+  sim::AdvanceReport advance;
+  double seconds_sim = 0, seconds_render = 0;
+  sim::Summary summary;
+  std::uint64_t state_hash = 0;
+  Metrics metrics;
+  std::vector<ColliderForce> forces;  ///< of all colliders; empty where there was no step
+};
+
+/// Steps of the frame times its particles.
+double particle_steps(const FrameRecord& frame);
+
+Json to_json(const ColliderForce& force);
+
+/// Divides the impulses of a frame by its time.
+/// @param summary  of the frame's end @param colliders  of the scene
+std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance, const sim::Summary& summary,
+                                     const std::vector<scene::Collider>& colliders);
+
+/// Files of a run, by their path in its folder, with the hash of their bytes as hash_text.
+using FileHashes = std::map<std::string, std::string>;
+
+struct RunRecord {
+  std::string scene;  ///< resolved, TOML
+  std::string scene_file;
+  std::vector<std::string> overrides;
+  std::vector<scene::LiveChange> changes;  ///< made while it ran
+  double coarsening = 1;                   ///< factor of --coarsen
+  Json forked;                             ///< where it left another run; null: nowhere
+  std::vector<std::string> views;
+  std::vector<std::string> passes;           ///< of --passes
+  std::vector<std::string> views_of_passes;  ///< views that have them: all but mosaics
+  Json exports;  ///< of [[export]], see app/exports/exporter.h; null without
+  std::string backend, gl_renderer;
+  int threads = 0;
+  std::string simd;
+  RunStatus status = RunStatus::running;
+  std::string error;  ///< of a run that failed
+  std::vector<FrameRecord> frames;
+  int frames_from_states = 0;  ///< drawn from kept states, without a step
+  FileHashes files;  ///< pictures and movies; a picture that is just being written is not in it yet
+  std::vector<std::string> warnings;  ///< of the start and of the steps so far
+  /// Says that a frame took much longer than the first. No warning: the load of the machine must
+  /// not change a run.
+  std::optional<std::string> slowdown;
+  std::vector<sim::checks::WatchRecord> validation;  ///< of --validate; empty without it
+  std::vector<sim::Retry> retries;                   ///< times that it went back
+  std::optional<sim::Divergence> divergence;
+  std::string cause;  ///< of the divergence, see diagnosis.h
+};
+
+/// 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
+/// The same of a text.
+std::string hash_of(const std::string& text);
+
+Json to_json(const FrameRecord& frame);
+/// Reads the output of to_json; the rest of advance and summary has its defaults.
+/// @throws nlohmann::json::exception
+FrameRecord frame_record(const Json& json);
+
+/// In the order of frames; in the place of an earlier record of the same frame.
+void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame);
+
+/// "particles/0003.png"
+std::string picture_name(const std::string& view, int frame);
+/// "particles/0003.exr"
+std::string channels_name(const std::string& view, int frame);
+
+/// Null where there is no such file or it cannot be read.
+Json read_json(const std::filesystem::path& file);
+
+/// DIR/run.json; null where there is no such file or it cannot be read.
+Json read_run_json(const std::filesystem::path& folder);
+
+/// The exports that DIR/run.json lists; null where there are none.
+Json earlier_exports(const std::filesystem::path& folder);
+
+/// The frames that it lists; none where they cannot be read.
+std::vector<FrameRecord> frame_records(const Json& run);
+
+/// The files that it lists; none where they cannot be read.
+FileHashes file_hashes(const Json& run);
+
+/// JSON as text, with a last entry `hash`, the hash of the rest.
+std::string with_own_hash(const Json& json);
+
+/// Whether run.json is as write_run_json wrote it: its `hash` is the one of with_own_hash().
+/// Those of earlier versions have none and pass.
+bool is_untouched(Json run);
+
+/// The frames that DIR/run.json lists.
+std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder);
+
+Json to_json(const RunRecord& run);
+
+/// @throws IoError
+void write_run_json(const std::filesystem::path& folder, const RunRecord& run);
+
+}  // namespace neve::app::record

@@ -1,0 +1,54 @@
+#pragma once
+/// Whether the folder of a run is whole: every file that the run says it wrote is there, as it was.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/record/run_json.h"
+
+namespace neve::app::record {
+
+/// A file that is not as the run wrote it.
+struct Flaw {
+  std::string file;  ///< in the folder of the run
+  std::string what;  ///< "is missing", "is empty", "is not the file that the run wrote"
+};
+
+/// Pictures of a run that can be checked, in the words of run.json.
+struct Pictures {
+  std::vector<std::string> views;
+  std::vector<std::string> views_of_passes;
+  std::vector<FrameRecord> frames;
+  FileHashes files;
+};
+
+/// Frames from `first` to `last` with pictures that are missing or damaged, and other frames in
+/// `pictures` that are. A picture without a hash is held to the state hash inside it.
+std::vector<Flaw> picture_flaws(const std::filesystem::path& folder, const Pictures& pictures,
+                                int first, int last, std::vector<int>& flawed_frames);
+
+/// The same for the files of exports, up to a frame.
+std::vector<Flaw> export_flaws(const std::filesystem::path& folder, const Json& exports,
+                               const FileHashes& files, int last, std::vector<int>& flawed_frames);
+
+struct Verification {
+  std::string status;     ///< of run.json: "ok", "running"; "" where it cannot be read
+  int last_frame = -1;    ///< that is listed; -1: none
+  std::size_t files = 0;  ///< that were checked
+  std::vector<Flaw> flaws;
+};
+
+/// Reads run.json and all files that it lists, and those of `neve export` of this run.
+Verification verify_run(const std::filesystem::path& folder);
+
+/// Reads export.json and all files that it lists; nothing where the folder has none.
+/// @param below  put in front of names: "exports/"
+std::optional<Verification> verify_export(const std::filesystem::path& folder,
+                                          const std::string& below = "");
+
+/// "particles/0003.png is missing, particles/0004.png is empty and 12 more"
+std::string flaw_text(const std::vector<Flaw>& flaws);
+
+}  // namespace neve::app::record

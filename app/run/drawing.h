@@ -1,0 +1,73 @@
+#pragma once
+/// The pictures of a run: views and mosaics with plate, shutter and channels.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/health/diagnosis.h"
+#include "app/output/picture_writer.h"
+#include "app/picture/frame_builder.h"
+#include "app/run/passes.h"
+#include "app/run/render_job.h"
+#include "app/timeline/timeline.h"
+#include "render/renderer.h"
+
+namespace neve::app::run {
+
+class Drawing {
+ public:
+  /// @param job, seeded, renderer  outlive it
+  /// @param record  of all pictures, see picture_record()
+  Drawing(const RenderJob& job, const setup::SeededScene& seeded, render::Renderer& renderer,
+          record::PictureRecord record);
+
+  /// Views that are drawn by themselves.
+  std::vector<std::string> views() const;
+
+  /// Reads the state at the end of a frame: the run may move on while it is drawn.
+  picture::Snapshot read(const timeline::Timeline& timeline, std::uint64_t state_hash);
+  /// That was read.
+  const scene::Scene& scene() const { return scene_; }
+
+  struct Files {
+    std::vector<output::Picture> pictures;  ///< of views, then of mosaics
+    std::vector<output::WriteTask> channels;
+  };
+  Files draw(const picture::Snapshot& snapshot);
+
+  /// The state that broke a rule, with the culprits marked, and the slice through them; pictures,
+  /// but no frames.
+  std::vector<output::Picture> draw_incident(const timeline::Timeline& timeline,
+                                             const sim::Divergence& divergence,
+                                             const health::Diagnosis& diagnosis);
+
+ private:
+  picture::Snapshot take(const timeline::Timeline& timeline, const std::vector<scene::View>& views,
+                         int frame, std::uint64_t state_hash);
+  std::vector<scene::View> views_to_read() const;
+  bool is_alone(const scene::View& view) const;
+  /// Frames while the shutter is open; none without motion blur.
+  std::vector<render::Frame> shutter_frames(const scene::View& view, const render::Frame& frame,
+                                            const picture::Snapshot& snapshot) const;
+  /// The mean of the moments, or the frame where there are none.
+  render::Image draw_mean(const render::Frame& frame, const std::vector<render::Frame>& moments,
+                          const std::optional<render::Image>& plate);
+  output::WriteTask draw_channels(const picture::MotionSource& source, const render::Frame& frame,
+                                  const std::vector<render::Frame>& moments);
+  record::PictureRecord record_of(const std::string& view) const;
+  output::Picture picture_of(const std::string& view, render::Image image) const;
+
+  const RenderJob& job_;
+  const setup::SeededScene& seeded_;
+  render::Renderer& renderer_;
+  record::PictureRecord record_;
+  scene::Scene scene_;  ///< the job's with the changes made so far
+  picture::FrameBuilder builder_;
+  std::optional<PassReader> passes_;          ///< of --passes
+  std::vector<picture::PlotSample> history_;  ///< of the snapshot that was read
+  std::vector<render::channels::PointNumbers> pass_numbers_;
+};
+
+}  // namespace neve::app::run

@@ -1,0 +1,26 @@
+#pragma once
+/// What must be equal for two runs to be one: to resume, or to take states that were kept.
+
+#include <string>
+
+#include "app/run/render_job.h"
+
+namespace neve::app::run {
+
+/// The parts of a scene that states depend on, as text: all of it but its views, cameras, colours
+/// and light, its exports, and its length.
+std::string simulation_text(const scene::Scene& scene);
+
+/// Version, sources, and the files that a scene names.
+std::string surroundings_of(const scene::Scene& scene);
+
+/// Of all that bits of states depend on. @param simd  of the simulation
+std::string identity_of_states(const RenderJob& job, const std::string& simd);
+
+/// Of all that bits of states and pictures depend on, but the machine.
+std::string identity_of(record::PictureRecord picture);
+
+/// Bytes of a particle on disk in single precision, about.
+inline constexpr double state_bytes_per_particle = 160;
+
+}  // namespace neve::app::run

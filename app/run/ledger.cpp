@@ -1,0 +1,183 @@
+#include "app/run/ledger.h"
+
+#include <algorithm>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include "app/output/atomic_file.h"
+#include "app/output/checkpoint.h"
+#include "app/output/file_hash.h"
+#include "app/output/movie.h"
+#include "app/output/sequence.h"
+#include "app/output/temporary.h"
+#include "app/support/errors.h"
+
+namespace neve::app::run {
+
+namespace {
+
+bool has_alpha(const scene::Scene& scene, const std::string& name) {
+  return std::any_of(scene.views.begin(), scene.views.end(), [&](const scene::View& view) {
+    return view.name == name && scene::background_of(scene, view) == scene::Background::transparent;
+  });
+}
+
+}  // namespace
+
+Ledger::Ledger(const RenderJob& job, const setup::SeededScene& seeded, record::RunRecord record,
+               Progress& progress)
+    : job_(job),
+      progress_(progress),
+      record_(std::move(record)),
+      exporter_(job.scene, job.folder / output::exports_folder, seeded.body_end) {}
+
+void Ledger::replace_earlier() {
+  exports::remove_earlier_exports(job_.folder, record::earlier_exports(job_.folder));
+  output::remove_earlier_run(job_.folder);
+  output::remove_checkpoints(job_.folder);
+}
+
+void Ledger::take(const timeline::Moment& moment) {
+  record_.frames = moment.made.frames;
+  record_.files = moment.made.files;
+  try {
+    exporter_.resume(moment.made.exports, moment.frame);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    timeline::refuse_moment(moment.file, error);
+  }
+  note_exports();
+}
+
+void Ledger::open() {
+  for (const std::string& view : record_.views) {
+    output::make_folder(job_.folder / view);
+    output::remove_abandoned(job_.folder / view);
+  }
+  write();
+}
+
+void Ledger::note_written() {
+  for (const output::WrittenFile& file : writer_.take_written()) note_file(file);
+}
+
+void Ledger::note_file(const output::WrittenFile& file) {
+  record_.files[file.file.lexically_relative(job_.folder).generic_string()] =
+      record::hash_text(file.hash);
+  unsynced_.insert(file.file);
+}
+
+void Ledger::note_exports() {
+  if (!job_.scene.exports.empty())
+    record_.exports = exporter_.to_json(std::string(output::exports_folder) + "/");
+}
+
+std::vector<exports::Exporter::Work> Ledger::read_exports(const timeline::Timeline& timeline) {
+  const int frame = timeline.here().frame;
+  if (!exporter_.is_due(frame)) return {};
+  std::vector<exports::Exporter::Work> work =
+      exporter_.add(timeline.scene().colliders, timeline.simulation(), frame, true);
+  note_exports();
+  return work;
+}
+
+/// Listed first and written then: whenever the process is killed, the next run knows every picture
+/// that it has to remove. The hash follows when it is written.
+void Ledger::add(const record::FrameRecord& frame, Drawing::Files drawn,
+                 std::vector<exports::Exporter::Work> exports) {
+  record::add_frame(record_.frames, frame);
+  note_written();
+  for (const std::string& view : record_.views)
+    record_.files.erase(record::picture_name(view, frame.frame));
+  for (const std::string& view : record_.views_of_passes)
+    record_.files.erase(record::channels_name(view, frame.frame));
+  write();
+  for (output::Picture& picture : drawn.pictures) writer_.write(std::move(picture));
+  for (output::WriteTask& file : drawn.channels) writer_.write(std::move(file));
+  for (exports::Exporter::Work& file : exports) writer_.write(std::move(file));
+}
+
+void Ledger::bring_to_disk() {
+  writer_.finish();
+  note_written();
+  write();
+  unsynced_.insert(output::run_json_path(job_.folder));
+  output::sync_files({unsynced_.begin(), unsynced_.end()});
+  unsynced_.clear();
+}
+
+std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
+  writer_.finish();
+  note_written();
+  std::vector<std::filesystem::path> movies;
+  // One picture is no movie.
+  if (job_.has_movies() && record_.frames.size() > 1)
+    for (const std::string& view : record_.views) write_movie(view, movies);
+  for (const output::WrittenFile& file : exporter_.finish()) note_file(file);
+  record_.status = status;
+  bring_to_disk();
+  return movies;
+}
+
+void Ledger::write_movie(const std::string& view, std::vector<std::filesystem::path>& movies) {
+  const output::MovieRequest request{
+      job_.folder / view,
+      output::movie_path(job_.folder, view, job_.options.movie.format),
+      record_.frames.front().frame,
+      record_.frames.back().frame,
+      job_.scene.fps,
+      job_.plate.empty() && has_alpha(job_.scene, view),
+      0,
+      job_.options.movie};
+  const output::MovieResult movie = output::write_movie(request);
+  const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
+  switch (movie.outcome) {
+    case output::MovieOutcome::written:
+      movies.push_back(request.file);
+      record_.files[request.file.filename().string()] =
+          record::hash_text(output::hash_file(request.file));
+      return;
+    case output::MovieOutcome::no_ffmpeg:
+      if (view == record_.views.front())
+        progress_.note("no movie: ffmpeg is not installed; the pictures are in " +
+                       job_.folder.string());
+      return;
+    case output::MovieOutcome::failed:
+      record_.warnings.push_back(failure);
+      progress_.warning(failure);
+      return;
+    case output::MovieOutcome::unwritable:
+      record_.warnings.push_back(failure);
+      throw IoError(failure, request.file.string(),
+                    "the pictures are whole; --resume makes the movie when there is room");
+  }
+}
+
+void Ledger::fail(const std::string& error) {
+  record_.status = record::RunStatus::failed;
+  record_.error = error;
+  note_written();
+  forget_unwritten_frames();
+  try {
+    write();
+  } catch (const IoError&) {
+    // The first error is the one to report; the disk may be full for this file too.
+  }
+}
+
+void Ledger::forget_unwritten_frames() {
+  std::erase_if(record_.frames, [&](const record::FrameRecord& frame) {
+    std::error_code error;
+    for (const std::string& view : record_.views)
+      if (!std::filesystem::exists(output::frame_path(job_.folder, view, frame.frame), error))
+        return true;
+    for (const std::string& view : record_.views_of_passes)
+      if (!std::filesystem::exists(output::channels_path(job_.folder, view, frame.frame), error))
+        return true;
+    return false;
+  });
+}
+
+}  // namespace neve::app::run

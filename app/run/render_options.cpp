@@ -1,0 +1,126 @@
+#include "app/run/render_options.h"
+
+#include <filesystem>
+
+#include "app/options/common.h"
+#include "app/options/languages.h"
+#include "app/run/passes.h"
+#include "app/support/errors.h"
+
+namespace neve::app::run {
+
+namespace {
+
+options::Language<double> mean() {
+  return options::number<double>("MEAN", 0, 255, "a number from 0 to 255");
+}
+
+void describe_reference(options::Command& visit, RenderOptions& o) {
+  visit("--reference", o.reference, options::text("PNG"),
+        "Compare the last frame of the first view with this picture; if it differs, write "
+        "DIR/difference.png and exit with 9");
+  visit("--reference-threshold", o.reference_threshold, mean(),
+        "Largest mean difference allowed, 0 to 255")
+      .with_default();
+  visit("--reference-local-threshold", o.reference_local_threshold, mean(),
+        "Largest mean difference allowed in any 8x8 block; catches small local changes")
+      .with_default();
+}
+
+void describe_movies(options::Command& visit, RenderOptions& o) {
+  visit.sets("--no-movie", o.has_movies, false,
+             "Write pictures only, no movie; the same as --movie none");
+  options::describe_movie(visit, o.movie);
+  visit.check([&o] {
+    if (!o.has_movies && o.movie.has_format && o.movie.is_made)
+      throw UsageError("--movie", "cannot be combined with --no-movie", "give one of the two");
+  });
+}
+
+void describe_pictures(options::Command& visit, RenderOptions& o) {
+  visit("--view", o.views, options::text("NAME"), "Draw only this view (repeatable)");
+  visit("--size", o.size, options::size(), "Picture size of all views");
+  visit("--out", o.out, options::folder("particles/0000.png"),
+        "Output folder instead of out/<scene name>");
+  options::describe_backend(visit, o.backend);
+  visit("--quality", o.quality,
+        options::language("NAME", "final", setup::quality_named,
+                          [](setup::Quality quality) { return setup::name(quality); }),
+        "draft: half the width and height; preview: as in the scene (default); final: four samples "
+        "per pixel and motion blur");
+  visit("--plate", o.plate, options::text("PNG"),
+        "Picture behind the snow: a PNG, or one for each frame as in street/%04d.png; the ground "
+        "only takes shadows");
+  visit("--shutter", o.shutter,
+        options::number<double>(
+            "DEGREES", 0, 360,
+            "0 (no motion blur) to 360 (the whole frame) degrees without a unit, as in "
+            "--shutter 180"),
+        "Motion blur: degrees of 360 that the shutter is open in each frame; 0: none. Default: 180 "
+        "with --quality final, otherwise 0");
+  visit("--passes", o.passes,
+        options::language("LIST", "depth,normal", parse_passes,
+                          [](const std::vector<std::string>& names) { return joined(names, ","); }),
+        "Write DIR/<view>/NNNN.exr too, for compositing: linear light, and these passes: all, or a "
+        "list of depth, position, normal, albedo, direct, indirect, emission, shadow, motion, id, "
+        "body, collider and attributes, as in J_P,v");
+}
+
+}  // namespace
+
+void describe_scene(options::Command& visit, RenderOptions& o, const char* help) {
+  visit("SCENE", o.scene, options::scene_file(), help);
+  visit("--set", o.overrides, options::text("ADDRESS=VALUE", "material.snow.hardening=5"),
+        "Change a parameter, as in material.snow.hardening=5 (repeatable; neve params lists "
+        "addresses)");
+  visit("--coarsen", o.coarsening, options::coarsening(),
+        "Make cells N times as large, for previews: 1/N^3 of the particles and longer steps, about "
+        "N^4 times cheaper");
+  visit("--fast", o.is_fast,
+        "Take longer steps for a quick look, by settings that are recorded as --set is; neve check "
+        "says what they gain");
+  options::describe_threads(visit, o.threads);
+  options::describe_caps(visit, o.caps);
+}
+
+void describe(options::Command& visit, RenderOptions& o) {
+  visit.about("render", "Simulate a scene and draw its frames");
+  describe_scene(visit, o);
+  visit("--frames", o.frames, options::frames(), "Frames to draw: A-B, or N for 0-N");
+  visit("--from", o.from, options::time(),
+        "Fork the run of SCENE, a picture or the folder of a run, at a time: --set then changes "
+        "parameters there, and frames after it are drawn");
+  describe_pictures(visit, o);
+  describe_reference(visit, o);
+  visit("--validate", o.validate,
+        "Check the laws of the method in the first steps and every 256th; warn if one is broken, "
+        "exit with 9 if the error is large");
+  visit("--resume", o.resume,
+        "Continue the run in the output folder from its last checkpoint, bit for bit; a finished "
+        "run continues with more --frames");
+  visit("--checkpoint-every", o.checkpoint_every,
+        options::number<int>("FRAMES", 0, 1000000, "a whole number of frames, or 0 for none"),
+        "Frames between checkpoints in DIR/checkpoint; 0: none")
+      .with_default();
+  visit("--keep-states", o.keeps_states,
+        "Keep the state of each drawn frame in DIR/states: the same run in the same folder is then "
+        "drawn with other views, sizes, colours or cameras without simulating; about 160 bytes a "
+        "particle and frame");
+  describe_movies(visit, o);
+  visit.sets("--no-caption", o.has_caption, false,
+             "Omit the words over the pictures: for films; the layers counter and slate stay");
+  visit("--shader-dir", o.shader_dir, options::existing_folder("the files of shaders/"),
+        "Read shaders from this folder");
+  visit("--dry-run", o.dry_run, "Print particles, memory, pixels and frames, without a run");
+  visit("--json", o.is_json, options::json_help);
+  options::describe_progress(visit, o.progress);
+  options::describe_verbosity(visit, o.verbosity, "Print more about each frame");
+  visit.check([&o] {
+    std::error_code error;
+    if (o.from && !o.scene.empty() && !std::filesystem::exists(o.scene, error))
+      throw UsageError("--from", "no file or folder " + o.scene,
+                       "expected a scene, the folder of a run, or a picture made by neve");
+  });
+}
+
+}  // namespace neve::app::run

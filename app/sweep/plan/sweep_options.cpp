@@ -1,0 +1,166 @@
+#include "app/sweep/plan/sweep_options.h"
+
+#include "app/options/common.h"
+#include "app/options/languages.h"
+#include "app/scene/toml/value.h"
+#include "app/support/errors.h"
+#include "app/sweep/read/sweep_leaf.h"
+#include "app/timeline/origin.h"
+
+namespace neve::app::sweep::plan {
+
+namespace {
+
+options::Language<double> budget() {
+  return {"TIME", "1h30m",
+          [](const std::string& flag, const std::string& text) {
+            const std::optional<double> seconds = read::seconds_of(text);
+            if (!seconds || !(*seconds > 0))
+              throw UsageError(flag, "cannot use \"" + text + "\"",
+                               "expected a time as in 90s, 20m or 1h30m");
+            return *seconds;
+          },
+          [](const double& seconds) { return scene::toml::number_text(seconds) + "s"; }};
+}
+
+void check_engine(const std::string& flag, const std::string& name) {
+  if (name != "local" && name != "slurm")
+    throw UsageError(flag, "unknown engine \"" + name + "\"",
+                     "expected local or slurm; --shard and --emit work with any scheduler");
+}
+
+void describe_retry(options::Command& visit, std::string& states, const char* help) {
+  visit("--retry-failed", states, options::text("STATES", "timeout,crashed"), help).or_alone("all");
+}
+
+void describe_runs(options::Command& visit, SweepOptions& o) {
+  visit("FILE", o.file, options::scene_file(),
+        "A sweep file (TOML with a table [sweep]), or a scene and -p; with --from the folder of a "
+        "run, or a picture");
+  visit("-p,--parameter", o.axes, options::text("ADDRESS=LIST", "material.snow.hardening=5,10,20"),
+        "Vary a parameter, as in material.snow.hardening=5,10,20 or solver.cell_size={ logspace = "
+        "[0.01, 0.04], num = 3 } (repeatable: all combinations)");
+  visit("--set", o.overrides, options::text("ADDRESS=VALUE", "material.snow.hardening=5"),
+        "Change a parameter of all runs (repeatable)");
+  visit("--frames", o.frames, options::frames(),
+        "Frames of each run: A-B, or N for 0-N; overrides the file");
+  visit("--fork", o.fork, options::time(),
+        "Fork all runs at a time, as in 0.8s: simulate the common start once, then change live "
+        "parameters in each");
+  visit("--from", o.from, options::time(),
+        "Fork all runs at a time from the run in FILE, the folder of a run or a picture: they "
+        "start with its state there, and -p and --set change it");
+  visit("--keep-states", o.keeps_states,
+        "Keep the state of each drawn frame: tiles of another size, view, colour or camera are "
+        "then drawn without simulating; --dry-run says what that takes");
+  visit("--size", o.size, options::size(), "Size of a tile; default: 480 pixels wide");
+  visit("--coarsen", o.coarsening, options::coarsening(),
+        "Make cells N times as large in all runs");
+  visit("--fast", o.is_fast,
+        "Take longer steps in all runs for a quick look, by settings that are recorded as --set "
+        "is");
+  options::describe_movie(visit, o.movie);
+  visit("--out", o.out, options::folder("sheet.png"),
+        "Output folder instead of out/<name of the file>.cdb");
+}
+
+/// The runs that are chosen, and the machines that make them.
+void describe_places(options::Command& visit, SweepOptions& o) {
+  visit("--only", o.only, options::text("LIST", "3,7-12"), "Make only these runs, as in 3,7-12");
+  visit("--budget", o.budget, budget(),
+        "Stop after this time, as in 20m or 1h30m; the same command continues. A run that by the "
+        "forecast would not end before is not started");
+  visit("--shard", o.shard, options::language("I/N", "2/8", parse_shard, shard_text),
+        "Make only the I-th of N shares, each on a machine of its own that shares the output "
+        "folder");
+  visit("--engine", o.engine, options::text("NAME", "slurm", check_engine),
+        "local: run on this machine; slurm: submit a job array and wait for it (Ctrl-C cancels it)")
+      .with_default();
+  visit("--sbatch", o.sbatch, options::text("OPTION", "--partition=long"),
+        "Pass a further option to sbatch, as in --sbatch=--partition=long (repeatable; with "
+        "--engine slurm)");
+  visit("--emit", o.emit, options::text("FILE"),
+        "Write the command of each run to a file, one a line, for GNU parallel and render farms; "
+        "start nothing");
+}
+
+void check_places(const SweepOptions& o) {
+  if (o.budget > 0 && (o.engine == "slurm" || !o.emit.empty()))
+    throw UsageError("--budget", "runs of other schedulers end when these end them",
+                     "remove --budget, or limit each run with [limits] timeout in the sweep file");
+  if (!o.sbatch.empty() && o.engine != "slurm")
+    throw UsageError("--sbatch", "works only with --engine slurm",
+                     "add --engine slurm, or remove --sbatch");
+}
+
+/// The end of the list, for commands that work on an existing sweep.
+template <class Options>
+void describe_folder(options::Command& visit, Options& o) {
+  visit("DIR", o.folder, options::text(""), "Output folder of a sweep").required();
+  options::describe_threads(visit, o.threads);
+  options::describe_backend(visit, o.backend);
+  visit("--json", o.is_json, options::json_help);
+  options::describe_progress(visit, o.progress);
+  options::describe_verbosity(visit, o.verbosity);
+}
+
+}  // namespace
+
+void describe(options::Command& visit, SweepOptions& o) {
+  visit.about(
+      "sweep",
+      "Run a scene with many parameter values, and make a labelled contact sheet of the results");
+  describe_runs(visit, o);
+  options::describe_threads(visit, o.threads, "Number of cores; 0: all");
+  visit(
+      "--jobs", o.jobs,
+      options::number<int>("N", 0, 1024,
+                           "a whole number from 0 (as many as keep the cores busy, the default) to "
+                           "1024"),
+      "Number of simultaneous runs; default: as many as keep the cores busy and fit into memory");
+  options::describe_backend(visit, o.backend);
+  describe_retry(visit, o.retry_failed,
+                 "Repeat the runs that failed, timed out, crashed or took too much memory, or only "
+                 "those in some states, as in --retry-failed=timeout,crashed");
+  options::describe_caps(visit, o.caps);
+  visit("--dry-run", o.is_dry_run, "Print the runs, their cost and memory; start nothing");
+  visit("--json", o.is_json, options::json_help);
+  options::describe_progress(visit, o.progress);
+  options::describe_verbosity(visit, o.verbosity, "Print a line for each run");
+  describe_places(visit, o);
+  visit.check([&o] {
+    if (o.file.empty())
+      throw UsageError("sweep", "which sweep?",
+                       "give a sweep file, or a scene and -p ADDRESS=LIST");
+    if (!o.from && timeline::is_folder(o.file))
+      throw UsageError("sweep", o.file + " is a folder, not a scene",
+                       "to vary its run from a time on, add --from TIME");
+    check_places(o);
+  });
+}
+
+void describe(options::Command& visit, SweepRunOptions& o) {
+  visit.about("sweep run", "Make one run of an existing sweep; --emit and --engine slurm use this");
+  visit("--index", o.index, options::number<int>("N", 0, 1e9, "the number of a run, from 0"),
+        "Number of the run");
+  visit("--beginning", o.is_beginning,
+        "Make the common beginning of a sweep with --fork, instead of a run")
+      .excludes({"--index"}, "give one of the two");
+  describe_retry(visit, o.retry_failed,
+                 "Repeat the run if it failed before, or ended in one of these states, as in "
+                 "--retry-failed=timeout,crashed");
+  options::describe_caps(visit, o.caps);
+  describe_folder(visit, o);
+  visit.check([&o] {
+    if (!o.index && !o.is_beginning)
+      throw UsageError("sweep run", "which run?", "give --index N, or --beginning");
+  });
+}
+
+void describe(options::Command& visit, CollectOptions& o) {
+  visit.about("sweep collect", "Make table, sheets and report from the finished runs of a sweep");
+  options::describe_movie(visit, o.movie);
+  describe_folder(visit, o);
+}
+
+}  // namespace neve::app::sweep::plan

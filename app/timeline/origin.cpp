@@ -1,0 +1,153 @@
+#include "app/timeline/origin.h"
+
+#include <system_error>
+
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/override.h"
+#include "app/scene/read.h"
+#include "app/scene/scene_file.h"
+#include "app/support/errors.h"
+#include "app/support/machine.h"
+
+namespace neve::app::timeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads the scene with the edits, and with those of --fast where it was given.
+/// @param read  scene(overrides)
+template <class Read>
+void read_scene(const Edits& edits, const Read& read, Origin& origin) {
+  origin.overrides.insert(origin.overrides.end(), edits.overrides.begin(), edits.overrides.end());
+  std::vector<scene::Override> changes = scene::parse_overrides(edits.overrides);
+  origin.scene = read(changes);
+  if (edits.is_fast) {
+    scene::Scene coarse = origin.scene;
+    if (edits.coarsening) scene::coarsen(coarse, *edits.coarsening);
+    const int last = edits.last_frame.value_or(origin.scene.frames);
+    origin.fast = forecast::fast_look(coarse, last, scene::addresses_of(changes));
+    for (const std::string& change : origin.fast->overrides) {
+      changes.push_back(scene::parse_override(change));
+      origin.overrides.push_back(change);
+    }
+    origin.scene = read(changes);
+  }
+  if (!edits.coarsening) return;
+  scene::coarsen(origin.scene, *edits.coarsening);
+  origin.coarsening *= *edits.coarsening;
+}
+
+void read_scene_file(const Edits& edits, Origin& origin) {
+  read_scene(
+      edits,
+      [&](const std::vector<scene::Override>& changes) {
+        return scene::read_scene_file(origin.scene_file, changes);
+      },
+      origin);
+  origin.frames = {0, origin.scene.frames};
+}
+
+/// The frame and the scene inside a picture.
+void read_picture(const Edits& edits, Origin& origin) {
+  record::PictureRecord record = record::read_picture_record(origin.scene_file);
+  record::check_files(record);
+  origin.overrides = record.overrides;
+  origin.changes = record.changes;
+  origin.coarsening = record.coarsening;
+  origin.frames = {record.frame, record.frame};
+  read_scene(
+      edits,
+      [&](const std::vector<scene::Override>& changes) {
+        return scene::read_scene_text(record.scene, origin.scene_file + " (its scene)", {},
+                                      changes);
+      },
+      origin);
+  origin.picture = std::move(record);
+}
+
+void read_run(const Edits& edits, Origin& origin) {
+  if (!edits.overrides.empty() || edits.coarsening || edits.is_fast)
+    throw UsageError(!edits.overrides.empty() ? "--set"
+                     : edits.coarsening       ? "--coarsen"
+                                              : "--fast",
+                     "a run has the scene it was made from",
+                     "give the scene file instead of the folder to write another run");
+  origin.run = origin.scene_file;
+  const fs::path file = output::run_json_path(origin.run);
+  try {
+    const Json run = parse_json(output::read_file(file));
+    origin.scene =
+        scene::read_scene_text(run.at("scene").get<std::string>(), file.string() + " (its scene)");
+    origin.changes = scene::live_changes(run.value("changes", Json::array()));
+    origin.overrides = run.value("overrides", std::vector<std::string>{});
+    origin.coarsening = run.value("coarsen", 1.0);
+    origin.run_frames = record::frame_records(run);
+  } catch (const nlohmann::json::exception&) {
+    throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
+                file.string());
+  }
+  origin.frames = {0, origin.scene.frames};
+}
+
+}  // namespace
+
+bool is_folder(const std::string& path) {
+  std::error_code error;
+  return !path.empty() && fs::is_directory(path, error);
+}
+
+Origin Origin::of(const std::string& named, const Edits& edits) {
+  Origin origin;
+  origin.scene_file = named.empty() ? default_scene().string() : named;
+  std::error_code error;
+  if (is_folder(named) && fs::exists(output::run_json_path(named), error))
+    read_run(edits, origin);
+  else if (!named.empty() && record::is_picture(named))
+    read_picture(edits, origin);
+  else
+    read_scene_file(edits, origin);
+  return origin;
+}
+
+std::string Origin::name() const {
+  const bool ends_in_slash = !fs::path(scene_file).has_filename();
+  return scene::name_of_scene(ends_in_slash ? fs::path(scene_file).parent_path().string()
+                                            : scene_file);
+}
+
+void write_origin(const fs::path& folder, record::RunRecord run, Moment moment) {
+  run.status = record::RunStatus::ok;
+  run.retries = moment.retries;
+  const std::string identity = record::hash_of(run.scene + to_text(scene::to_json(run.changes)));
+  output::make_folder(folder);
+  output::remove_checkpoints(folder);
+  output::write_checkpoint(folder, to_checkpoint(std::move(moment), identity, run.simd));
+  record::write_run_json(folder, run);
+}
+
+Timeline open(const Origin& origin, int threads, Progress& progress) {
+  return open(origin, std::make_shared<const setup::SeededScene>(setup::seed_scene(origin.scene)),
+              threads, progress);
+}
+
+Timeline open(const Origin& origin, std::shared_ptr<const setup::SeededScene> seeded, int threads,
+              Progress& progress) {
+  Moments moments;
+  if (!origin.run.empty()) moments.add_run(origin.run);
+  return Timeline(origin.scene, origin.changes, std::move(seeded), threads, std::move(moments),
+                  watched_by(progress, origin.scene.fps));
+}
+
+void compare_with_run(const Origin& origin, int frame, std::uint64_t hash, Progress& progress) {
+  for (const record::FrameRecord& record : origin.run_frames)
+    if (record.frame == frame && record.state_hash != hash)
+      progress.warning("frame " + std::to_string(frame) + " has another state than the run in " +
+                       origin.run.string() +
+                       ": its bits came from another version or other instructions, or files that "
+                       "the scene names have changed");
+}
+
+}  // namespace neve::app::timeline

@@ -1,0 +1,65 @@
+#pragma once
+/// What a command begins with: a scene, a picture, or the folder of a run.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/forecast/fast.h"
+#include "app/record/picture_record.h"
+#include "app/record/run_json.h"
+#include "app/scene/scene.h"
+#include "app/setup/plan.h"
+#include "app/support/progress.h"
+#include "app/timeline/timeline.h"
+
+namespace neve::app::timeline {
+
+/// Edits of the command line to a scene.
+struct Edits {
+  std::vector<std::string> overrides;
+  std::optional<double> coarsening{};
+  bool is_fast = false;             ///< with the settings of forecast::fast_look
+  std::optional<int> last_frame{};  ///< that is wanted, for that look
+};
+
+struct Origin {
+  scene::Scene scene;      ///< of the start; cameras and ranges of a scene file not yet resolved
+  std::string scene_file;  ///< as named by the user: a scene, a picture or a folder
+  std::vector<std::string> overrides;            ///< for the caption; those of a picture come first
+  std::optional<forecast::FastLook> fast;        ///< of Edits::is_fast; overrides has its settings
+  std::vector<scene::LiveChange> changes;        ///< made while the run ran
+  double coarsening = 1;                         ///< done to the scene, a picture's included
+  setup::FrameRange frames;                      ///< that it shows: of a picture one
+  std::optional<record::PictureRecord> picture;  ///< the origin is this picture
+  std::filesystem::path run;                     ///< the origin is the run in this folder
+  std::vector<record::FrameRecord> run_frames;   ///< that the run lists
+
+  /// @param named  a scene file, a picture made by neve, the folder of a run; empty: the default
+  /// @throws SceneError, UsageError, IoError, Error
+  static Origin of(const std::string& named, const Edits& edits);
+
+  /// "snowball_drop" for scenes/snowball_drop.toml and out/snowball_drop.
+  std::string name() const;
+};
+
+/// True for the path of a folder that exists.
+bool is_folder(const std::string& path);
+
+/// Makes a moment the folder of a run, for Origin::of: run.json with the scene and the changes so
+/// far, and one checkpoint. Checkpoints that the folder had are removed. @throws IoError
+void write_origin(const std::filesystem::path& folder, record::RunRecord run, Moment moment);
+
+/// The run of an origin, with the moments that are kept of it, and its snow in a simulation.
+/// @throws IoError, sim::ShapeError
+Timeline open(const Origin& origin, int threads, Progress& progress);
+/// The same with its snow at hand.
+Timeline open(const Origin& origin, std::shared_ptr<const setup::SeededScene> seeded, int threads,
+              Progress& progress);
+
+/// Warns where the run of an origin lists a frame with another state than the same frame made now.
+void compare_with_run(const Origin& origin, int frame, std::uint64_t hash, Progress& progress);
+
+}  // namespace neve::app::timeline

@@ -1,0 +1,250 @@
+#include "app/timeline/timeline.h"
+
+#include <limits>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "app/scene/flat.h"
+#include "app/scene/toml/value.h"
+#include "app/setup/resolve.h"
+#include "app/support/interrupt.h"
+#include "app/timeline/changes.h"
+#include "app/timeline/times.h"
+
+namespace neve::app::timeline {
+
+namespace {
+
+constexpr std::size_t no_step = std::numeric_limits<std::size_t>::max();
+
+}  // namespace
+
+Watch watched_by(Progress& progress, double fps) {
+  Watch watch;
+  watch.after_step = [&progress] {
+    progress.step();
+    return is_interrupted();
+  };
+  watch.after_frame = [&progress, fps](int frame) { progress.frame(frame, frame / fps); };
+  watch.after_jump = [&progress, is_told = false](int frame) mutable {
+    if (!is_told) progress.note("continues from the checkpoint of frame " + std::to_string(frame));
+    is_told = true;
+  };
+  return watch;
+}
+
+Timeline::Timeline(const scene::Scene& start, std::vector<scene::LiveChange> changes,
+                   std::shared_ptr<const setup::SeededScene> seeded, int threads, Moments moments,
+                   Watch watch)
+    : start_(start),
+      changes_(changes_of(start, std::move(changes))),
+      seeded_(std::move(seeded)),
+      threads_(threads),
+      moments_(std::move(moments)),
+      watch_(std::move(watch)),
+      simulation_(setup::make_simulation(start_, seeded_->particles, threads_)) {
+  begin();
+}
+
+/// The simulation is a new one.
+void Timeline::begin() {
+  here_ = {};
+  here_.scene = std::make_shared<const scene::Scene>(start_);
+  made_ = 0;
+  summary_.reset();
+  make_due();
+  here_.history.push_back(picture::plot_sample(0, 1 / fps(), summary(), {}));
+}
+
+Moment Timeline::moment() const {
+  Moment moment = here_;
+  moment.state = simulation_.save();
+  return moment;
+}
+
+scene::Scene Timeline::scene() const {
+  scene::Scene now = *here_.scene;
+  follow_colliders(simulation_, now);
+  return now;
+}
+
+const sim::Summary& Timeline::summary() const {
+  if (!summary_) summary_ = simulation_.summary();
+  return *summary_;
+}
+
+/// Parameters of a scene; a simulation that broke a rule takes none, and is made again.
+void Timeline::use(const std::shared_ptr<const scene::Scene>& scene) {
+  if (scene == here_.scene) return;
+  if (simulation_.divergence())
+    simulation_ = setup::make_simulation(*scene, seeded_->particles, threads_);
+  else
+    simulation_.apply(scene->solver, scene->materials, scene::sim_colliders(*scene));
+  here_.scene = scene;
+  summary_.reset();
+  if (watch_.after_change) watch_.after_change(*scene);
+}
+
+void Timeline::make(std::size_t end) {
+  scene::Scene scene = with_first_changes(start_, changes_, end);
+  setup::resolve_ranges(scene, simulation_.particle_count());
+  use(std::make_shared<const scene::Scene>(std::move(scene)));
+  made_ = end;
+}
+
+/// Changes of one step at once, but a second one to an address after the first: both leave a trace.
+void Timeline::make_due() {
+  const auto is_due = [&](std::size_t k) {
+    return k < changes_.size() && changes_[k].step <= simulation_.steps();
+  };
+  while (is_due(made_)) {
+    std::size_t end = made_;
+    std::set<std::string> addresses;
+    while (is_due(end) && changes_[end].step == changes_[made_].step &&
+           addresses.insert(changes_[end].address).second)
+      ++end;
+    make(end);
+  }
+}
+
+void Timeline::change(std::shared_ptr<const scene::Scene> scene) {
+  const std::shared_ptr<const scene::Scene> before = here_.scene;
+  use(scene);
+  fork();
+  // Compares the values of the simulation, not the typed ones: they differ in a coarsened scene.
+  for (const scene::Difference& change : scene::differences(*before, *scene))
+    if (change.is_live && scene::concerns_simulation(change.address))
+      scene::note_change(changes_,
+                         {simulation_.steps(), change.address,
+                          change.after ? scene::toml::toml_literal(*change.after) : "none"});
+  made_ = changes_.size();
+  start_ = recorded_scene(start_, *scene);
+}
+
+void Timeline::fork() {
+  scene::forget_changes_after(changes_, simulation_.steps());
+  made_ = std::min(made_, changes_.size());
+  moments_.forget_after(here_.frame);
+}
+
+void Timeline::restore_state(const Moment& moment) {
+  if (moment.file.empty()) return simulation_.restore(moment.state);
+  simulation_.restore_healthy(moment.state);
+  const double time = simulation_.time(), start = moment.frame / fps(),
+               end = (moment.frame + 1) / fps(), rounding = 1e-9 * (1 + end);
+  if (simulation_.steps() != moment.steps || !(time >= start - rounding && time <= end + rounding))
+    throw std::runtime_error("the checkpoint of frame " + std::to_string(moment.frame) +
+                             " holds another moment");
+}
+
+void Timeline::restore(const Moment& moment) {
+  const std::size_t made = count_until(changes_, moment.steps);
+  try {
+    if (moment.scene)
+      use(moment.scene);
+    else if (made != made_)
+      make(made);
+    restore_state(moment);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    if (moment.file.empty()) throw;
+    refuse_moment(moment.file, error);
+  }
+  made_ = made;
+  summary_.reset();
+  here_.frame = moment.frame;
+  here_.steps = moment.steps;
+  here_.steps_of_frame = moment.steps_of_frame;
+  here_.advance = moment.advance;
+  here_.history = moment.history;
+  here_.retries = moment.retries;
+}
+
+bool Timeline::go_to(double time) {
+  if (!is_not_after(simulation_.time(), time)) {
+    if (const auto kept = moments_.find(time, fps())) {
+      restore(*kept);
+    } else {
+      simulation_ = setup::make_simulation(start_, seeded_->particles, threads_);
+      begin();
+    }
+  } else if (const auto kept = moments_.find(time, fps(), here_.frame, here_.steps)) {
+    restore(*kept);
+    if (watch_.after_jump) watch_.after_jump(here_.frame);
+  }
+  is_stopped_ = false;
+  const int last = frame_at(time, fps());
+  while (here_.frame < last && !must_stop()) advance_frame();
+  if (is_not_after(time, simulation_.time())) return !must_stop();
+  const auto end_of_next_step = [&] {
+    return simulation_.time() + simulation_.choose_dt(frame_end() - simulation_.time()).dt;
+  };
+  while (!must_stop() && is_not_after(end_of_next_step(), time)) advance_step();
+  return !must_stop();
+}
+
+/// As far as the last step, or to the end of the frame.
+sim::AdvanceReport Timeline::advance(double time, std::size_t last_step) {
+  const auto after_step = [this] {
+    is_stopped_ = watch_.after_step && watch_.after_step();
+    return is_stopped_;
+  };
+  if (here_.scene->solver.on_divergence != sim::OnDivergence::retry)
+    return simulation_.advance_to(time, after_step, last_step);
+  if (last_step == no_step || simulation_.dt_scale() < 1)
+    return sim::advance_retrying(simulation_, time, after_step, here_.retries);
+  // While nothing breaks, steps with and without retrying are the same.
+  const std::vector<std::uint8_t> good = simulation_.save();
+  const sim::AdvanceReport report = simulation_.advance_to(time, after_step, last_step);
+  const bool has_broken = simulation_.divergence().has_value();
+  if (!has_broken && (simulation_.time() >= time || simulation_.steps() >= last_step))
+    return report;
+  simulation_.restore(good);
+  return has_broken ? sim::advance_retrying(simulation_, time, after_step, here_.retries)
+                    : sim::AdvanceReport{};  // interrupted: the frame is simulated as a whole
+}
+
+void Timeline::begin_frame() {
+  if (here_.is_frame_end()) here_.advance = {};
+  is_stopped_ = false;
+}
+
+bool Timeline::advance_frame() {
+  begin_frame();
+  const double end = frame_end();
+  for (;;) {
+    const std::size_t next = made_ < changes_.size() ? changes_[made_].step : no_step;
+    here_.advance.append(advance(end, next));
+    if (simulation_.divergence()) break;
+    make_due();
+    if (simulation_.time() >= end || simulation_.steps() != next) break;
+  }
+  return end_frame();
+}
+
+void Timeline::advance_step() {
+  begin_frame();
+  here_.advance.append(simulation_.advance_to(
+      frame_end(), [this] { return is_stopped_ = watch_.after_step && watch_.after_step(); },
+      simulation_.steps() + 1));
+  if (!simulation_.divergence()) make_due();
+  end_frame();
+}
+
+/// Notes where the simulation is now. @return whether the frame has ended
+bool Timeline::end_frame() {
+  here_.steps = simulation_.steps();
+  summary_.reset();
+  if (simulation_.divergence() || !is_not_after(frame_end(), simulation_.time())) return false;
+  ++here_.frame;
+  here_.steps_of_frame = here_.steps;
+  here_.history.push_back(
+      picture::plot_sample(here_.frame / fps(), 1 / fps(), summary(), here_.advance));
+  if (watch_.after_frame) watch_.after_frame(here_.frame);
+  return true;
+}
+
+}  // namespace neve::app::timeline

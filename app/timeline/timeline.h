@@ -1,0 +1,114 @@
+#pragma once
+/// A run in time: its present moment, how it gets to another one, and how it takes another way.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/setup/seed_scene.h"
+#include "app/support/progress.h"
+#include "app/timeline/moments.h"
+
+namespace neve::app::timeline {
+
+/// Told while a run moves, in the thread that moves it; each may be empty.
+struct Watch {
+  sim::StepObserver after_step{};  ///< @return whether to stop
+  std::function<void(int frame)> after_frame{};
+  std::function<void(int frame)> after_jump{};  ///< to a kept moment of this frame
+  std::function<void(const scene::Scene& scene)> after_change{};
+};
+
+/// Shows how far it is, and stops at an interrupt. @param progress  outlives it
+Watch watched_by(Progress& progress, double fps);
+
+/// Whenever a function returns, all changes with a step up to simulation().steps() have been made:
+/// which ones have follows from the number of steps alone, also for a moment that was kept. With
+/// on_divergence = "retry" a frame that breaks a rule, or still takes shorter steps for an earlier
+/// one, is simulated as a whole: its steps are not final before its end, and changes that fall
+/// inside are made there.
+class Timeline {
+ public:
+  /// At the start. @throws as sim::Simulation
+  /// @param start    resolved; changes of views that it lacks are passed over
+  /// @param changes  in the order they were made
+  /// @param seeded   snow of the start
+  /// @param moments  that are kept of this run
+  Timeline(const scene::Scene& start, std::vector<scene::LiveChange> changes,
+           std::shared_ptr<const setup::SeededScene> seeded, int threads, Moments moments = {},
+           Watch watch = {});
+  Timeline(const Timeline&) = delete;
+  Timeline& operator=(const Timeline&) = delete;
+
+  void watch(Watch watch) { watch_ = std::move(watch); }
+
+  const sim::Simulation& simulation() const { return simulation_; }
+  /// Where it is, without its state.
+  const Moment& here() const { return here_; }
+  /// The same with its state.
+  Moment moment() const;
+  /// With the changes so far, and its colliders where they are.
+  scene::Scene scene() const;
+  /// Sums and extremes of the state.
+  const sim::Summary& summary() const;
+  double fps() const { return start_.fps; }
+  /// s, of the frame that is simulated next or at present.
+  double frame_end() const { return (here_.frame + 1) / fps(); }
+
+  /// The scene it started from, drawn as it is drawn now.
+  const scene::Scene& start() const { return start_; }
+  /// Those made so far, and those to come.
+  const std::vector<scene::LiveChange>& changes() const { return changes_; }
+  const setup::SeededScene& seeded() const { return *seeded_; }
+  const std::shared_ptr<const setup::SeededScene>& shared_seeded() const { return seeded_; }
+  const Moments& moments() const { return moments_; }
+  Moments& moments() { return moments_; }
+
+  /// Goes to a time by the run's own steps, from the nearest moment that is kept or from here: the
+  /// state is one that the run passes through, before the step that contains the time.
+  /// @return whether it got there: not after a divergence, or where the watch says stop
+  bool go_to(double time);
+  /// Goes to the end of the frame. @return whether it got there
+  bool advance_frame();
+  /// Takes one step, even if it breaks a rule.
+  void advance_step();
+
+  /// Keeps the end of the frame that it is at, in memory.
+  void keep() { moments_.keep(moment()); }
+  /// Goes to a moment of this run.
+  /// @throws IoError for one from a file that no healthy run has; it is then nowhere
+  void restore(const Moment& moment);
+
+  /// Makes the changes that lead from the scene here to this one, and lists them; the run takes
+  /// another way then. Throws like sim::Simulation::apply; nothing has changed then.
+  void change(std::shared_ptr<const scene::Scene> scene);
+  /// Takes another way from here: forgets later changes and later moments.
+  void fork();
+
+ private:
+  void begin();
+  void use(const std::shared_ptr<const scene::Scene>& scene);
+  void restore_state(const Moment& moment);
+  void make(std::size_t end);
+  void make_due();
+  sim::AdvanceReport advance(double time, std::size_t last_step);
+  void begin_frame();
+  bool end_frame();
+  bool must_stop() const { return is_stopped_ || simulation_.divergence().has_value(); }
+
+  scene::Scene start_;
+  std::vector<scene::LiveChange> changes_;
+  std::shared_ptr<const setup::SeededScene> seeded_;
+  int threads_;
+  Moments moments_;
+  Watch watch_;
+  sim::Simulation simulation_;
+  Moment here_;
+  std::size_t made_ = 0;  ///< changes that here_.scene has
+  bool is_stopped_ = false;
+  mutable std::optional<sim::Summary> summary_;
+};
+
+}  // namespace neve::app::timeline

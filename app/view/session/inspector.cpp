@@ -1,0 +1,53 @@
+#include "app/view/session/inspector.h"
+
+#include "app/view/session/samples.h"
+#include "app/view/session/stage_summary.h"
+
+namespace neve::app::view::session {
+
+namespace {
+
+constexpr auto probe_interval = std::chrono::milliseconds(250);
+
+/// The step that is looked at alone, for the caption: not those that led to the frame.
+sim::AdvanceReport report_of(const dump::StepInspection& inside) {
+  sim::AdvanceReport report;
+  report.steps = 1;
+  report.dt_min = report.dt_max = report.seconds = inside.dt;
+  report.ruled[static_cast<std::size_t>(inside.limit)] = 1;
+  return report;
+}
+
+}  // namespace
+
+bool Inspector::next_stage() {
+  if (stage == sim::Stage::colliders) {
+    stage.reset();
+    return false;
+  }
+  stage = stage ? static_cast<sim::Stage>(static_cast<int>(*stage) + 1) : sim::Stage{};
+  return true;
+}
+
+void Inspector::inspect(const timeline::Timeline& timeline, bool is_running, LiveFrame& live) {
+  const auto now = Clock::now();
+  const bool is_probe = probe_ && (!is_running || now - probed_at_ > probe_interval);
+  live.probed = probe_;
+  if (!live.divergence && (stage || is_probe)) {
+    const dump::StepInspection inside =
+        dump::inspect_step(*live.scene, timeline.simulation(), seconds_left(timeline));
+    if (stage) {
+      live.stage = summarize_stage(inside, *stage);
+      live.snapshot.advance = report_of(inside);
+      live.snapshot.stage_change = change_of_stage(inside, *stage);
+      show_after_stage(inside, *stage, live.snapshot);
+    }
+    if (is_probe) {
+      reading_ = read_probe(inside, *probe_, stage);
+      probed_at_ = Clock::now();
+    }
+  }
+  live.probe = probe_ ? reading_ : std::nullopt;
+}
+
+}  // namespace neve::app::view::session

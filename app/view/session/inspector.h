@@ -1,0 +1,35 @@
+#pragma once
+/// Looks inside the next step, on a copy: after a stage, and at a probe.
+
+#include <optional>
+
+#include "app/support/clock.h"
+#include "app/timeline/timeline.h"
+#include "app/view/session/live_frame.h"
+
+namespace neve::app::view::session {
+
+class Inspector {
+ public:
+  /// The stage of the step that was done last; nothing: the state between two steps is shown.
+  std::optional<sim::Stage> stage{};
+
+  void set_probe(std::optional<dump::Probe> probe) {
+    probe_ = probe;
+    probed_at_ = {};
+  }
+  const std::optional<dump::Probe>& probe() const { return probe_; }
+
+  /// Goes on to the next stage. @return false after the last one
+  bool next_stage();
+
+  /// Adds the stage and the probe to a frame. A running simulation is probed four times a second.
+  void inspect(const timeline::Timeline& timeline, bool is_running, LiveFrame& live);
+
+ private:
+  std::optional<dump::Probe> probe_;
+  std::optional<ProbeReading> reading_;  ///< the last one
+  Clock::time_point probed_at_{};
+};
+
+}  // namespace neve::app::view::session

@@ -1,0 +1,168 @@
+/// A run that exists, opened by neve view: its time line, without simulating what is kept.
+
+#include <gtest/gtest.h>
+
+#include "app/scene/read.h"
+#include "app/support/errors.h"
+#include "app/timeline/timeline.h"
+#include "tests/view/view_support.h"
+
+namespace neve::test {
+namespace {
+
+using namespace neve::app;
+
+class PastRun : public Cli {
+ protected:
+  void render(const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render", "--no-movie"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto done = neve(words);
+    ASSERT_EQ(done.exit_code, 0) << done.errors;
+  }
+
+  view::session::Workbench open(const std::string& run) {
+    view::session::Opened opened = view::session::open_document((folder / run).string(), {}, 1);
+    view::session::WorkbenchOptions options;
+    options.folder = folder / "view";
+    options.session.past = opened.past;
+    return {std::move(opened.document), options, {}};
+  }
+
+  std::string hash_of(const view::session::LiveFrame& live) {
+    return record::hash_text(live.state_hash);
+  }
+};
+
+/// s, in steps that the simulation of the session has taken itself.
+double seconds_of_steps(const view::session::LiveFrame& live) {
+  const sim::PhaseSeconds& p = live.phases;
+  return p.partition + p.particles_to_grid + p.grid_update + p.solve + p.grid_to_particles;
+}
+
+TEST_F(PastRun, AFinishedRunIsScrubbedWithoutAStep) {
+  render({"scene.toml", "--out", "a", "--keep-states"});
+  view::session::Workbench bench = open("a");
+  view::session::Session& session = bench.session();
+  auto live = session.latest();
+  EXPECT_EQ(live->frame, 4);
+  EXPECT_EQ(live->kept, (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(live->history.size(), 5u);
+  ASSERT_EQ(live->samples->size(), 5u);
+  EXPECT_NEAR((*live->samples)[2].time, 2 / 24.0, 1e-12);
+  EXPECT_GT((*live->samples)[2].kinetic_energy, 0);
+  EXPECT_GT(live->snapshot.advance.steps, 0u) << "the caption tells the steps of the frame";
+  EXPECT_EQ(hash_of(*live), hashes("a")[4]);
+  for (const int frame : {2, 0, 3, 1}) {
+    session.show_frame(frame);
+    live = wait_for(session, [&](const view::session::LiveFrame& other) {
+      return other.is_older && other.frame == frame;
+    });
+    EXPECT_EQ(hash_of(*live), hashes("a")[frame]) << frame;
+    EXPECT_EQ(live->head, 4);
+  }
+  session.show_head();
+  live = wait_for(session, [](const view::session::LiveFrame& other) { return !other.is_older; });
+  EXPECT_EQ(hash_of(*live), hashes("a")[4]);
+  EXPECT_EQ(seconds_of_steps(*live), 0) << "a step was taken";
+  // Looking leaves the folder as it was.
+  EXPECT_EQ(neve({"verify", "a"}).exit_code, 0);
+}
+
+TEST_F(PastRun, WithoutStatesItHasItsCheckpointsAndTheStart) {
+  render({"scene.toml", "--out", "a", "--checkpoint-every", "2"});
+  view::session::Workbench bench = open("a");
+  view::session::Session& session = bench.session();
+  EXPECT_EQ(session.latest()->frame, 4);
+  EXPECT_EQ(session.latest()->kept, (std::vector<int>{0, 2, 4}));
+  session.show_frame(3);  // the nearest before it
+  const auto live =
+      wait_for(session, [](const view::session::LiveFrame& other) { return other.is_older; });
+  EXPECT_EQ(live->frame, 2);
+  EXPECT_EQ(hash_of(*live), hashes("a")[2]);
+  // From there the run goes on as it did.
+  session.continue_from_here();
+  session.run();
+  EXPECT_EQ(hash_of(*rest_at(session, 4)), hashes("a")[4]);
+}
+
+TEST_F(PastRun, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
+  render({"scene.toml", "--out", "whole"});
+  render({"scene.toml", "--out", "a", "--frames", "2"});
+  view::session::Workbench bench = open("a");
+  EXPECT_EQ(bench.session().latest()->frame, 2);
+  bench.session().run();
+  EXPECT_EQ(hash_of(*rest_at(bench.session(), 4)), hashes("whole")[4]);
+}
+
+/// A branch has a change in its list: it is an edit of the document, as if it had been made here.
+TEST_F(PastRun, ChangesOfTheRunStayWhenAnotherIsMade) {
+  render({"scene.toml", "--out", "a", "--checkpoint-every", "1"});
+  render({"a", "--from", "0.05", "--set", "material.snow.hardening=4", "--out", "b", "--frames",
+          "3", "--checkpoint-every", "1"});
+  view::session::Workbench bench = open("b");
+  EXPECT_TRUE(bench.document().is_changed("material.snow.hardening"));
+  EXPECT_TRUE(bench.waiting_for_reset().empty());
+  bench.set("solver.gravity", "[3, -9.81, 0]");
+  bench.session().run();
+  const auto live = rest_at(bench.session(), 4);
+  EXPECT_EQ(live->scene->materials[0].hardening, 4);
+  ASSERT_EQ(live->snapshot.changes.size(), 2u);
+  EXPECT_EQ(live->snapshot.changes[0].address, "material.snow.hardening");
+  // The record of a picture of it makes the same state again, from the start.
+  const record::PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+  const scene::Scene start = scene::read_scene_text(record.scene, "record");
+  EXPECT_EQ(start.materials[0].hardening, 10);
+  timeline::Timeline again(start, record.changes,
+                           std::make_shared<setup::SeededScene>(setup::seed_scene(start)), 0);
+  ASSERT_TRUE(again.go_to(4 / 24.0));
+  EXPECT_EQ(again.simulation().state_hash(), live->state_hash);
+}
+
+TEST_F(PastRun, AStateThatIsDamagedIsAMessageAndTheRunStaysWhereItIs) {
+  render({"scene.toml", "--out", "a", "--keep-states"});
+  view::session::Workbench bench = open("a");
+  output::Checkpoint forged = *output::read_state(folder / "a", 2).checkpoint;
+  forged.state.resize(forged.state.size() / 2);
+  output::write_state(folder / "a", forged);
+  bench.session().show_frame(2);
+  const auto live = wait_for(
+      bench.session(), [](const view::session::LiveFrame& other) { return other.errors > 0; });
+  EXPECT_TRUE(contains(live->error, "000002.ckpt")) << live->error;
+  EXPECT_FALSE(live->is_older);
+  EXPECT_EQ(hash_of(*live), hashes("a")[4]);
+}
+
+TEST_F(PastRun, WhatARunWasMadeFromCannotBeSet) {
+  render({"scene.toml", "--out", "a"});
+  EXPECT_THROW(view::session::open_document((folder / "a").string(), {"seed=2"}, 1), UsageError);
+  EXPECT_THROW(view::session::open_document((folder / "a").string(), {}, 2), UsageError);
+}
+
+TEST_F(PastRun, AScriptGoesBackInTimeAndSavesThePictureOfTheRun) {
+  render({"scene.toml", "--out", "a", "--keep-states"});
+  folder.write("clicks.json", R"([
+    {"wait_for": "simulation frame 4"}, {"key": "left"}, {"wait_for": "simulation frame 3"},
+    {"key": "p"}, {"wait": 5}])");
+  const auto result = neve({"view", "a", "--replay", "clicks.json", "--out", "out", "--quiet"});
+  if (result.exit_code == exit_no_backend) GTEST_SKIP() << result.errors;
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  std::size_t steps = 0;
+  const Json run = json_of("a/run.json");
+  for (const Json& frame : run["frames"])
+    if (frame["frame"] <= 3) steps += frame["steps"].get<std::size_t>();
+  const std::string picture = "out/particles_0003_step" + std::to_string(steps) + ".png";
+  ASSERT_TRUE(exists(picture));
+  const auto info = neve({"info", picture, "--json"});
+  EXPECT_EQ(parse_json(std::string_view(info.output))["state_hash"], hashes("a")[3]);
+  // A time names the moment that is shown first.
+  folder.write("at.json", R"([{"wait_for": "simulation frame 2"}, {"wait": 3}])");
+  EXPECT_EQ(neve({"view", "a", "--at", "0.09s", "--replay", "at.json", "--out", "out"}).exit_code,
+            0);
+  const auto refused = neve({"view", "scene.toml", "--at", "0.09s", "--replay", "at.json"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.errors, "shows a moment that a run has kept")) << refused.errors;
+}
+
+}  // namespace
+}  // namespace neve::test
