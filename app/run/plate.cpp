@@ -2,10 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <regex>
-
 #include "app/output/atomic_file.h"
 #include "app/support/errors.h"
+#include "sim/shapes/numbered_files.h"
 
 namespace neve::app::run {
 
@@ -25,14 +24,8 @@ render::Image as_rgb(const render::Image& image) {
 }  // namespace
 
 std::filesystem::path plate_path(const std::string& pattern, int frame) {
-  static const std::regex place("%(0([1-9]))?d");
-  std::smatch found;
-  std::string name = pattern;
-  if (std::regex_search(pattern, found, place)) {
-    const int digits = found[2].matched ? found[2].str()[0] - '0' : 1;
-    name = found.prefix().str() + fmt::format("{:0{}}", frame, digits) + found.suffix().str();
-  }
-  if (name.find('%') != std::string::npos)
+  const std::string name = sim::shapes::numbered_file(pattern, frame);
+  if (std::filesystem::path(name).filename().string().find('%') != std::string::npos)
     throw UsageError("--plate", "cannot read \"" + pattern + "\"",
                      "expected a PNG, or one for each frame, as in street/%04d.png");
   return name;

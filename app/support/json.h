@@ -15,19 +15,11 @@ namespace neve::app {
 using Json = nlohmann::ordered_json;
 
 /// @throws nlohmann::json::exception; values nested deeper than 64 levels are dropped
-inline Json parse_json(std::string_view text) {
-  const auto keep = [](int depth, Json::parse_event_t, Json&) { return depth <= 64; };
-  return Json::parse(text.begin(), text.end(), keep);
-}
-
-inline Json parse_json(std::span<const std::uint8_t> bytes) {
-  return parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
+Json parse_json(std::string_view text);
+Json parse_json(std::span<const std::uint8_t> bytes);
 
 /// JSON as text; invalid UTF-8 becomes U+FFFD instead of an exception.
-inline std::string to_text(const Json& json, int indent = 2) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
+std::string to_text(const Json& json, int indent = 2);
 
 /// A whole number that an Int holds; 1e127 converted to int would have no defined value.
 /// @throws std::runtime_error for anything else

@@ -54,8 +54,12 @@ SimdLevel chosen_simd_level() {
     if (is_here && (is_free || std::string(wanted) == name(level))) return level;
     if (is_here) available = available.empty() ? name(level) : name(level) + (", " + available);
   }
-  throw SimdError("NEVE_SIMD=" + std::string(wanted) + " is not available; this machine has " +
-                  available);
+  if (available.empty())
+    throw SimdError(
+        "this program was built for another machine's instruction set alone; build it "
+        "here, or with NEVE_KERNEL_SETS=all");
+  throw SimdError("NEVE_SIMD=" + std::string(wanted) +
+                  " is not available; on this machine this build has " + available);
 }
 
 }  // namespace neve::sim::kernels

@@ -33,7 +33,7 @@ TEST(Simd, UnknownLevelsAreRefusedWithTheChoices) {
     EXPECT_TRUE(complaint.starts_with("NEVE_SIMD=" + std::string(wrong))) << complaint;
     const char* least =
         kernels::is_available(kernels::SimdLevel::baseline) ? "has baseline" : "has ";
-    EXPECT_NE(complaint.find(std::string("this machine ") + least), std::string::npos) << complaint;
+    EXPECT_NE(complaint.find(std::string("this build ") + least), std::string::npos) << complaint;
   }
 }
 

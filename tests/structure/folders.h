@@ -75,7 +75,8 @@ inline constexpr Folder folders[] = {
      "sim/base sim/kernels sim app/support app/scene/toml app/scene app/output app/record "
      "app/setup app/forecast app/health app/picture"},
     {"app/run",
-     "sim/base sim/types sim sim/checks render/image render/frame render/gl render/channels render "
+     "sim/base sim/types sim/shapes sim sim/checks render/image render/frame render/gl "
+     "render/channels render "
      "app/support app/scene/toml app/advice app/scene app/output app/record app/setup app/options "
      "app/forecast app/health app/picture app/exports app/timeline"},
     {"app/compare",

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
-#include <regex>
 
 #include "app/scene/params.h"
 #include "app/scene/reader.h"
@@ -170,10 +169,13 @@ TypedRange typed_range(std::string text) {
   const bool has_count = text.find("space(") != std::string::npos;
   for (std::size_t at = text.find(".."); at != std::string::npos; at = text.find("..", at))
     text.replace(at, 2, " ");
-  static const std::regex number(R"([-+]?[0-9]+(\.[0-9]*)?([eE][-+]?[0-9]+)?)");
   std::vector<std::string> ends;
-  for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at)
-    ends.push_back(at->str());
+  const std::string between = " ,:;()[]";
+  for (std::size_t at = text.find_first_not_of(between); at != std::string::npos;) {
+    const std::size_t end = std::min(text.find_first_of(between, at), text.size());
+    if (finite_number(text.substr(at, end - at))) ends.push_back(text.substr(at, end - at));
+    at = text.find_first_not_of(between, end);
+  }
   TypedRange range;
   if (ends.size() >= 2) range.ends = "[" + ends[0] + ", " + ends[1] + "]";
   if (has_count && ends.size() == 3) range.count = ends[2];
