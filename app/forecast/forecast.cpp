@@ -265,7 +265,7 @@ Forecast foresee(const scene::Scene& scene, double particle_count, int last,
 namespace {
 
 /// Steps of the shipped scenes over those that are foretold with the particles of the copy, and
-/// with unlucky ones, lie within: docs/performance.md has them.
+/// with unlucky ones, lie within: docs/reports/speed.md has them.
 constexpr double min_of_steps = 0.5, max_of_steps = 2;
 /// Time of a step over that at the start, beyond the copy's spread: 0.7 to 2.0 on seven scenes.
 /// Torn snow fills more of the grid and of the caches.
