@@ -18,13 +18,13 @@ std::string advice_on_unit(double value, std::string_view written, std::string_v
     if (known.has(written) && known.names[0] == unit)
       return no_unit + ": in " + known.names[0] + " it is " +
              rough_text(value * number_of(known.names[1]).value());
-  return unit.empty() ? no_unit : no_unit + "; " + std::string(unit) + " is meant";
+  return unit.empty() ? no_unit : no_unit + "; this one is in " + std::string(unit);
 }
 
 /// "2.5%", "2M", "1.4*10^5", "140 000", "0,04": numbers as they are written elsewhere.
 /// @param written what follows the number, without blanks before it
 std::string advice_on_spelling(double value, std::string_view text, std::string_view written) {
-  if (written == "%") return "a share of one is meant: " + rough_text(0.01 * value);
+  if (written == "%") return "expected a share of 1: " + rough_text(0.01 * value);
   if (written == "k" || written == "K") return "write it out: " + rough_text(1e3 * value);
   if (written == "M") return "write it out: " + rough_text(1e6 * value);
   std::string spelt(text);

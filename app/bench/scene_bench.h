@@ -11,7 +11,7 @@ namespace neve::app::bench {
 
 /// Renders each scene by the program itself: at its own resolution, with --coarsen 2, with --fast,
 /// and with both, in turns.
-/// @throws UsageError for a scene that is not there, Error when one fails
+/// @throws UsageError for a scene that does not exist, Error when one fails
 std::vector<BenchRow> bench_scenes(const BenchOptions& options, Progress& progress);
 
 }  // namespace neve::app::bench

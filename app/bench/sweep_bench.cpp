@@ -18,7 +18,7 @@ namespace neve::app::bench {
 
 namespace {
 
-/// A few thousand particles: a second of work each, as small as runs of studies are.
+/// A few thousand particles: a second of work each, as small as runs of sweeps are.
 constexpr const char* scene_text = R"(
 title = "bench"
 frames = 6

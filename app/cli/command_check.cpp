@@ -95,7 +95,7 @@ void print_limits(const health::Check& check) {
   std::cout << "sound      " << rough_text(check.start.max_sound_speed)
             << " m/s in the stiffest particle; impact at about " << rough_text(check.impact_speed)
             << " m/s\n"
-            << "first step " << rough_text(check.dt_start) << " s, ruled by "
+            << "first step " << rough_text(check.dt_start) << " s, set by "
             << sim::name(check.limit_start) << "; allowed:";
   for (int k = 0; k < sim::dt_limit_count; ++k)
     if (const double dt = check.start.dt[static_cast<std::size_t>(k)]; std::isfinite(dt) && dt > 0)

@@ -39,7 +39,7 @@ std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOpti
       job.scene_file + (job.scene.title.empty() ? "" : ": " + job.scene.title),
       "t = " + rough_text(inside.simulation.time()) + " s after " +
           std::to_string(inside.simulation.steps()) + " steps; the next has dt = " +
-          rough_text(inside.dt) + " s, ruled by " + sim::name(inside.limit),
+          rough_text(inside.dt) + " s, set by " + sim::name(inside.limit),
       (options.stage ? std::string("after the stage ") + sim::name(*options.stage)
                      : std::string("before the step")) +
           ": " + std::to_string(listing.place.size()) +
@@ -63,12 +63,12 @@ std::size_t nearest_row(const dump::Listing& listing, const sim::Vec3d& place) {
   return nearest;
 }
 
-/// @throws UsageError when no such particle or node is there
+/// @throws UsageError when no such particle or node exists
 std::size_t probed_row(const dump::StepInspection& inside, const dump::Listing& listing,
                        const dump::Probe& probe) {
   if (const auto* place = std::get_if<sim::Vec3d>(&probe)) {
     if (listing.place.empty())
-      throw UsageError("--probe", "there is nothing", "there is no snow at this time");
+      throw UsageError("--probe", "no particle or node exists", "there is no snow at this time");
     return nearest_row(listing, *place);
   }
   const std::size_t id = std::get<std::size_t>(probe);
@@ -84,7 +84,7 @@ std::size_t probed_row(const dump::StepInspection& inside, const dump::Listing& 
   throw UsageError(
       "--probe",
       inside.scene.emitters.empty() ? "there is no " + particle : particle + " is not emitted yet",
-      ids == 0 ? "there were none so far" : "expected 0 to " + std::to_string(ids - 1));
+      ids == 0 ? "no particle has existed so far" : "expected 0 to " + std::to_string(ids - 1));
 }
 
 /// A place in empty space is answered by what is nearest, however far.
@@ -97,8 +97,8 @@ void warn_of_far_probes(const dump::DumpOptions& options, const dump::StepInspec
     if (away > 2 * inside.scene.solver.cell_size)
       progress.warning("--probe " + rough_text(place->x()) + "," + rough_text(place->y()) + "," +
                        rough_text(place->z()) + ": no " +
-                       (listing.is_of_nodes ? "node" : "particle") + " is there; the nearest is " +
-                       rough_text(away) + " m away");
+                       (listing.is_of_nodes ? "node" : "particle") +
+                       " is at this place; the nearest is " + rough_text(away) + " m away");
   }
 }
 

@@ -32,17 +32,16 @@ fs::path new_scene_path(const std::string& name) {
   path += ".toml";
   std::error_code error;
   if (fs::symlink_status(path, error).type() != fs::file_type::not_found)
-    throw UsageError("new", path.string() + " is there already",
+    throw UsageError("new", path.string() + " already exists",
                      "choose another name, or move that file away");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!fs::is_directory(folder, error))
-    throw IoError(
-        folder.string() + ": there is no such folder; make it first: mkdir -p " + folder.string(),
-        folder.string());
+    throw IoError(folder.string() + ": no such folder; make it first: mkdir -p " + folder.string(),
+                  folder.string());
   return path;
 }
 
-/// A schema that is there may be of this version or another; neve schema writes it again.
+/// An existing schema may be of this version or another; neve schema writes it again.
 void write_schema_once(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) output::write_file(path, to_text(scene::scene_schema()) + "\n");

@@ -67,7 +67,7 @@ int run_params(const ParamsOptions& options) {
   if (list.empty())
     fail_unfound("no parameter has this in its address or description:", options.filter, nearest,
                  "neve params lists all of them");
-  // Those that are called so come before those that only mention it.
+  // Parameters with the word in their name come before parameters that only mention it.
   std::stable_partition(list.begin(), list.end(),
                         [&](const scene::ParamInfo& info) { return search.names(info.address); });
   std::cout << (options.is_json ? scene::params_json(list) : scene::params_table(list));

@@ -39,7 +39,7 @@ Answer ask(const pick::Game& game, const sweep::jobs::SweepProgress& runs,
            devices::TerminalLines& lines, pick::Click& click) {
   for (const std::string& line : game.lesson().lines) std::cerr << "  " << line << "\n";
   std::cerr << fmt::format("round {} of {}: {} has the nine tiles, moving; {} their last frame\n",
-                           game.answered() + 1, game.most_rounds(),
+                           game.answered() + 1, game.max_rounds(),
                            (game.folder() / "round.html").string(),
                            (game.folder() / "sheet.png").string());
   if (const std::string failed = pick::all_failed_text(runs); !failed.empty())
@@ -128,7 +128,7 @@ void tell_terminal(const view::picker::PickerState& state) {
     return;
   }
   std::cerr << fmt::format("round {} of {}: choose on the screen, or type here: {}",
-                           state.game.answered() + 1, state.game.most_rounds(), ways_to_answer)
+                           state.game.answered() + 1, state.game.max_rounds(), ways_to_answer)
             << std::endl;
 }
 
@@ -188,8 +188,8 @@ int play(pick::Game& game, const pick::PickOptions& options, const view::ScreenO
 /// What a sweep takes and a search does not. @throws UsageError
 void check_axes(const std::vector<std::string>& axes) {
   if (axes.empty())
-    throw UsageError("pick", "nothing varies",
-                     "name what to find, and between which two values: -p "
+    throw UsageError("pick", "no parameter to find",
+                     "name one, and the two values to search between: -p "
                      "material.snow.hardening=5,20");
 }
 
@@ -202,10 +202,10 @@ int run_pick(const PickCommand& command) {
   pick::Game game(options);
   if (options.clicks.empty() && !wants_screen(options, screen) &&
       !devices::TerminalLines::is_there())
-    throw UsageError(
-        "pick", "there is no terminal to ask for the best tile",
-        "call it in a terminal, or give --web for a page, --window, or --clicks FILE with one "
-        "choice a line: a tile from 1 to 9, two of them, or 0 for none");
+    throw UsageError("pick", "there is no terminal to ask for the best tile",
+                     "run neve pick in a terminal, or give --web for a page, --window, or --clicks "
+                     "FILE with one "
+                     "choice a line: a tile from 1 to 9, two of them, or 0 for none");
   std::vector<pick::Click> list;
   if (!options.clicks.empty())
     list = pick::parse_clicks(pick::text_of_file(options.clicks), options.clicks);

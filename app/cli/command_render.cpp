@@ -46,9 +46,9 @@ render::Image read_reference(const std::string& file) {
 void refuse_origin(const run::RenderOptions& options, const run::RenderJob& job) {
   if (options.from) return;
   if (!job.run.empty())
-    throw scene::toml::SceneError(job.scene_file, 0, 0, "is the folder of a run, not a scene",
-                                  "--from TIME takes another way from a moment of it; its scene "
-                                  "file makes it again");
+    throw scene::toml::SceneError(
+        job.scene_file, 0, 0, "is the folder of a run, not a scene",
+        "--from TIME forks it at that time; its scene file makes it again");
   if (job.picture && job.picture->strip && !options.frames)
     throw UsageError(
         options.scene,
@@ -137,7 +137,8 @@ int compare_with_reference(const run::RenderOptions& options, const run::RenderJ
       fixed_text(difference.local, 2), fixed_text(difference.max, 0));
   const bool is_mean_right = difference.mean <= options.reference_threshold;
   if (is_mean_right && difference.local <= options.reference_local_threshold) {
-    if (options.verbosity != Verbosity::quiet) std::cerr << "as the reference: " << found << "\n";
+    if (options.verbosity != Verbosity::quiet)
+      std::cerr << "matches the reference: " << found << "\n";
     return exit_ok;
   }
   const std::filesystem::path file = job.folder / "difference.png";

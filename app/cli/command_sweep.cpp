@@ -112,7 +112,7 @@ sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
 [[noreturn]] void fail_by_machine(const sweep::jobs::MachineFailure& failure,
                                   const std::filesystem::path& folder) {
   throw Error(failure.code, "the sweep stopped: " + failure.reason, folder.string(),
-              "the same command continues when this is mended; no run is lost");
+              "solve this and repeat the command: it continues, and no run is lost");
 }
 
 int exit_code_of(const sweep::jobs::JobsResult& result) {
@@ -230,7 +230,7 @@ void choose_runs(const sweep::plan::SweepOptions& options, sweep::plan::SweepPla
                  Progress& progress) {
   const std::vector<int> chosen = chosen_runs(options, plan.runs.back().run.index);
   if (chosen.empty())
-    progress.warning(fmt::format("the share {}/{} of {} runs has none", options.shard->index,
+    progress.warning(fmt::format("share {}/{} of {} runs is empty", options.shard->index,
                                  options.shard->count, plan.runs.size()));
   if (!options.is_dry_run || chosen.empty()) return;
   std::erase_if(plan.runs, [&](const sweep::plan::PlannedRun& item) {
@@ -255,7 +255,7 @@ std::vector<std::size_t> unfinished_runs(const sweep::plan::SweepOptions& option
   return places;
 }
 
-/// Says how long the study will take, and gives the manifest the cost of each run, by which runs
+/// Says how long the sweep will take, and gives the manifest the cost of each run, by which runs
 /// start and share the cores. @return s; 0: nothing is left to do, or it is not known
 double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan::SweepPlan& plan,
                     int cores, sweep::store::Manifest& manifest, Progress& progress) {

@@ -25,7 +25,7 @@ struct Findings {
   std::vector<record::Flaw> flaws;
   /// Why a folder without flaws is not finished; "" where it is.
   std::string unfinished;
-  bool is_in_use = false;  ///< by a process that goes on
+  bool is_in_use = false;  ///< by a process that still runs
 
   bool is_whole() const { return flaws.empty() && unfinished.empty(); }
 };
@@ -124,10 +124,10 @@ void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const F
   if (!findings.unfinished.empty()) std::cout << folder << ": " << findings.unfinished << "\n";
   if (is_quiet) return;
   if (findings.is_whole())
-    std::cout << folder << ": whole, " << findings.files << " files as they were written\n";
+    std::cout << folder << ": complete, " << findings.files << " files unchanged\n";
   else if (!findings.is_in_use)
-    std::cout << (is_sweep ? "the sweep's own command makes the rest\n"
-                           : "the command that made it, with --resume, makes the rest\n");
+    std::cout << (is_sweep ? "repeat the command of the sweep to make the rest\n"
+                           : "repeat the command that made it, with --resume, to make the rest\n");
 }
 
 }  // namespace
@@ -136,7 +136,8 @@ int run_verify(const PlainOptions& options) {
   const std::string& folder = options.name;
   std::error_code error;
   if (!fs::is_directory(folder, error))
-    throw IoError(folder + ": is no folder", folder, "name the output folder of a run or a sweep");
+    throw IoError(folder + ": is not a folder", folder,
+                  "name the output folder of a run or a sweep");
   const bool is_sweep = fs::exists(fs::path(folder) / "manifest.json", error);
   if (!is_sweep) require_run(folder);
   const Findings findings = is_sweep ? verify_sweep_folder(folder) : verify_folder(folder);

@@ -64,7 +64,7 @@ std::optional<view::session::Opened> look_at(view::session::Opened opened,
   // Nobody reads the messages of a script.
   if (!options.screen.replay.empty() && !bench.not_saved().empty())
     throw IoError(bench.not_saved(), options.screen.replay,
-                  "the script went on; what it saved besides is there");
+                  "the script continued; its other files were saved");
   return std::move(viewer.state().dropped);
 }
 

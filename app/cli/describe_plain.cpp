@@ -71,15 +71,16 @@ void describe_version(Command& visit, PlainOptions& o) {
 
 void describe_help(Command& visit, PlainOptions& o) {
   visit.about("help", "Print this help, or the help of a command");
-  visit("COMMAND", o.names, options::text(""), "A command, and its part: neve help sweep run");
+  visit("COMMAND", o.names, options::text(""),
+        "A command and its subcommand, as in neve help sweep run");
   visit("--json", o.is_json, "Print every option as JSON");
 }
 
 void describe_params(Command& visit, ParamsOptions& o) {
-  visit.about("params", "List parameters: address, unit, range, default; or look for them");
+  visit.about("params", "List or search parameters: address, unit, range, default");
   visit("WORD", o.filter, options::text(""),
-        "List only parameters with this in their address or description, or that it means in "
-        "everyday words, as in camera, \"time step\", sticky");
+        "List only parameters whose address or description has this word, or that an everyday word "
+        "means, as in camera, \"time step\", sticky");
   visit("--wishes", o.is_wishes,
         "Print the table from wishes (stickier, heavier, ...) to parameters");
   visit("--markdown", o.is_markdown, "With --wishes, print it as in docs/wishes.md");

@@ -19,7 +19,7 @@ using options::Command;
 
 void check_picture(const std::string& flag, const std::string& file) {
   if (std::filesystem::path(file).extension() != ".png")
-    throw UsageError(flag, "names no picture", "expected a file that ends in .png");
+    throw UsageError(flag, "is not the name of a picture", "expected a file that ends in .png");
 }
 
 /// The keys of [[export]] about the surface are flags too, as the scene describes them.
@@ -39,7 +39,7 @@ struct SurfaceFlags {
     [[maybe_unused]] const auto add = [&](const auto& language) {
       visit(flag.c_str(), member, language, help)
           .with_default()
-          .needs("--surface", "has no use without a surface", "give --surface too");
+          .needs("--surface", "needs a surface", "give --surface too");
     };
     if constexpr (std::is_same_v<T, bool>)
       visit(flag.c_str(), member, help);
@@ -130,7 +130,7 @@ void describe_dump(Command& visit, dump::DumpOptions& o) {
   describe_scene(visit, o.run, run::origin_help);
   visit("--at", o.at, options::times(),
         "Times in seconds, as in 0.1,0.2, all of one simulation; neve shows the step that contains "
-        "each. A run is simulated from the nearest moment that it has kept")
+        "each. A run continues from its nearest kept moment")
       .with_default();
   visit("--stage", o.stage,
         options::language("NAME", "advection", dump::parse_stage,
@@ -147,7 +147,7 @@ void describe_dump(Command& visit, dump::DumpOptions& o) {
         "table (tabs), or vtk for ParaView")
       .with_default();
   visit("--out", o.file, options::text("FILE", "fields.vtp"),
-        "Write to a file instead of standard output; of several times into FILE_0000 and so on");
+        "Write to a file instead of standard output; several times go to FILE_0000 and so on");
   visit("--json", o.run.is_json, "Print summary and probes as JSON");
   options::describe_progress(visit, o.run.progress);
   options::describe_verbosity(visit, o.run.verbosity);
@@ -177,8 +177,8 @@ void describe_strip(Command& visit, run::StripOptions& o) {
   };
   visit.about("strip", "Draw one view at several times, side by side in one picture");
   describe_scene(visit, o.run,
-                 "Scene file (TOML), the folder of a run, or a picture made by neve, of which a "
-                 "strip is made again; default: a falling snowball");
+                 "Scene file (TOML), the folder of a run, or a strip made by neve, to make it "
+                 "again; default: a falling snowball");
   visit("--view", o.run.views, options::text("NAME", "smoke"),
         "View to draw; default: the first of the scene")
       .once();
@@ -230,14 +230,14 @@ void describe_compare(Command& visit, CompareOptions& o) {
   visit(
       "--wipe", pictures.wipe,
       options::number<double>("SHARE", 0, 1, "a share of the width from 0 to 1, as in --wipe 0.3"),
-      "Share of the width that mode wipe shows of A, 0 to 1")
+      "Share of the width that shows A in mode wipe, 0 to 1")
       .with_default();
   visit("--range", pictures.range,
         options::number<double>("M", 1e-12, 1e12, "a number of metres, as in --range 0.1"),
-        "Metres that have the last colour of mode displacement; default: ten cells");
+        "Displacement in metres that gets the last colour; default: ten cells");
   options::describe_movie(visit, pictures.movie);
   for (std::size_t k = first; k < visit.options.size(); ++k)
-    visit.options[k].needs("--out", "has no use without pictures",
+    visit.options[k].needs("--out", "needs pictures",
                            "give --out DIR, --out x.png or --out x.mp4 too");
   options::describe_threads(visit, pictures.threads);
   options::describe_backend(visit, pictures.backend);

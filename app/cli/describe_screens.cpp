@@ -93,8 +93,8 @@ void describe_pick(Command& visit, PickCommand& o) {
   visit("SCENE", runs.file, options::scene_file(), "Scene file (TOML)").required();
   visit("-p,--parameter", runs.axes,
         options::text("ADDRESS=LOW,HIGH", "material.snow.hardening=5,20"),
-        "A parameter to find between two values, as in material.snow.hardening=5,20; in ratios "
-        "where they are a factor of ten or more apart (repeatable, at most 8)");
+        "A parameter to find between two values, as in material.snow.hardening=5,20; a range of a "
+        "factor of ten or more is searched in ratios (repeatable, at most 8)");
   visit("--set", runs.overrides, options::text("ADDRESS=VALUE", "material.snow.hardening=5"),
         "Change a parameter of all runs (repeatable)");
   visit("--rounds", o.pick.rounds, options::number<int>("N", 1, 100, "1 to 100"),

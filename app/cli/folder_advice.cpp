@@ -20,18 +20,18 @@ bool has_file(const fs::path& folder, const char* name) {
   return fs::exists(folder / name, error);
 }
 
-/// The first folders in it that are those of runs or studies.
+/// The first folders of runs or sweeps in a folder.
 std::vector<std::string> runs_below(const fs::path& folder) {
-  constexpr std::size_t most_named = 3, most_read = 10'000;
+  constexpr std::size_t max_named = 3, max_read = 10'000;
   std::vector<std::string> found;
   std::error_code error;
   std::size_t read = 0;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end && read < most_read;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end && read < max_read;
        at.increment(error), ++read)
     if (has_file(at->path(), "run.json") || has_file(at->path(), "manifest.json"))
       found.push_back(at->path().lexically_normal().string());
   std::sort(found.begin(), found.end());
-  if (found.size() > most_named) found.resize(most_named);
+  if (found.size() > max_named) found.resize(max_named);
   return found;
 }
 
@@ -56,7 +56,7 @@ FolderAdvice advice_on_folder(const fs::path& typed) {
   const fs::path folder = typed.has_filename() ? typed : typed.parent_path();
   const fs::path around = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
   if (has_file(folder, "manifest.json"))
-    return {"is the folder of a study, not of a run",
+    return {"is the folder of a sweep, not of a run",
             "name one of its runs, as in " + (folder / "runs" / "0000").string()};
   std::error_code error;
   const bool is_in_run = fs::exists(output::run_json_path(around), error);
@@ -67,14 +67,14 @@ FolderAdvice advice_on_folder(const fs::path& typed) {
   if (is_in_run) return {what, around.string() + " is one"};
   const std::vector<std::string> below = runs_below(folder);
   if (below.empty()) return {what, "name the output folder of a run, as in out/snowball_drop"};
-  return {what, (below.size() == 1 ? "one is " : "such are ") + joined(below, ", ")};
+  return {what, (below.size() == 1 ? "one is " : "these are: ") + joined(below, ", ")};
 }
 
 void require_picture(const fs::path& file, const std::string& command) {
   std::error_code error;
   if (!fs::is_regular_file(file, error) || record::is_picture(file)) return;
   const std::string hint = advice_on_file(file, command);
-  throw Error(exit_invalid_scene, file.string() + ": error: is no PNG picture; " + hint,
+  throw Error(exit_invalid_scene, file.string() + ": error: is not a PNG picture; " + hint,
               file.string(), hint);
 }
 

@@ -7,7 +7,7 @@
 namespace neve::app::cli {
 
 struct FolderAdvice {
-  std::string what;  ///< "is the folder of a study, not of a run"
+  std::string what;  ///< "is the folder of a sweep, not of a run"
   std::string hint;
 };
 

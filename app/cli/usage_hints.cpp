@@ -66,11 +66,11 @@ std::string stray_word_advice(const std::string& word, const std::vector<std::st
   if (equals != std::string::npos && equals > 0)
     return as_setting(word.substr(0, equals), word.substr(equals + 1), flags);
   if (word.ends_with(".toml") && has_flag(flags, "--set"))
-    return "one scene at a time; a loop of the shell takes several: for s in *.toml; do neve ... "
+    return "a command takes one scene; a loop of the shell runs it for several: for s in *.toml; "
+           "do neve ... "
            "$s; done";
   return has_flag(flags, "--shard")
-             ? "values of -p have commas between them and no blanks, as in -p "
-               "ADDRESS=A,B"
+             ? "separate the values of -p by commas without blanks, as in -p ADDRESS=A,B"
              : "";
 }
 
@@ -90,7 +90,7 @@ void refuse_known_word(const std::string& word) {
 void check_command(Entry& program, const std::vector<std::string>& words) {
   const std::string& word = words.front();
   if (word.starts_with("-"))
-    throw UsageError("", "no command is before " + word,
+    throw UsageError("", "no command comes before " + word,
                      "flags follow the command, as in neve render SCENE --quiet");
   Entry* entry = program.part(word);
   if (!entry) {
@@ -102,8 +102,9 @@ void check_command(Entry& program, const std::vector<std::string>& words) {
   const std::string part = words.size() > 1 ? words[1] : "";
   if (entry->run || part == "-h" || part == "--help" || entry->part(part)) return;
   const std::string known = "expected one of " + joined(entry->part_names(), ", ");
-  if (part.empty() || part.starts_with("-")) throw UsageError(word, "which part?", known);
-  throw UsageError(word + " " + part, "unknown part", known);
+  if (part.empty() || part.starts_with("-"))
+    throw UsageError(word, "a subcommand is missing", known);
+  throw UsageError(word + " " + part, "unknown subcommand", known);
 }
 
 void refuse_leftover(const Entry& entry, const std::string& word) {

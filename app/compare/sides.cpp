@@ -15,7 +15,7 @@ namespace neve::app::compare {
 
 namespace {
 
-constexpr std::size_t most_values = 4;
+constexpr std::size_t max_values = 4;
 
 Side read_side(const std::string& path) {
   run::RenderOptions options;
@@ -40,9 +40,9 @@ std::string range_text(const setup::FrameRange& frames) {
 std::string values_text(const std::vector<std::string>& texts) {
   std::vector<std::string> lines = picture::override_lines(texts);
   const std::size_t count = lines.size();
-  if (count > most_values) {
-    lines.resize(most_values);
-    lines.push_back(fmt::format("and {} more", count - most_values));
+  if (count > max_values) {
+    lines.resize(max_values);
+    lines.push_back(fmt::format("and {} more", count - max_values));
   }
   return joined(lines, ", ");
 }
@@ -105,7 +105,7 @@ Pair read_pair(const PairOptions& options) {
   if (fps_a != fps_b)
     throw UsageError(
         "",
-        fmt::format("{} has {} frames a second and {} has {}: their frames are of other times",
+        fmt::format("{} has {} frames a second and {} has {}: their frames are at different times",
                     options.a, rough_text(fps_a), options.b, rough_text(fps_b)),
         "render one of them again with --set fps=" + rough_text(fps_a));
   pair.frames = common_frames(options, pair);

@@ -32,7 +32,7 @@ output::MovieStyle movie_for(const PairOptions& options, TargetKind kind) {
     throw UsageError(
         std::string("--movie ") + (movie.is_made ? output::name(movie.format) : "none"),
         "does not fit " + options.out,
-        std::string("leave it out, or name a file ") + output::movie_suffix(movie.format));
+        std::string("omit it, or name a file ") + output::movie_suffix(movie.format));
   if (!movie.has_format) movie.format = format;
   movie.is_chosen = true;
   return movie;
@@ -59,9 +59,9 @@ std::vector<Mode> modes_for(const PairOptions& options, TargetKind kind) {
                      "give one --mode, or name a folder with --out");
   const bool is_metrics = !options.modes.empty() && options.modes.front() == Mode::metrics;
   if (kind == TargetKind::table && !options.modes.empty() && !is_metrics)
-    throw UsageError("--mode", "a table has metrics", "leave --mode out");
+    throw UsageError("--mode", "a table has metrics", "omit --mode");
   if (kind == TargetKind::movie && is_metrics)
-    throw UsageError("--mode", "metrics are one picture with all times, no movie",
+    throw UsageError("--mode", "metrics are one picture of all times, not a movie",
                      "name a file .png or .csv, or a folder");
   if (kind == TargetKind::table) return {Mode::metrics};
   return options.modes.empty() ? std::vector<Mode>{Mode::beside} : options.modes;

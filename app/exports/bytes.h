@@ -14,7 +14,8 @@
 
 namespace neve::app::exports {
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they lie here");
+static_assert(std::endian::native == std::endian::little,
+              "numbers are written in the byte order of this machine");
 
 template <class T>
 requires std::is_arithmetic_v<T>

@@ -14,8 +14,8 @@
 
 namespace neve::app::exports {
 
-/// Numbers that the state has in single precision are float, so that every bit is there and none
-/// is invented. Places, and all that is computed from several numbers, are double.
+/// Numbers that the state has in single precision are float, so that no bit is lost or invented.
+/// Places, and all that is computed from several numbers, are double.
 using Numbers = std::variant<std::vector<float>, std::vector<double>, std::vector<std::int32_t>>;
 
 struct Column {

@@ -37,12 +37,12 @@ Surface make_surface(const SnowGrains& grains, const render::surface::Settings& 
 template <class T>
 void mix_row(const std::vector<T>& numbers, std::size_t width, const Shares& shares, std::size_t v,
              T* out) {
-  constexpr std::size_t most_width = 9;  // a tensor
+  constexpr std::size_t max_width = 9;  // a tensor
   const std::uint32_t first = shares.first[v], end = shares.first[v + 1];
   if constexpr (std::is_integral_v<T>) {
     std::copy_n(numbers.data() + shares.grain[first] * width, width, out);
   } else {
-    std::array<double, most_width> sum{};
+    std::array<double, max_width> sum{};
     for (std::uint32_t k = first; k < end; ++k) {
       const double share = static_cast<double>(shares.share[k]);
       const T* row = numbers.data() + shares.grain[k] * width;

@@ -43,7 +43,7 @@ struct FrameForecast {
 struct Withheld {
   std::string emitter;
   double share = 0;  ///< of all its snow
-  double time = 0;   ///< s, until when the copy ran
+  double time = 0;   ///< s, the time that the copy reached
 };
 
 /// Explicit steps that take as long as a semi-implicit step of so many iterations.

@@ -52,11 +52,11 @@ std::string crushing_text(const scene::Scene& scene, const Check& check) {
   constexpr double crushing_speed = 0.3;
   if (share >= crushing_speed && has_something_to_hit(scene))
     return fmt::format(
-        "the impact at {} m/s is {} of the speed of sound in the snow and may crush "
-        "single particles; one that flies on",
+        "the impact at {} m/s is {} of the speed of sound in the snow and may crush single "
+        "particles; such a particle",
         rough_text(check.impact_speed), rough_text(share));
   if (squeezes_snow(scene))
-    return "snow that is squeezed between colliders may crush single particles; one that lives on";
+    return "snow that is squeezed between colliders may crush single particles; such a particle";
   return {};
 }
 
@@ -81,8 +81,9 @@ void check_crushing(const scene::Scene& scene, Check& check) {
   check.foreseen.crushed_steps = steps;
   check.findings.push_back(
       {Severity::note, "material." + hardest->name + ".max_hardening",
-       fmt::format("{} rules the steps of all: up to {} steps", text, about_count_text(steps)),
-       "20 bounds that, as --fast does"});
+       fmt::format("{} shortens every step as long as it exists: up to {} steps", text,
+                   about_count_text(steps)),
+       "20 bounds their number, as --fast does"});
 }
 
 void check_copy(const forecast::Forecast& foreseen, std::vector<Finding>& findings) {
@@ -92,7 +93,8 @@ void check_copy(const forecast::Forecast& foreseen, std::vector<Finding>& findin
          fmt::format("in a coarse copy {} % of its snow finds no room until {} s, because snow "
                      "fills the emitter",
                      rough_text(100 * withheld.share), rough_text(withheld.time)),
-         "make rate lower, velocity higher or the way out wider; run.json counts it as withheld"});
+         "use a lower rate, a higher velocity or a wider way out; run.json counts this snow as "
+         "withheld"});
   if (!foreseen.divergence.empty())
     findings.push_back({Severity::warning, "", foreseen.divergence,
                         "run the scene itself to see if it diverges too"});

@@ -282,7 +282,7 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
                         "981 would be cm/s2; lengths are in metres"});
   const double largest = setup::largest_extent(scene), cells = scene.solver.cell_size / coarsening;
   if (!is_too_large(scene)) return;
-  // Cells that are few across the snow are in the same unit as it.
+  // With fewer cells than this across the snow, cell_size is in the same wrong unit.
   constexpr double few = 200;
   std::string hint = fmt::format("lengths are in metres: in centimetres it would be {} m",
                                  rough_text(0.01 * largest));

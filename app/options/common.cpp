@@ -37,7 +37,8 @@ std::string format_advice(const std::string& word) {
   const std::string all = joined(format_names(), ", ");
   const std::string suffixes = ", or the suffix of the file: mp4, webm, mov";
   if (word == "avi" || word == "mkv")
-    return "no " + word + " is written; expected " + all + suffixes + "; most programs read mp4";
+    return "neve cannot write " + word + "; expected " + all + suffixes +
+           "; most programs read mp4";
   return advice::suggest_one_of(word, {"format of a movie", format_names()}) + suffixes;
 }
 
@@ -52,7 +53,7 @@ void read_format(const std::string& text, output::MovieStyle& movie) {
 
 void check_log(const std::string& flag, const std::string& file) {
   if (!is_log_name(file))
-    throw UsageError(flag, "\"" + file + "\" is no log",
+    throw UsageError(flag, "\"" + file + "\" does not end in .log",
                      "expected a file for the messages, as in --log run.log");
 }
 
@@ -78,12 +79,12 @@ void describe_backend(Command& visit, std::string& backend, const char* help) {
 void describe_caps(Command& visit, setup::CapTexts& caps) {
   visit("--max-memory", caps.memory,
         text("SIZE", "8GiB", [](auto& flag, auto& text) { setup::memory_cap(text, flag); }),
-        "Refuse runs that need more memory, whatever the scene allows; NEVE_MAX_MEMORY does so "
-        "always");
+        "Refuse runs that need more memory, whatever the scene allows; NEVE_MAX_MEMORY sets this "
+        "for all commands");
   visit("--max-particles", caps.particles,
         text("N", "2e6", [](auto& flag, auto& text) { setup::particle_cap(text, flag); }),
-        "Refuse runs of more particles, whatever the scene allows; NEVE_MAX_PARTICLES does so "
-        "always");
+        "Refuse runs of more particles, whatever the scene allows; NEVE_MAX_PARTICLES sets this "
+        "for all commands");
   visit.check([&caps] { setup::hold_caps(caps); });
 }
 
@@ -109,7 +110,7 @@ void describe_movie(Command& visit, output::MovieStyle& movie) {
         const bool is_usual = movie.quality == output::MovieStyle{}.quality && !is_asked_for;
         return is_usual ? "" : std::to_string(movie.quality);
       },
-      "Quality of movies, 1 to 100; default: 80, good to look at");
+      "Quality of movies, 1 to 100; default: 80, for watching");
   const Language<double> fps =
       number<double>("RATE", 0.1, 1000, "0.1 to 1000 frames a second, as in --movie-fps 12");
   visit.custom(
@@ -119,8 +120,8 @@ void describe_movie(Command& visit, output::MovieStyle& movie) {
         movie.is_chosen = true;
       },
       [&movie, fps] { return movie.fps == 0 ? "" : fps.write(movie.fps); },
-      "Frames of a movie per second; fewer than the scene's are slow motion; default: those of the "
-      "scene");
+      "Frames of a movie per second; fewer than the scene's make slow motion; default: those of "
+      "the scene");
 }
 
 void describe_progress(Command& visit, ProgressOptions& progress) {

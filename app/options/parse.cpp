@@ -50,7 +50,7 @@ class Parser {
     if (!option) return leftovers_.push_back(word);
     if (equals == word.size()) return take_value(*option);
     if (option->is_flag)
-      throw UsageError(option->name(), "takes no value", "it is on where it is given" + help_);
+      throw UsageError(option->name(), "takes no value", "the flag alone turns it on" + help_);
     if (equals + 1 == word.size()) refuse_missing(*option, "");
     option->given.push_back(word.substr(equals + 1));
   }

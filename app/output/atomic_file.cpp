@@ -61,7 +61,7 @@ void refuse_special(const std::filesystem::path& path) {
 [[noreturn]] void fail_writing(const std::filesystem::path& path, const std::string& sentence,
                                int reason) {
   const char* hint = reason == ENOSPC || reason == EDQUOT || reason == EFBIG
-                         ? "make room there, or choose another folder with --out or NEVE_OUT"
+                         ? "free disk space, or choose another folder with --out or NEVE_OUT"
                          : "choose another folder with --out or NEVE_OUT";
   throw IoError(path.string() + ": " + sentence + ": " + std::strerror(reason), path.string(),
                 hint);
@@ -139,14 +139,14 @@ void sync_files(const std::vector<std::filesystem::path>& files) {
   sync_some();
   for (std::thread& other : others) other.join();
   if (failed >= 0)
-    fail_writing(files[static_cast<std::size_t>(failed)], "cannot bring it to the disk", reason);
+    fail_writing(files[static_cast<std::size_t>(failed)], "cannot flush it to the disk", reason);
   for (const std::filesystem::path& folder : folders) sync_folder(folder);
 }
 
 void sync_folder(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder.empty() ? "." : folder;
   if (const int reason = sync_at(path, O_RDONLY | O_DIRECTORY); reason != 0)
-    fail_writing(path, "cannot bring the folder to the disk", reason);
+    fail_writing(path, "cannot flush the folder to the disk", reason);
 }
 
 void make_folder(const std::filesystem::path& path) {

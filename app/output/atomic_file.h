@@ -44,7 +44,7 @@ void sync_files(const std::vector<std::filesystem::path>& files);
 void sync_folder(const std::filesystem::path& folder);
 
 /// The whole of a regular file. @throws IoError, also when it is larger than `limit` bytes;
-/// UnreadableError when it is there and the machine fails
+/// UnreadableError when the file exists and cannot be read
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
                                     std::uint64_t limit = std::uint64_t{1} << 30);
 

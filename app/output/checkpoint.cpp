@@ -104,7 +104,7 @@ void tidy_checkpoint_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return;
   if (fs::is_directory(path, error)) return remove_abandoned(path);
-  throw IoError(path.string() + ": is no folder, but checkpoints are to go there", path.string(),
+  throw IoError(path.string() + ": cannot write checkpoints here: not a folder", path.string(),
                 "rename it, choose another folder with --out, or --checkpoint-every 0");
 }
 
@@ -146,7 +146,7 @@ Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes) {
   c.sources = json.value("sources", "");
   c.frame = whole_number<int>(json.at("frame"));
   c.steps = whole_number<std::size_t>(json.at("steps"));
-  if (c.frame < 0 || c.frame > max_frame) refuse("has an impossible frame");
+  if (c.frame < 0 || c.frame > max_frame) refuse("has an invalid frame number");
   c.progress = json.at("progress");
   c.state.assign(bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length),
                  bytes.begin() + static_cast<std::ptrdiff_t>(body));

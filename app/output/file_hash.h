@@ -8,7 +8,7 @@
 
 namespace neve::app::output {
 
-/// A file as it was written, with the hash of its bytes.
+/// A written file, with the hash of its bytes.
 struct WrittenFile {
   std::filesystem::path file;
   std::uint64_t hash = 0;

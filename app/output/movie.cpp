@@ -71,7 +71,7 @@ FrameCount count_webp_frames(const fs::path& movie, double fps) {
     return std::memcmp(bytes.data() + at, word, 4) == 0;
   };
   if (bytes.size() < head || !is_at(0, "RIFF") || number(4, 4) + 8 != bytes.size())
-    return {-1, "the file is not whole"};
+    return {-1, "the file is incomplete"};
   double milliseconds = 0;
   for (std::size_t at = head; at + chunk_head <= bytes.size();) {
     const std::size_t size = number(at + 4, 4);
@@ -118,7 +118,7 @@ void remove_movie(const fs::path& file) {
   const fs::file_status status = fs::symlink_status(file, error);
   if (!fs::exists(status)) return;
   if (!fs::is_regular_file(status))
-    throw IoError(file.string() + ": is no regular file, where a movie is to be written",
+    throw IoError(file.string() + ": cannot write the movie here: this is not a regular file",
                   file.string());
   if (!fs::remove(file, error))
     throw IoError(file.string() + ": cannot remove the earlier movie: " + error.message(),
@@ -133,7 +133,7 @@ struct Attempt {
 Attempt try_movie(const fs::path& ffmpeg, const MovieRequest& request, const fs::path& temporary) {
   const ProcessResult result = encode(ffmpeg, request, temporary);
   if (!result.has_started) return {"ffmpeg does not start: " + result.errors};
-  if (result.is_too_slow) return {"ffmpeg was stopped: it took far too long", false};
+  if (result.is_too_slow) return {"ffmpeg was stopped: it took too long", false};
   if (result.exit_code != 0)
     return {"ffmpeg failed (" + std::to_string(result.exit_code) +
             "): " + telling_line(result.errors)};
@@ -216,10 +216,11 @@ void require_movie(const MovieStyle& style, double fps) {
   const ProcessResult listed = run_process(*ffmpeg, {"-v", "error", "-encoders"}, "/", 60);
   if (listed.output.find(std::string(" ") + movie_encoder(style.format) + " ") != std::string::npos)
     return;
-  throw IoError(flag + ": " + ffmpeg->string() + " has no encoder " + movie_encoder(style.format) +
-                    "; install a whole ffmpeg, or choose another format: h264, prores and gif are "
-                    "in most",
-                ffmpeg->string(), "choose another format");
+  throw IoError(
+      flag + ": " + ffmpeg->string() + " has no encoder " + movie_encoder(style.format) +
+          "; install a complete ffmpeg, or choose another format: h264, prores and gif are "
+          "in most",
+      ffmpeg->string(), "choose another format");
 }
 
 }  // namespace neve::app::output

@@ -113,7 +113,7 @@ void write_named_file(const fs::path& path, std::string_view text) {
   if (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode))
     return write_to_device(target.path, bytes);
   if (!S_ISREG(status.st_mode))
-    throw IoError(path.string() + ": is no file, pipe or terminal, so nothing is written to it",
+    throw IoError(path.string() + ": cannot write here: not a file, pipe or terminal",
                   path.string(), "name a file");
   if (!is_replaceable(status)) return write_in_place(target.path, bytes);
   replace_file(target.path, bytes, Durability::synced,

@@ -28,7 +28,7 @@ std::vector<double> numbers_of(const sweep::read::Axis::Parameter& parameter) {
   std::vector<double> numbers;
   for (const scene::Override& setting : parameter.values) {
     const std::optional<double> x = number_of(setting.value);
-    if (!x) refuse_axis(parameter.address, "\"" + setting.value + "\" is no number");
+    if (!x) refuse_axis(parameter.address, "\"" + setting.value + "\" is not a number");
     numbers.push_back(*x);
   }
   return numbers;
@@ -55,7 +55,7 @@ PickAxis axis_of(const sweep::read::Axis::Parameter& parameter) {
   const std::vector<double> numbers = numbers_of(parameter);
   axis.low = *std::min_element(numbers.begin(), numbers.end());
   axis.high = *std::max_element(numbers.begin(), numbers.end());
-  if (!(axis.low < axis.high)) refuse_axis(axis.address, "has one value, so nothing varies");
+  if (!(axis.low < axis.high)) refuse_axis(axis.address, "has only one value, so it does not vary");
   axis.is_logarithmic = axis.low > 0 && axis.high / axis.low >= decade;
   return axis;
 }
@@ -93,12 +93,12 @@ std::vector<PickAxis> axes_of(const sweep::read::Sweep& sweep) {
     axes.push_back(axis_of(axis.parameters.front()));
     addresses.push_back(axes.back().address);
   }
-  if (axes.size() > most_axes)
+  if (axes.size() > max_axes)
     throw UsageError(
         "-p", fmt::format("{} parameters are too many to find by eye", axes.size()),
         fmt::format("expected at most {}; neve sweep with method = \"morris\" finds those that "
                     "matter",
-                    most_axes));
+                    max_axes));
   const std::vector<std::string> names = sweep::plan::short_names(addresses);
   for (std::size_t k = 0; k < axes.size(); ++k) axes[k].name = names[k];
   return axes;

@@ -10,7 +10,7 @@
 
 namespace neve::app::pick {
 
-inline constexpr std::size_t most_axes = 8;
+inline constexpr std::size_t max_axes = 8;
 
 /// A number between two ends, in equal steps or in equal ratios.
 struct PickAxis {
@@ -27,7 +27,7 @@ struct PickAxis {
 /// Of each -p the least and the greatest value; in ratios where they are a factor of ten or more
 /// apart, or where the rule says so (log_uniform, logspace).
 /// @throws UsageError for parameters that are no numbers, for a single value, and for more than
-///         most_axes
+///         max_axes
 std::vector<PickAxis> axes_of(const sweep::read::Sweep& sweep);
 
 /// "ADDRESS=5,20" for "ADDRESS=5..20", "ADDRESS=5:20" and "ADDRESS=5-20"; anything else as it is.

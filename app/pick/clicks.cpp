@@ -49,7 +49,7 @@ std::vector<Click> parse_clicks(const std::string& text, const std::string& file
     const std::optional<Click> click = click_of(line);
     if (!click)
       throw UsageError(fmt::format("{}:{}", file, number),
-                       "\"" + line.substr(0, 40) + "\" is no choice",
+                       "\"" + line.substr(0, 40) + "\" is not a choice",
                        "expected a tile from 1 to 9, two of them as in 2 7, or 0 for none");
     clicks.push_back(*click);
   }

@@ -34,7 +34,7 @@ class Game {
   const std::filesystem::path& folder() const { return folder_; }
   const std::vector<PickAxis>& axes() const { return scene_.axes; }
   const std::vector<search::Round>& rounds() const { return rounds_; }
-  int most_rounds() const { return options_.rounds; }
+  int max_rounds() const { return options_.rounds; }
   int answered() const { return static_cast<int>(rounds_.size()); }
   bool is_over() const { return answered() >= options_.rounds; }
 

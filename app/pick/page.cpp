@@ -46,7 +46,7 @@ std::string page_html(const RoundPage& page) {
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<title>neve pick: round {0} of {1}</title>\n<style>{2}</style></head><body>\n"
       "<h1>Round {0} of {1}</h1>\n<p>Type the number of the best tile in the terminal; two numbers "
-      "for two that are as good, 0 for none.{3}</p>\n<main>\n",
+      "for two that are equally good, 0 for none.{3}</p>\n<main>\n",
       page.round, page.rounds, page_style,
       page.has_favourite ? " Tile 1 is the favourite so far." : "");
   for (std::size_t k = 0; k < page.tiles.size(); ++k)

@@ -26,7 +26,7 @@ struct PictureOptions {
 
 class FrameBuilder {
  public:
-  /// @param scene resolved: cameras and ranges are there; its views are not looked at
+  /// @param scene resolved: it has cameras and ranges; its views are ignored
   /// @param scene, seeded outlive the builder
   FrameBuilder(const scene::Scene& scene, const setup::SeededScene& seeded,
                PictureOptions options = {});

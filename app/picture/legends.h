@@ -8,7 +8,7 @@
 
 namespace neve::app::picture {
 
-/// One for each thing that the view colours by a value. @param view resolved: ranges are there
+/// One for each thing that the view colours by a value. @param view resolved: it has ranges
 std::vector<render::Legend> legends_of(const scene::View& view);
 
 }  // namespace neve::app::picture

@@ -61,7 +61,7 @@ class Tracer {
     found_.push_back(std::move(line));
   }
 
-  /// Lines beside those that are there, until there is no room.
+  /// Adds lines beside the found ones, until no room is left.
   void fill() {
     for (; !queue_.empty(); queue_.pop_front()) {
       const auto every =

@@ -8,7 +8,7 @@
 
 namespace neve::app::picture {
 
-/// A vector in the plane at a place of it; nothing where there is none.
+/// The vector of a field at a place in the plane; empty where the field has no vector.
 using PlaneField = std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)>;
 
 struct StreamlineStyle {

@@ -161,8 +161,8 @@ bool is_content(const fs::path& file, const std::string& hash) {
 }
 
 /// Finds a file of a picture that has moved, as projects move as a whole: in the folder of the
-/// picture or one above, below as much of its recorded path as is there. Empty: no such file has
-/// this content.
+/// picture or one above, below the longest part of its recorded path that exists. Empty: no such
+/// file has this content.
 fs::path moved_file(const std::string& recorded, const std::string& hash, const fs::path& picture) {
   const fs::path path = recorded;
   const std::vector<fs::path> parts(path.begin(), path.end());
@@ -249,7 +249,8 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   record.quality = reader.text("neve:quality");
   if (text.contains("neve:plate")) record.plate = reader.text("neve:plate");
   if (text.contains("neve:shutter")) record.shutter = reader.number<double>("neve:shutter");
-  if (!(record.shutter >= 0 && record.shutter <= 360)) reader.fail("its shutter is not 0 to 360");
+  if (!(record.shutter >= 0 && record.shutter <= 360))
+    reader.fail("its shutter is not from 0 to 360");
   if (text.contains("neve:passes")) record.passes = reader.list("neve:passes");
   if (text.contains("neve:strip")) record.strip = reader.strip("neve:strip");
   const Json files = reader.json("neve:files");

@@ -28,7 +28,7 @@ std::string flaw_of(const fs::path& file, const std::string& hash) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(file, error);
   if (!fs::exists(status)) return is_missing;
-  if (!fs::is_regular_file(status)) return "is no regular file";
+  if (!fs::is_regular_file(status)) return "is not a regular file";
   if (fs::file_size(file, error) == 0 && !error) return is_empty;
   try {
     return hash_text(output::hash_file(file)) == hash ? "" : is_another;

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether the folder of a run is whole: every file that the run says it wrote is there, as it was.
+/// Whether the folder of a run is complete: every file that the run lists exists and is unchanged.
 
 #include <filesystem>
 #include <optional>

@@ -29,12 +29,11 @@ void require_whole_frame(const scene::Scene& scene, double time, const char* fla
   if (scene.solver.on_divergence != sim::OnDivergence::retry ||
       timeline::is_not_after(time, frame_end))
     return;
-  throw UsageError(
-      flag,
-      fmt::format("{} s is between two frames, where a run with solver.on_divergence = "
-                  "\"retry\" does not take another way",
-                  rough_text(time)),
-      fmt::format("expected the time of a frame, as {} {}", flag, frame_end));
+  throw UsageError(flag,
+                   fmt::format("{} s is between two frames; with solver.on_divergence = \"retry\" "
+                               "a fork must be at a frame",
+                               rough_text(time)),
+                   fmt::format("expected the time of a frame, as in {} {}", flag, frame_end));
 }
 
 void set_fork(const RenderOptions& options, RenderJob& job) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Forks: runs that take another way from a moment of a run that exists.
+/// Forks: runs that start from a moment of an existing run, with changes.
 
 #include "app/run/render_job.h"
 #include "app/support/progress.h"

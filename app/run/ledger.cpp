@@ -151,7 +151,7 @@ void Ledger::write_movie(const std::string& view, std::vector<std::filesystem::p
     case output::MovieOutcome::unwritable:
       record_.warnings.push_back(failure);
       throw IoError(failure, request.file.string(),
-                    "the pictures are whole; --resume makes the movie when there is room");
+                    "the pictures are complete; free disk space, and --resume makes the movie");
   }
 }
 

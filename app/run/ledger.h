@@ -28,7 +28,7 @@ class Ledger {
   timeline::Made made() const { return {record_.frames, record_.files, record_.exports}; }
 
   /// Removes the files of an earlier run. Its frames stay listed until they are made again:
-  /// whenever the process is killed, run.json knows every picture that is there.
+  /// whenever the process is killed, run.json lists every picture that exists.
   void replace_earlier();
   /// Takes what a run that is resumed has made until a moment. @throws IoError for a broken list
   void take(const timeline::Moment& moment);

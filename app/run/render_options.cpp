@@ -77,8 +77,8 @@ void describe_scene(options::Command& visit, RenderOptions& o, const char* help)
         "Make cells N times as large, for previews: 1/N^3 of the particles and longer steps, about "
         "N^4 times cheaper");
   visit("--fast", o.is_fast,
-        "Take longer steps for a quick look, by settings that are recorded as --set is; neve check "
-        "says what they gain");
+        "Take longer steps for a quick look, by settings that are recorded like those of --set; "
+        "neve check says what they gain");
   options::describe_threads(visit, o.threads);
   options::describe_caps(visit, o.caps);
 }

@@ -131,7 +131,7 @@ bool RenderRun::mend(const std::vector<int>& frames) {
   is_mending_ = false;
   const auto newest = timeline_.moments().find_newest(timeline_.fps());
   if (!newest)
-    throw IoError(job_.folder.string() + ": its checkpoint has gone", job_.folder.string());
+    throw IoError(job_.folder.string() + ": its checkpoint is missing", job_.folder.string());
   continue_from(*newest);
   ledger_.record().retries = newest->retries;
   if (laws_) watch_laws();

@@ -74,12 +74,11 @@ void check_identity(const std::filesystem::path& folder, const output::Checkpoin
     throw UsageError(
         "--resume",
         "the run in " + folder.string() + " is a different run: " + other_thing(folder, picture),
-        "remove --resume to replace it, or choose another folder with --out");
+        "omit --resume to replace it, or choose another folder with --out");
   if (checkpoint.sources != build().sources)
     progress.warning(
         "the earlier part of the run was made by a program with other sources: this "
-        "part may not be what that program would make; leave --resume out to make "
-        "all of it again");
+        "part may not be what that program would make; omit --resume to make all of it again");
   if (checkpoint.simd != simd)
     progress.warning("the earlier part of the run used " + checkpoint.simd +
                      " instructions, this part uses " + simd +

@@ -40,10 +40,9 @@ std::vector<std::string> step_warnings(const scene::Scene& scene,
   const std::vector<std::uint64_t> withheld = simulation.withheld();
   for (std::size_t k = 0; k < withheld.size(); ++k)
     if (withheld[k] > 0)
-      list.push_back(
-          "emitter." + scene.emitters[k].name + ": " + std::to_string(withheld[k]) +
-          " particles found no room, because snow fills the emitter; make rate lower, velocity "
-          "higher or the way out wider");
+      list.push_back("emitter." + scene.emitters[k].name + ": " + std::to_string(withheld[k]) +
+                     " particles found no room, because snow fills the emitter; use a lower rate, "
+                     "a higher velocity or a wider way out");
   if (const auto softness = health::softness_warning(scene, simulation)) list.push_back(*softness);
   return list;
 }

@@ -371,7 +371,7 @@ Found export_problem(const Scene& scene, const Export& e) {
   if (!needs_origin && e.bodies.empty()) return {};
   return Problem{at + (needs_origin ? ".attributes" : ".bodies"),
                  "the state does not say which of several emitters a particle comes from",
-                 "leave out body and age, and name no bodies, or use one emitter"};
+                 "omit body and age, and name no bodies, or use one emitter"};
 }
 
 /// Compares the attitudes, which several angles can describe, within 1e-4 degrees.

@@ -85,8 +85,9 @@ void describe(V& visit, sim::SolverSettings& s) {
         "grid's.");
   visit("separation_min", s.separation_min, unit::none, between(0, 1), live,
         "Share of its own velocity, beside the grid's, that moves compressed snow of asflip.");
-  visit("separation_max", s.separation_max, unit::none, between(0, 1), live,
-        "Share of its own velocity that moves other snow of asflip: 1 lets it part, 0 is aflip.");
+  visit(
+      "separation_max", s.separation_max, unit::none, between(0, 1), live,
+      "Share of its own velocity that moves other snow of asflip: 1 lets it separate, 0 is aflip.");
   visit("separation_J_E", s.separation_J_E, unit::none, between(0.5, 2), live,
         "Elastic volume ratio below which snow of asflip counts as compressed.");
   visit(
@@ -122,7 +123,7 @@ void describe(V& visit, sim::SolverSettings& s) {
   visit("precision", s.precision, unit::none, anything, restart, "Arithmetic of the solver.");
   visit("on_divergence", s.on_divergence, unit::none, anything, live,
         "stop: end the run and explain; retry: repeat the frame with half the dt, at "
-        "most four times; ignore: go on anyway.");
+        "most four times; ignore: continue anyway.");
   visit("bypass", s.bypass, unit::none, anything, live,
         "Stages to skip in every step, for debugging a solver; energy is then not watched.");
 }
@@ -178,7 +179,7 @@ void describe(V& visit, sim::Material& m) {
         "Elastic law; all harden when compacted, only snow also yields.");
   describe_snow_numbers(visit, m);
   visit("min_J_P", m.min_J_P, unit::none, above(0).at_most(1), Change::live,
-        "Smallest plastic volume ratio: snow packed further yields on and hardens no more.");
+        "Smallest plastic volume ratio: snow packed further keeps yielding but hardens no more.");
   visit("max_J_P", m.max_J_P, unit::none, between(1, 1e6), Change::live,
         "Largest plastic volume ratio: how loose torn snow becomes before it is packed again.");
   visit("max_hardening", m.max_hardening, unit::none, between(1, 1e12), Change::live,
@@ -561,9 +562,10 @@ void describe(V& visit, Export& e) {
   visit("every", e.every, unit::none, between(1, 100000), restart,
         "Frames from one file to the next.");
   visit("attributes", e.attributes, unit::none, anything, restart,
-        "Attributes of the particles; x is always there. vti and vdb have the grid instead.");
+        "Attributes of the particles; x is always written. vti and vdb have the grid instead.");
   visit("carried", e.carried, unit::none, identifier, restart,
-        "Further columns of the bodies' point files, by name; 0 for particles without.");
+        "Further columns of the bodies' point files, by name; 0 for particles of bodies without "
+        "them.");
   visit("bodies", e.bodies, unit::none, identifier, restart,
         "Names of bodies and emitters whose particles are written; default: all.");
   visit("up", e.up, unit::none, anything, restart,
@@ -603,9 +605,9 @@ void describe(V& visit, Scene& s) {
                 [&](auto& v) { describe(v, s.limits); });
   visit.named("material", s.materials, "A named material.");
   visit.list("body", s.bodies, "A piece of snow.");
-  visit.list("emitter", s.emitters, "A source of snow during the run.");
+  visit.list("emitter", s.emitters, "Adds snow during the run.");
   visit.list("sink", s.sinks, "A region that removes snow.");
-  visit.list("collider", s.colliders, "A rigid obstacle.");
+  visit.list("collider", s.colliders, "A solid with a prescribed motion; snow does not move it.");
   visit.optional("camera", s.camera, "The camera of all views; default: frames the whole scene.");
   visit.section("light", "The sun and the sky.", [&](auto& v) { describe(v, s.light); });
   visit.list("view", s.views, "One picture per frame.");

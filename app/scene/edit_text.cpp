@@ -372,7 +372,7 @@ class Edit {
   const toml::Table root_;
   const toml::TomlLayout layout_;
   const std::string line_end_;
-  const toml::TomlNode* node_ = nullptr;  ///< the deepest that is there
+  const toml::TomlNode* node_ = nullptr;  ///< the deepest existing node
   const toml::TomlNode* parent_ = nullptr;
   std::size_t depth_ = 0;  ///< how many words lead to it
   Words keys_;             ///< of those the ones that are keys, not names in lists

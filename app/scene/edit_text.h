@@ -9,8 +9,8 @@
 namespace neve::app::scene {
 
 /// The text of a scene with other values put in. Comments, order, blank lines, line ends and the
-/// way other values are written stay byte for byte: of keys that are there only the value is
-/// replaced, others are added below the last key of their table, inside an inline table, or in a
+/// way other values are written stay byte for byte: existing keys only get a new value, other keys
+/// are added below the last key of their table, inside an inline table, or in a
 /// section of their own at the end. A value set to "none" is removed with its line.
 ///
 /// Reading the result gives exactly the scene that reading the text with these overrides gives; it

@@ -69,7 +69,7 @@ material = "snow"
 name = "wall"
 shape = { box = { center = [0.2, 0.25, 0], size = [0.2, 0.5, 0.6] } }
 
-# An obstacle. Each [[collider]] is one more; it may move (velocity, keyframes).
+# A solid that snow cannot enter. Each [[collider]] is one more; it may move (velocity, keyframes).
 [[collider]]
 # Its name in addresses, as in --set collider.floor.friction=0.2.
 name = "floor"

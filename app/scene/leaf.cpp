@@ -49,7 +49,7 @@ std::string absolute_path(const Leaf& leaf, const std::string& name) {
 /// Names the path that was tried, and a file there that has nearly that name.
 std::string advice_on_file(const std::string& name, const std::filesystem::path& file) {
   const std::string looked = "looked for " + file.string();
-  if (name.starts_with("~")) return looked + "; ~ is no folder here: write the whole path";
+  if (name.starts_with("~")) return looked + "; ~ is not expanded here: write the whole path";
   if (name.find('\\') != std::string::npos) return looked + "; folders have / between them";
   std::vector<std::string> names;
   std::error_code error;

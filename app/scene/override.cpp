@@ -380,7 +380,7 @@ toml::Value object_in(const Override& change, const std::string& list, const std
   const toml::Entry* own = table->find("name");
   if (own && !same_text(own->value, name))
     change.fail(change.place, "its name is not " + toml::toml_string(name),
-                "leave the name out: it is in the address");
+                "omit the name: it is in the address");
   if (!own) table->entries.insert(table->entries.begin(), {"name", {}, {name}});
   return value;
 }

@@ -96,11 +96,11 @@ std::string Reader::advice(const std::string& key, const std::vector<std::string
     return "write shape = { " + key + " = { ... } }";
   if (contains(known, "shape") && key == "plane") return "only colliders can be planes";
   if (const std::string shape = shape_with(kind, key); contains(known, "shape") && !shape.empty())
-    return "it belongs into the shape: shape = { " + shape + " = { ..., " + key + " = ... } }";
+    return "it belongs in the shape: shape = { " + shape + " = { ..., " + key + " = ... } }";
   if (std::string question = advice::suggest(key, keys); !question.empty()) return question;
   for (const char* table : {"sheet", "axis", "set", "link", "run"})
     if (reading_.is_scene && address_.empty() && key == table)
-      return "[" + key + "] belongs into the file of a sweep; neve params --sweep has its keys";
+      return "[" + key + "] belongs in the file of a sweep; neve params --sweep has its keys";
   if (!reading_.is_scene) return "expected " + list_of(known);
   if (!address_.empty() && is_at_the_top(key))
     return "it belongs at the top of the file, before the first [table]";

@@ -85,7 +85,7 @@ void refuse_other_languages(const std::string& file) {
   for (const char* other : {".json", ".yaml", ".yml", ".xml", ".py", ".ini", ".usd", ".usda",
                             ".abc", ".hip", ".blend", ".obj", ".ply", ".stl", ".mp4", ".npz"})
     if (suffix == other)
-      throw toml::SceneError(file, 0, 0, "is no scene: scenes are TOML files",
+      throw toml::SceneError(file, 0, 0, "is not a scene: scenes are TOML files",
                              is_result ? "name the folder of the run, or one of its pictures"
                              : suffix == ".obj" || suffix == ".ply" || suffix == ".stl"
                                  ? "a scene names the mesh: shape = { mesh = { file = " +
@@ -165,7 +165,7 @@ std::string read_toml_file(const std::string& file) {
   refuse_waiting_pipe(file);
   std::string text = fs::is_fifo(file, error) ? text_of_stream(file) : read_whole(file);
   if (file.ends_with(".png"))
-    throw toml::SceneError(file, 0, 0, "is no PNG picture, whatever its name says",
+    throw toml::SceneError(file, 0, 0, "is not a PNG picture, although its name ends in .png",
                            "name a scene file, or a picture that neve has made");
   if (text.empty())
     throw toml::SceneError(file, 0, 0, "the file is empty", "a scene needs at least one [[body]]");

@@ -8,7 +8,7 @@ Json scene_schema(std::vector<AddressSchema>& addresses) {
   describe(writer, scene);
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "Scene of neve"}};
-  schema.update(writer.table("A scene: snow, obstacles, and the pictures of them."));
+  schema.update(writer.table("A scene: snow, colliders, and the pictures of them."));
   return schema;
 }
 

@@ -99,7 +99,7 @@ std::string size_advice(const scene::Scene& scene, const Plan& plan, const std::
   if (largest > sim::health::limits_of(sim::health::Law::extent).check_warning)
     return "the largest piece of snow is " + rough_text(largest) +
            " m across: lengths are in metres, and in centimetres it would be " +
-           rough_text(0.01 * largest) + " m. If metres are meant, " + fitting;
+           rough_text(0.01 * largest) + " m. If metres are right, " + fitting;
   const bool is_possible = plan.memory <= available_memory();
   return (is_possible ? "raise it with --set " + raised + ", or " : std::string()) + fitting;
 }

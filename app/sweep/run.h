@@ -1,5 +1,5 @@
 #pragma once
-/// One run of a parameter study, from the plan to the report.
+/// One sweep, from the plan to the report.
 
 #include <string>
 #include <vector>

@@ -72,7 +72,7 @@ std::shared_ptr<const Moment> Moments::read(int frame, double time, double fps) 
   std::shared_ptr<const Moment> moment;
   if (on_disk_.at(frame) > 0)
     moment = use(output::find_checkpoint(folder, frame + 1), frame, states_.checkpoints);
-  // One of an interrupted run may hold steps beyond its frame.
+  // A checkpoint of an interrupted run may lie inside a frame.
   if (moment && is_not_after(moment->time(fps), time)) return moment;
   const bool is_later = moment != nullptr;
   moment = use(output::read_state(folder, frame), frame, states_.identity);

@@ -1,5 +1,5 @@
 #pragma once
-/// A run in time: its present moment, how it gets to another one, and how it takes another way.
+/// A run in time: its present moment, how it gets to another one, and how it forks.
 
 #include <cstddef>
 #include <functional>
@@ -81,10 +81,10 @@ class Timeline {
   /// @throws IoError for one from a file that no healthy run has; it is then nowhere
   void restore(const Moment& moment);
 
-  /// Makes the changes that lead from the scene here to this one, and lists them; the run takes
-  /// another way then. Throws like sim::Simulation::apply; nothing has changed then.
+  /// Makes the changes that lead from the scene here to this one, and lists them; the run forks
+  /// then. Throws like sim::Simulation::apply; nothing has changed then.
   void change(std::shared_ptr<const scene::Scene> scene);
-  /// Takes another way from here: forgets later changes and later moments.
+  /// Forks the run here: forgets later changes and later moments.
   void fork();
 
  private:

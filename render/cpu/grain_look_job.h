@@ -22,7 +22,7 @@ struct GrainLookJob {
   float spacing;                     ///< m, of packed particles
   const Grain* grains;               ///< all there are
   const float* noise[noise_levels];  ///< height and its gradient of each texel; the finest first
-  const unsigned* grain;             ///< which; beyond count any that is there
+  const unsigned* grain;             ///< which; beyond count any existing one
   const float* world[3];             ///< m, of samples
   const float* sample_size;          ///< m
   int wants_facets;                  ///< or leaves them

@@ -52,7 +52,7 @@ struct NearestTwo {
     first = smaller_lanes(first, squared);
   }
 
-  /// The two of all lanes. @return whether they are sure
+  /// Reduces the lanes to the two nearest grains. @return false if a nearer one may lie outside
   NEVE_INLINE bool found(FoundTwo& two) const {
     const float nearest = min_of(first);
     const I has_nearest = first == all<V>(nearest);

@@ -43,7 +43,7 @@ class Surfaces {
   explicit Surfaces(ThreadPool* pool, const DrawKernels& kernels = chosen_draw_kernels())
       : kernels_(kernels), pool_(pool), splatter_(kernels) {}
 
-  /// The frame has to stay until its picture is there.
+  /// The frame has to stay until its picture is drawn.
   /// @param spheres of the frame, or what is drawn instead
   /// @param over draws over the spheres, may be null
   void prepare(const Frame& frame, const View& view, const Points& spheres,

@@ -23,8 +23,8 @@ struct Camera {
 
 enum class ColorMap { viridis, magma, turbo, coolwarm };
 
-/// Points beyond a plane that cuts snow open. They are not drawn, but the surface of the snow goes
-/// on to the plane as if they were there, and ends in it.
+/// Points beyond a plane that cuts snow open. They are not drawn, but the surface of the snow
+/// continues to the plane as if they were drawn, and ends in it.
 struct CutAway {
   Vec3f point, normal;       ///< of the plane, unit and towards what is cut away
   Values<Vec3f> position;    ///< those within a few spacings of the plane
@@ -49,7 +49,7 @@ struct Points {
   bool operator==(const Points&) const = default;
 };
 
-/// A cubic lattice of nodes, of which only blocks of 4x4x4 are there. Node (i, j, k) of block b
+/// A cubic lattice of nodes, of which only some blocks of 4x4x4 exist. Node (i, j, k) of block b
 /// lies at origin + spacing (4 block[b] + (i, j, k)); its values are at index 64 b + 16 i + 4 j + k
 /// of whatever belongs to the lattice.
 struct NodeLattice {

@@ -128,8 +128,9 @@ void check_size(const std::vector<PngChunk>& chunks) {
   const std::size_t width = number_at(0), height = number_at(4), kind = header[9];
   const std::size_t samples = kind == 2 ? 3 : kind == 4 ? 2 : kind == 6 ? 4 : 1;
   if ((width * samples * header[8] + 7) / 8 * height > best_deflate * packed)
-    throw ImageError("PNG is damaged: " + std::to_string(packed) + " bytes of data are no " +
-                     std::to_string(width) + "x" + std::to_string(height) + " pixels");
+    throw ImageError("PNG is damaged: " + std::to_string(packed) +
+                     " bytes of data are too few for " + std::to_string(width) + "x" +
+                     std::to_string(height) + " pixels");
 }
 
 void check_comparable(const Image& a, const Image& b) {

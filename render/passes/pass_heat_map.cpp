@@ -16,7 +16,7 @@ HeatMapPass::HeatMapPass(const gl::Gl& gl, const gl::ShaderLibrary& library)
 
 void HeatMapPass::upload(const HeatMap& map) {
   // Linear filtering of (value if there is one, whether there is one): their quotient is the mean
-  // of the samples that are there.
+  // of the samples that have a value.
   std::vector<float> texels;
   texels.reserve(2 * map.value.size());
   for (std::size_t k = 0; k < map.value.size(); ++k) {

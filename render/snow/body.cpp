@@ -122,8 +122,8 @@ Points with_cut_away(const Points& points) {
   return all;
 }
 
-/// Snow near a ground goes on below it as its mirror image, so that its field does not thin out
-/// there and its sides meet the ground.
+/// Snow near a ground continues below the ground as its mirror image, so that its field does not
+/// thin out there and its sides meet the ground.
 void mirror_in_grounds(std::span<const GroundPlane> grounds, float spacing,
                        std::vector<Vec3f>& position, std::vector<float>& volume) {
   constexpr float reach = 2.2f;  // spacings: beyond, the kernel has no weight to speak of

@@ -20,7 +20,7 @@ class Batch;
 class Layer : public cpu::TileSource {
  public:
   /// Makes the body, unless it is that of the last call.
-  /// @param frame, view, volume  stay until the picture is there @param pool may be null
+  /// @param frame, view, volume  stay until the picture is drawn @param pool may be null
   void prepare(const Frame& frame, const View& view, const light::LightVolume& volume,
                ThreadPool* pool);
   /// Points to be drawn as spheres before the tiles.

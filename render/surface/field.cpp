@@ -19,7 +19,7 @@ namespace {
 constexpr int tile_side = block_side + 2, tile_row = 12,
               tile_nodes = tile_side * tile_side * tile_row;
 
-/// Bytes a block of nodes needs until the mesh is there: its values twice, its neighbours, labels
+/// Bytes a block of nodes needs until the mesh is made: its values twice, its neighbours, labels
 /// of its pieces, bits; and the tile of one with particles.
 constexpr double block_bytes = 2 * 4.0 * block_nodes + 108 + 2.0 * block_nodes + 400;
 constexpr double tile_bytes = 4.0 * tile_nodes;
@@ -28,7 +28,7 @@ constexpr double tile_bytes = 4.0 * tile_nodes;
 constexpr double max_widths = 4.5;
 
 /// A particle that has grown without bound fills no more cells than this.
-constexpr float most_cells = 1e6f;
+constexpr float max_cells = 1e6f;
 
 /// First node of the kernel of a particle, and the weights of the three nodes along each axis.
 struct Spline {
@@ -117,7 +117,7 @@ void fill_tile(std::span<const PlacedGrain> grains, float cell, V* tile) {
     find_node(grain.position, cell, place);
     const Spline spline = spline_at(place);
     const auto& [wx, wy, wz] = spline.weight;
-    const float share = std::min(grain.volume * per_cell, most_cells);
+    const float share = std::min(grain.volume * per_cell, max_cells);
     const RowWeights along = row_weights(spline.node.x & 7, wx);
     V* corner =
         tile + ((spline.node.z & 7) * tile_side + (spline.node.y & 7)) * row_vectors + along.first;

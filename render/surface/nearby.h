@@ -16,7 +16,7 @@ struct Shares {
 inline constexpr float attribute_reach = 2;
 
 /// Weights fall smoothly to 0 at a distance; a vertex without particles that near has its nearest.
-/// @param left_out particles, ascending; at least one other is there @param pool may be null
+/// @param left_out particles, ascending; at least one other exists @param pool may be null
 Shares shares_of(std::span<const Vec3f> vertices, const Grains& grains,
                  std::span<const std::uint32_t> left_out, float distance, ThreadPool* pool);
 

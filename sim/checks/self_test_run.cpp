@@ -156,7 +156,7 @@ void births(const SelfTestCase& test, self_test::Measure& measure) {
     const double born = static_cast<double>(totals.emitted);
     const double waiting = static_cast<double>(totals.withheld);
     measure.zero("births that are due", born + waiting - due, counted);
-    measure.zero(aside > 0 ? "births that wait where nothing is" : "births inside of a body",
+    measure.zero(aside > 0 ? "births that wait in empty space" : "births inside of a body",
                  aside > 0 ? waiting : born, counted);
   }
 }

@@ -39,7 +39,7 @@ class PlyNumbers {
       bytes_.remove_prefix(1);
     std::size_t end = 0;
     while (end < bytes_.size() && !is_blank(bytes_[end]) && bytes_[end] != '\n') ++end;
-    if (end == 0) refuse_input(name_, "truncated: the mesh is not all there");
+    if (end == 0) refuse_input(name_, "truncated: the mesh is incomplete");
     const std::optional<double> value = number_in(bytes_.substr(0, end));
     if (!value) refuse_input(name_, quoted_input(bytes_.substr(0, end)) + " is not a number");
     bytes_.remove_prefix(end);
@@ -47,7 +47,7 @@ class PlyNumbers {
   }
 
   double next_binary(PlyType type) {
-    if (bytes_.size() < type.size) refuse_input(name_, "truncated: the mesh is not all there");
+    if (bytes_.size() < type.size) refuse_input(name_, "truncated: the mesh is incomplete");
     std::uint64_t bits = 0;
     for (std::size_t k = 0; k < type.size; ++k) {
       const std::size_t place = form_ == Form::little ? k : type.size - 1 - k;
@@ -161,7 +161,7 @@ class MeshPly {
       if (!is_face) continue;
       if (!(corner >= 0 && corner < 4294967295.0 && corner == std::floor(corner)))
         refuse_input(name_, "face " + std::to_string(mesh_.polygons.size()) +
-                                " names a vertex that is no number from 0");
+                                " names a vertex that is not a number from 0");
       mesh_.corners.push_back(static_cast<std::uint32_t>(corner));
     }
   }

@@ -17,8 +17,8 @@ bool is_ply_file(std::string_view bytes, const std::string& name) {
       name.ends_with(".obj") || head.starts_with("v ") || head.starts_with("#usda");
   if (!is_ply && (is_binary || is_mesh || head.starts_with("<")))
     refuse_input(name,
-                 "it is no table of points; expected PLY or CSV, which neve export writes "
-                 "with --format ply or csv, and other programs as PLY");
+                 "it is not a table of points; expected PLY or CSV: neve export writes both with "
+                 "--format, most programs write PLY");
   return is_ply;
 }
 

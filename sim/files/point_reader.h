@@ -28,7 +28,7 @@ struct PointCloud {
   std::vector<Mat3d> C;              ///< 1/s
   std::vector<double> stiffness;     ///< factor, > 0
   std::vector<double> threshold;     ///< factor, > 0
-  std::vector<PointColumn> further;  ///< that were asked for and are there
+  std::vector<PointColumn> further;  ///< that were asked for and exist
 };
 
 /// Columns are found by name, in any order, case and punctuation: position x y z, or with

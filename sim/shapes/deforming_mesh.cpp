@@ -34,9 +34,9 @@ void require_files(const MeshSequence& sequence, const std::vector<std::string>&
   if (missing.size() > most_named)
     numbers += " and " + std::to_string(missing.size() - most_named) + " more";
   throw ShapeError(numbered_file(sequence.files, missing.front()) +
-                   ": there is no such file; missing of the numbers " +
-                   std::to_string(sequence.first) + " to " + std::to_string(sequence.last) + ": " +
-                   numbers + ". Export these files, or change first and last");
+                   ": no such file; missing of the numbers " + std::to_string(sequence.first) +
+                   " to " + std::to_string(sequence.last) + ": " + numbers +
+                   ". Export these files, or change first and last");
 }
 
 /// "FILE:LINE" of a polygon, or "FILE" of a format without lines.

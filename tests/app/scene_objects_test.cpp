@@ -98,7 +98,7 @@ TEST(Objects, MistakesAreTold) {
             "expected radius (Radius, in m), for example radius = 0.1");
   EXPECT_EQ(object_error("body.egg={name=\"ball\",shape={sphere={radius=1}}}"),
             "--set body.egg={name=\"ball\",shape={sphere={radius=1}}}: error: its name is not "
-            "\"egg\"; leave the name out: it is in the address");
+            "\"egg\"; omit the name: it is in the address");
   EXPECT_EQ(object_error("body.e g={shape={sphere={radius=1}}}"),
             "--set body.e g={shape={sphere={radius=1}}}: error: bad body name \"e g\"; expected 1 "
             "to 64 letters, digits, _ and -");

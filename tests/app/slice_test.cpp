@@ -67,7 +67,7 @@ TEST(SliceShape, IsAsLargeAsTheSnowThatItCuts) {
   EXPECT_NEAR(area(ball), std::numbers::pi * radius * radius, 0.04 * radius * radius);
 }
 
-TEST(SliceShape, ASheetThinnerThanACellIsThere) {
+TEST(SliceShape, ASheetThinnerThanACellIsDrawn) {
   // One particle thick, half of a cell: the nodes around it carry its mass over four cells.
   const SliceShape sheet(scene_of_snow(),
                          lattice([](const Vec3d& x) { return x.y() > 0 && x.y() < spacing; }),

@@ -20,7 +20,7 @@ constexpr std::uint64_t seed = 7;
 /// Each axis is a (0, 1)-sequence: of any aligned 2^k points, one lies in each of 2^k parts. A
 /// wrong direction number breaks that.
 TEST(SobolPlaces, EveryPartOfEveryAxisIsMetOnce) {
-  for (std::size_t axis = 0; axis < plan::most_sobol_axes; ++axis)
+  for (std::size_t axis = 0; axis < plan::max_sobol_axes; ++axis)
     for (const std::uint32_t count : {2u, 16u, 64u, 256u, 1024u})
       for (const std::uint32_t first : {0u, count, 3 * count}) {
         std::set<int> parts;
@@ -59,7 +59,7 @@ TEST(SobolPlaces, PairsOfAxesAreMoreEvenThanChance) {
   const double chance = (1.0 / 4 - 1.0 / 9) / count;
   double worst = 0, mean = 0;
   int pairs = 0;
-  for (std::size_t a = 0; a < plan::most_sobol_axes; ++a)
+  for (std::size_t a = 0; a < plan::max_sobol_axes; ++a)
     for (std::size_t b = 0; b < a; ++b) {
       std::vector<std::vector<double>> points;
       for (std::uint32_t k = 0; k < count; ++k)
@@ -273,12 +273,12 @@ TEST_F(Designs, ConditionsHoldInEveryRun) {
 TEST_F(Designs, ConditionsThatMeanNothingAreExplained) {
   const std::string axes = "[axis]\nfps = [1, 2]\nseed = [1, 2]\n";
   const std::vector<std::pair<const char*, const char*>> cases{
-      {"fsp < 2", "3:9 where = \"fsp < 2\": \"fsp\" is no axis of the sweep; did you mean"},
+      {"fsp < 2", "3:9 where = \"fsp < 2\": \"fsp\" is not an axis of the sweep; did you mean"},
       {"fps", "3:9 where = \"fps\": it compares nothing; expected two sides"},
       {"fps <", "3:9 where = \"fps <\": a side is empty; expected two sides"},
       {"1 < 2", "3:9 where = \"1 < 2\": it names no axis; expected"},
       {"fps * seed < 2",
-       "3:9 where = \"fps * seed < 2\": \"fps * seed\" is no number times an axis"},
+       "3:9 where = \"fps * seed < 2\": \"fps * seed\" is not a number times an axis"},
       {"seed < 3*", "3:9 where = \"seed < 3*\": an axis is missing; expected two sides"},
       {"seed < 3 fps", "3:9 where = \"seed < 3 fps\": \"3 fps\" is neither an axis nor a number"},
       {"seed < fps + 1", "3:9 where = \"seed < fps + 1\": \"fps + 1\" is neither an axis"},

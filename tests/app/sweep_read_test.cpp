@@ -299,8 +299,7 @@ TEST_F(SweepFileTest, RangesOfOtherProgramsAndComponentsAreExplained) {
 
 TEST_F(SweepFileTest, MissingScenesAreNamedWithThePlaceLookedAt) {
   const std::string text = complaint("[sweep]\nscene = \"no.toml\"\n");
-  EXPECT_TRUE(
-      text.starts_with("2:9 sweep.scene = \"no.toml\"; there is no such file; looked for /"))
+  EXPECT_TRUE(text.starts_with("2:9 sweep.scene = \"no.toml\"; no such file; looked for /"))
       << text;
 }
 

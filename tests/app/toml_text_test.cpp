@@ -90,7 +90,7 @@ TEST(TomlText, BadBytesAreLocated) {
   EXPECT_EQ(toml_error(std::string_view("\xFF\xFE#\0", 4)),
             "f:1:1: error: invalid UTF-8; the file is UTF-16; save it as UTF-8");
   EXPECT_EQ(toml_error(std::string_view("\x90\0\1", 3)),
-            "f:1:1: error: invalid UTF-8; the file is no text; name a scene, which is a text file");
+            "f:1:1: error: invalid UTF-8; this is not a text file; name a scene, which is one");
   EXPECT_EQ(toml_error("[\x1b"), "f:1:2: error: control character U+001B");
   EXPECT_EQ(toml_error(std::string_view("a\0", 2)), "f:1:2: error: control character U+0000");
   EXPECT_EQ(toml_error("a = 1\rb = 2"), "f:1:6: error: carriage return without line feed");

@@ -19,7 +19,7 @@ class Absurd : public CostlyCli {
   }
 };
 
-TEST_F(Absurd, ScenesAreRefusedBeforeAnythingIsThere) {
+TEST_F(Absurd, ScenesAreRefusedBeforeAnythingIsWritten) {
   const std::string box = "body.ball.shape='{ box = { center = [0, 0, 0], size = ",
                     spout = "[[emitter]]\nname = \"spout\"\nvelocity = [0, -1, 0]\n";
   int refused = 0;
@@ -53,7 +53,7 @@ TEST_F(Absurd, ScenesAreRefusedBeforeAnythingIsThere) {
   EXPECT_EQ(refused, 24);
 }
 
-TEST_F(Absurd, SweepsAreRefusedBeforeAnythingIsThere) {
+TEST_F(Absurd, SweepsAreRefusedBeforeAnythingIsWritten) {
   const std::string head = "[sweep]\nscene = \"scene.toml\"\n";
   const auto many = [](int count, const std::string& line) {
     std::string text;

@@ -63,8 +63,8 @@ TEST_F(Cli, WordsOfOtherProgramsGetTheWordsOfThisOne) {
       {{"sweep", "scene.toml", "-p", "seed=1,2", "--resume"}, "the same command continues"},
       {{"completion"}, "neve manual DIR"},
       {{"render", "scene.toml", "--max-memory", "16"}, "did you mean 16GiB?"},
-      {{"check", "scene.toml", "--set", points + "npz\" } }"}, "it is no table of points"},
-      {{"check", "scene.toml", "--set", points + "vtp\" } }"}, "it is no table of points"},
+      {{"check", "scene.toml", "--set", points + "npz\" } }"}, "it is not a table of points"},
+      {{"check", "scene.toml", "--set", points + "vtp\" } }"}, "it is not a table of points"},
       {{"render", "scene.toml", "--out", "scene.toml"}, "it is a file"}};
   for (const auto& [command, expected] : cases) {
     const auto answer = neve(command);

@@ -390,17 +390,17 @@ TEST_F(Check, CheckForeseesThatAHardImpactMayCrushAParticle) {
         std::string_view(neve({"check", "hit.toml", "--json", "--set", change}).output));
   };
   const auto notes = [](const app::Json& json) { return json["findings"].dump(); };
-  const auto most_steps = [](const app::Json& json) {
+  const auto steps_of_busiest = [](const app::Json& json) {
     return json["steps_range"][1].get<double>() / json["steps"].get<double>();
   };
   const app::Json hard = check_of("seed=1");
   EXPECT_NE(notes(hard).find("may crush single particles"), std::string::npos) << notes(hard);
-  EXPECT_GT(most_steps(hard), 12);
+  EXPECT_GT(steps_of_busiest(hard), 12);
   const app::Json bounded = check_of("material.snow.max_hardening=5");
   EXPECT_EQ(notes(bounded).find("may crush"), std::string::npos) << notes(bounded);
   const app::Json slow = check_of("body.ball.velocity=[0,-3,0]");
   EXPECT_EQ(notes(slow).find("may crush"), std::string::npos) << notes(slow);
-  EXPECT_LT(most_steps(slow), 10);
+  EXPECT_LT(steps_of_busiest(slow), 10);
 }
 
 TEST_F(Check, CheckRefusesTheScenesThatRenderRefuses) {

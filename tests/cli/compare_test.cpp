@@ -205,7 +205,7 @@ TEST_F(Compare, RunsThatCannotBeComparedAreRefusedWithTheReason) {
     EXPECT_EQ(done.exit_code, 2) << done.errors;
     EXPECT_TRUE(contains(done.errors, why)) << done.errors;
   };
-  refused("a", "slow", {"--out", "x.png"}, "their frames are of other times");
+  refused("a", "slow", {"--out", "x.png"}, "their frames are at different times");
   refused("a", "fine", {"--out", "x.png", "--mode", "mass"}, "solver.cell_size is 0.04 m in A");
   refused("a", "fine", {"--out", "x.png", "--mode", "displacement"},
           "no particle of A is the same piece of snow");
@@ -213,7 +213,7 @@ TEST_F(Compare, RunsThatCannotBeComparedAreRefusedWithTheReason) {
   refused("late", "early", {"--out", "x.png"}, "they have no frame in common");
   refused("a", "a/particles", {"--out", "x.png"}, "is not the folder of a run");
   refused("a", "a", {"--out", "a"}, "a is the folder of a run");
-  refused("a", "a", {"--mode", "wipe"}, "has no use without pictures");
+  refused("a", "a", {"--mode", "wipe"}, "needs pictures");
   refused("a", "a", {"--out", "x.png", "--mode", "wip"}, "did you mean wipe?");
   refused("a", "a", {"--out", "x.mp4", "--mode", "metrics"}, "no movie");
   // A folder takes the modes that are possible, and says which are not.
@@ -243,7 +243,7 @@ TEST_F(Compare, PicturesWithoutAStateAreShownBesideEachOtherOrWiped) {
   EXPECT_TRUE(contains(mass.errors, "hold no scene of neve")) << mass.errors;
 }
 
-TEST_F(Compare, RunsOfAStudyAreNamedByTheirFolders) {
+TEST_F(Compare, RunsOfASweepAreNamedByTheirFolders) {
   const auto sweep =
       neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,10", "--out", "study.cdb"});
   ASSERT_EQ(sweep.exit_code, 0) << sweep.errors;
@@ -254,7 +254,7 @@ TEST_F(Compare, RunsOfAStudyAreNamedByTheirFolders) {
   EXPECT_EQ(json["differing"], app::Json::array({"material.snow.hardening"}));
   const auto whole = compare("study.cdb", "study.cdb", {"--out", "y.png"});
   EXPECT_EQ(whole.exit_code, 2);
-  EXPECT_TRUE(contains(whole.errors, "is the folder of a study")) << whole.errors;
+  EXPECT_TRUE(contains(whole.errors, "is the folder of a sweep")) << whole.errors;
 }
 
 TEST(CompareMeasures, DisplacementIsOfTheSameIds) {

@@ -103,7 +103,7 @@ TEST_F(Deforming, MistakesWithNumberedFilesAreExplained) {
   expect_refused(at + "files=\"flap.obj\"", "one %d or %04d in the name of the files");
   expect_refused(at + "files=\"../../etc/passwd\"", "one %d or %04d in the name of the files");
   expect_refused(at + "last=5",
-                 "flap_0004.obj: there is no such file; missing of the numbers 0 to "
+                 "flap_0004.obj: no such file; missing of the numbers 0 to "
                  "5: 4, 5");
   expect_refused(at + "last=0", "the files have the numbers 0 to 0; expected 2 to 10000 files");
   expect_refused(at + "last=999999", "the files have the numbers 0 to 999999; expected 2 to 10000");

@@ -7,7 +7,7 @@ namespace {
 
 class DisturbedSample : public DisturbedMemoryCli {};
 
-TEST_P(DisturbedSample, AnAllocationThatFailsIsSaidAndTheSameCommandGoesOn) {
+TEST_P(DisturbedSample, AnAllocationThatFailsIsSaidAndTheSameCommandContinues) {
   EXPECT_GT(disturb(failing_allocation(), 3), 0);
 }
 

@@ -1,4 +1,4 @@
-/// A machine that fails: nothing is lost, nothing is called ok, and the same command goes on.
+/// A machine that fails: nothing is lost, nothing is called ok, and the same command continues.
 
 #include <cerrno>
 #include <cstring>
@@ -36,7 +36,7 @@ TEST_F(Faults, PicturesAndRunJsonReachTheDiskBeforeTheCheckpoint) {
       << calls;
 }
 
-TEST_F(Faults, AFullDiskStopsASweepAndTheSameCommandGoesOn) {
+TEST_F(Faults, AFullDiskStopsASweepAndTheSameCommandContinues) {
   for (const int error : {ENOSPC, EIO, EDQUOT}) {
     const auto stopped = failing(fault("write", error, "runs/0001/particles", 1), sweep);
     EXPECT_EQ(stopped.exit_code, 6) << stopped.errors;
@@ -93,7 +93,7 @@ TEST_F(Faults, AfterAPowerCutTheSameCommandEndsWithTheSameBits) {
   EXPECT_EQ(cut_power(20, 1), 20);
 }
 
-TEST_F(Faults, AStatusThatCannotBeWrittenStopsASweepAndTheSameCommandGoesOn) {
+TEST_F(Faults, AStatusThatCannotBeWrittenStopsASweepAndTheSameCommandContinues) {
   const auto stopped = failing(fault("write", ENOSPC, "runs/0001/.status", 1), sweep);
   EXPECT_EQ(stopped.exit_code, 6) << stopped.errors;
   EXPECT_EQ(failing("", sweep).exit_code, 0);

@@ -137,7 +137,7 @@ TEST_F(New, NothingIsOverwritten) {
   folder.write("scene.schema.json", "{}");
   const auto again = neve({"new", "mine"});
   EXPECT_EQ(again.exit_code, 2);
-  EXPECT_TRUE(contains(again.errors, "mine.toml is there already")) << again.errors;
+  EXPECT_TRUE(contains(again.errors, "mine.toml already exists")) << again.errors;
   EXPECT_EQ(read_text(folder / "mine.toml"), "# mine\n");
   ASSERT_EQ(neve({"new", "other.toml", "--json"}).exit_code, 0);
   EXPECT_EQ(read_text(folder / "scene.schema.json"), "{}");

@@ -1,4 +1,4 @@
-/// `neve pick`: replayed clicks, going on, mistakes, and disks that fail.
+/// `neve pick`: replayed clicks, continued searches, mistakes, and disks that fail.
 
 #include <cerrno>
 
@@ -62,7 +62,7 @@ TEST_F(PickCli, ThePickIsTheTileThatWasClickedLast) {
 }
 
 /// The favourite of the first round is shown again: 17 runs for 18 tiles.
-TEST_F(PickCli, ItGoesOnWithTheRunsThatAreThere) {
+TEST_F(PickCli, ItContinuesWithTheExistingRuns) {
   ASSERT_EQ(pick("4\n", "a").exit_code, 0);
   ASSERT_EQ(pick("4\n1\n", "a").exit_code, 0);
   ASSERT_EQ(pick("4\n1\n", "b").exit_code, 0);
@@ -118,15 +118,15 @@ class PickOnAFullDisk : public FaultyCli {
 TEST_F(PickOnAFullDisk, AnAnswerThatCannotBeWrittenIsGivenAgain) {
   const auto result = failing(full_disk("clicks.txt", ":1"), command(R"([
     {"wait_for": "label Round 1 of 8"}, {"click": "tile 4"},
-    {"wait_for": "label Something is in the way"}, {"wait": 3}, {"click": "Try again"},
+    {"wait_for": "label This round failed"}, {"wait": 3}, {"click": "Try again"},
     {"wait_for": "label Round 2 of 8"}, {"key": "q"}, {"wait_for": "label Picked"}, {"key": "q"}])"));
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_TRUE(contains(read_text(folder / "a/clicks.txt"), "\n4\n"));
 }
 
-TEST_F(PickOnAFullDisk, ARoundThatCannotBeMadeEndsWithItsReasonAndGoesOnLater) {
+TEST_F(PickOnAFullDisk, ARoundThatCannotBeMadeEndsWithItsReasonAndContinuesLater) {
   const auto stopped = failing(full_disk("runs/0001/particles"), command(R"([
-    {"wait_for": "label Something is in the way"}, {"wait": 3}, {"click": "Stop"}])"));
+    {"wait_for": "label This round failed"}, {"wait": 3}, {"click": "Stop"}])"));
   EXPECT_EQ(stopped.exit_code, 6) << stopped.errors;
   EXPECT_TRUE(contains(stopped.errors, "No space left")) << stopped.errors;
   const auto more = failing("", command(R"([

@@ -185,10 +185,10 @@ std::string continued(const std::string& file) {
   return text.replace(text.find(before), before.size(), "{ points = { file = \"" + file + "\" } }");
 }
 
-/// Attributes with which a state goes on.
+/// Attributes with which a state continues.
 constexpr const char* state = "x,v,m,V0,J_P,F_E,C";
 
-TEST_F(PointFiles, AnExportedStateGoesOnAsIfNothingHadHappened) {
+TEST_F(PointFiles, AnExportedStateContinuesAsIfNothingHadHappened) {
   folder.write("moving.toml", moving_scene);
   for (const char* format : {"ply", "csv"}) {
     const std::string out = std::string("all_") + format;

@@ -451,7 +451,7 @@ constexpr const char* measure_frames = R"((async act => {
   return [times[30], times[57]];
 }))";
 
-TEST_F(ReportPage, LargeStudiesLoadAndDrawOnlyWhatIsInSight) {
+TEST_F(ReportPage, LargeSweepsLoadAndDrawOnlyWhatIsInSight) {
   Study study({20, 5, 5}, 3);
   for (std::size_t k = 7; k < study.results.size(); k += 50) study.fail(k, "too fast");
   ASSERT_EQ(study.results.size(), 500u);

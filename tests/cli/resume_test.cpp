@@ -68,7 +68,7 @@ TEST_F(Resume, ADamagedCheckpointIsNamedAndTheOlderOneTaken) {
   expect_same("whole", "parts");
 }
 
-/// A run of an older program goes on, but nobody takes it for one of this program.
+/// A run of an older program continues, but nobody takes it for one of this program.
 TEST_F(Resume, ACheckpointOfOtherSourcesIsNamed) {
   ASSERT_EQ(render("out", {"--frames", "0-2"}).exit_code, 0);
   app::output::Checkpoint checkpoint = *app::output::find_checkpoint(folder / "out").checkpoint;

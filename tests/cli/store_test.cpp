@@ -66,7 +66,9 @@ TEST_F(Store, AFileCalledCheckpointSurvives) {
   folder.write("out/checkpoint", "model_checkpoint_path: \"mine\"");
   const auto result = render("out", {"--frames", "0-1"});
   EXPECT_EQ(result.exit_code, 6);
-  EXPECT_TRUE(contains(result.errors, "out/checkpoint: is no folder")) << result.errors;
+  EXPECT_TRUE(
+      contains(result.errors, "out/checkpoint: cannot write checkpoints here: not a folder"))
+      << result.errors;
   EXPECT_FALSE(exists("out/particles"));
   EXPECT_EQ(render("out", {"--frames", "0-1", "--checkpoint-every", "0"}).exit_code, 0);
   EXPECT_EQ(read_text(folder / "out/checkpoint"), "model_checkpoint_path: \"mine\"");
@@ -98,7 +100,7 @@ TEST_F(Store, AWholeRunIsVerifiedAndEveryDamageIsNamed) {
   ASSERT_EQ(render("out").exit_code, 0);
   const auto whole = neve({"verify", "out"});
   EXPECT_EQ(whole.exit_code, 0) << whole.output;
-  EXPECT_TRUE(contains(whole.output, "out: whole, ")) << whole.output;
+  EXPECT_TRUE(contains(whole.output, "out: complete, ")) << whole.output;
   fs::remove(folder / "out/particles/0001.png");
   folder.write("out/particles/0002.png", "");
   damage("out/particles/0003.png");

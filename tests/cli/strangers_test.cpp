@@ -140,7 +140,7 @@ TEST_F(ForgedCheckpoint, ImpossibleFramesAreDamage) {
     app::output::write_checkpoint(folder / "out", forged);
     const auto result = render({"--resume", "--frames", "0-1"});
     EXPECT_EQ(result.exit_code, 0) << result.errors;
-    EXPECT_TRUE(contains(result.errors, "impossible frame")) << result.errors;
+    EXPECT_TRUE(contains(result.errors, "invalid frame number")) << result.errors;
   }
 }
 
@@ -169,7 +169,7 @@ TEST_F(Strangers, ManifestsWithImpossibleNumbersAreRefused) {
   EXPECT_EQ(code("/title", "the same"), -1) << "unfinished, but read: collect is 0, verify is 9";
 }
 
-TEST_F(Strangers, AxesWithTooManyValuesAreRefusedBeforeTheyAreThere) {
+TEST_F(Strangers, AxesWithTooManyValuesAreRefusedBeforeTheyAreMade) {
   std::string text = "[sweep]\nscene = \"scene.toml\"\n[axis]\n";
   for (int k = 0; k < 400; ++k)
     text += "\"view.v" + std::to_string(k) + ".size\" = { linspace = [1, 2], num = 99999 }\n";

@@ -43,7 +43,7 @@ TEST_F(SweepFrom, BranchesOfARunAreThoseOfRenderAndOfWholeRuns) {
   render({"scene.toml", "--frames", "6", "--checkpoint-every", "1", "--out", "a"});
   const auto done = sweep("a", three);
   ASSERT_EQ(done.exit_code, 0) << done.errors;
-  EXPECT_TRUE(contains(done.errors, "the runs part from a at 0.125 s")) << done.errors;
+  EXPECT_TRUE(contains(done.errors, "the runs fork from a at 0.125 s")) << done.errors;
   EXPECT_EQ(hashes("f.cdb/runs/0000").begin()->first, 4);
   render({"a", "--from", "0.125s", "--set", "material.snow.hardening=4", "--frames", "6", "--out",
           "b"});
@@ -92,7 +92,7 @@ TEST_F(SweepFrom, SetIsMadeWithTheAxesInAllRuns) {
   EXPECT_TRUE(contains(read_text(folder / "f.cdb/report.html"), "solver.gravity"));
 }
 
-TEST_F(SweepFrom, TheStudyGoesOnWithoutTheRunThatItLeft) {
+TEST_F(SweepFrom, TheSweepContinuesWithoutTheRunThatItLeft) {
   render({"scene.toml", "--frames", "4", "--out", "a"});
   EXPECT_EQ(started(sweep("a", three)), 3);
   EXPECT_EQ(started(sweep("a", three)), 0);
@@ -129,7 +129,7 @@ TEST_F(SweepFrom, MistakesAreSaidBeforeAnyRun) {
   refused({"a", "--from", "9s", "-p", "material.snow.hardening=4,5"}, "at or after frame 4");
   refused({"a", "--from", "0.1s", "--coarsen", "2", "-p", "material.snow.hardening=4,5"},
           "--coarsen");
-  refused({"a", "--from", "0.1s"}, "nothing varies");
+  refused({"a", "--from", "0.1s"}, "no parameter varies");
   EXPECT_FALSE(exists("out"));
 }
 

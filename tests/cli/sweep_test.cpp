@@ -1,4 +1,4 @@
-/// `neve sweep`: plans, runs, what is left of those that go wrong, and going on.
+/// `neve sweep`: plans, runs, what is left of runs that go wrong, and continuing.
 
 #include <signal.h>
 
@@ -83,7 +83,7 @@ TEST_F(SweepCli, RunsThatAreNotThereAreRefusedBeforeAnythingStarts) {
   ASSERT_EQ(plan["runs"].size(), 1u);
   EXPECT_EQ(plan["runs"][0]["run"], 3);
   EXPECT_TRUE(contains(neve({"sweep", "sweep.toml", "--shard", "7/8", "--dry-run"}).errors,
-                       "the share 7/8 of 4 runs has none"));
+                       "share 7/8 of 4 runs is empty"));
 }
 
 TEST_F(SweepCli, AnAxisOfOneValueIsAWarning) {
@@ -154,7 +154,7 @@ TEST_F(SweepCli, ASheetOfAnAxisThatIsNotThereIsRefusedBeforeAnythingStarts) {
   for (const char* flag : {"--dry-run", "--json"}) {
     const auto result = neve({"sweep", "sheet.toml", flag});
     EXPECT_EQ(result.exit_code, 3) << flag;
-    EXPECT_TRUE(contains(result.errors, "sheet.columns = \"hardness\": there is no such axis"))
+    EXPECT_TRUE(contains(result.errors, "sheet.columns = \"hardness\": no such axis"))
         << result.errors;
     EXPECT_FALSE(exists("out"));
   }
@@ -169,7 +169,7 @@ TEST_F(SweepCli, CollectSaysWhatTheFolderOfASweepIs) {
     EXPECT_TRUE(contains(result.errors, "expected the folder that neve sweep wrote"));
   };
   refused("nowhere", "nowhere: there is no such folder");
-  refused("run", "run: is the folder of one run, not that of a sweep");
+  refused("run", "run: is the folder of one run, not of a sweep");
   refused("run/particles", "run/particles: is a folder without a sweep in it");
   refused("scene.toml", "scene.toml: is a file, not the folder of a sweep");
 }
@@ -239,7 +239,7 @@ TEST_F(SweepCli, RunsThatAreTheSameAreNamed) {
       << result.errors;
 }
 
-TEST_F(SweepCli, AnotherStudyDoesNotReplaceTheFirst) {
+TEST_F(SweepCli, AnotherSweepDoesNotReplaceTheFirst) {
   const auto first = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0"});
   ASSERT_EQ(first.exit_code, 0) << first.errors;
   const std::string table = read_text(folder / "out/scene.cdb/data.csv");

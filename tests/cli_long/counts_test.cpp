@@ -197,7 +197,7 @@ TEST_F(Counts, ACollectBesideASweepTakesNothingFromIt) {
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
     EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
     whole += is_what_it_makes_alone(sweep);
-    // One that collects what is there already makes nothing else of it.
+    // One that collects what already exists makes nothing else of it.
     EXPECT_EQ(at_once(collect, collect), "0 0\n");
     EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
   }

@@ -12,13 +12,13 @@ class EveryAllocation : public DisturbedMemoryCli {};
 class EveryOperation : public DisturbedCli {};
 class EveryCommand : public DisturbedCli {};
 
-TEST_P(EveryAllocation, FailsOnceAndTheSameCommandGoesOn) {
+TEST_P(EveryAllocation, FailsOnceAndTheSameCommandContinues) {
   const int places = disturb(failing_allocation(), count_or_whole(25, 1'000'000));
   std::cout << GetParam().name << ": " << places << " places\n";
   EXPECT_GT(places, 0);
 }
 
-TEST_P(EveryOperation, FailsOnceAndForEverAndTheSameCommandGoesOn) {
+TEST_P(EveryOperation, FailsOnceAndForEverAndTheSameCommandContinues) {
   int all = 0;
   for (const char* operation : {"open", "write", "short", "truncate", "fsync", "rename", "remove",
                                 "mkdir", "close", "flock", "look", "read"}) {
@@ -35,7 +35,7 @@ TEST_P(EveryCommand, RemovesWhatKilledOnesLeft) {
 }
 
 /// No process is there after a second, and the same command ends as if nothing had been.
-TEST_P(EveryCommand, KilledAtAnyMomentGoesOn) {
+TEST_P(EveryCommand, KilledAtAnyMomentContinues) {
   kill_at_any_moment(count_or_whole(3, 25));
 }
 

@@ -19,7 +19,7 @@ namespace {
 using namespace app::pick::search;
 
 constexpr double near_enough = 0.05;
-constexpr int most_rounds = 10;
+constexpr int max_rounds = 10;
 
 /// The next nine tiles after some rounds.
 using Shower = std::function<std::vector<Point>(const std::vector<Round>&)>;
@@ -66,13 +66,13 @@ Shower grid_tiles(int axes, std::uint64_t seed) {
 }
 
 struct Score {
-  int content = 0;  ///< targets, within most_rounds
+  int content = 0;  ///< targets, within max_rounds
   int median = 0;   ///< rounds
 };
 
 Score score_of(std::vector<int> rounds) {
   std::sort(rounds.begin(), rounds.end());
-  return {int(std::count_if(rounds.begin(), rounds.end(), [](int k) { return k <= most_rounds; })),
+  return {int(std::count_if(rounds.begin(), rounds.end(), [](int k) { return k <= max_rounds; })),
           rounds[rounds.size() / 2]};
 }
 
@@ -95,7 +95,7 @@ class RobotPicks : public testing::Test {
       const Shower show = way == Way::pick     ? pick
                           : way == Way::random ? random_tiles(table_.axes, seed)
                                                : grid_tiles(table_.axes, seed);
-      rounds.push_back(rounds_until_content(robot, show, way == Way::pick ? most_rounds : 40));
+      rounds.push_back(rounds_until_content(robot, show, way == Way::pick ? max_rounds : 40));
     }
     const Score score = score_of(rounds);
     std::cout << (way == Way::pick     ? "pick"

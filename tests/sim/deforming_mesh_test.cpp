@@ -103,7 +103,7 @@ TEST(DeformingMesh, WhatIsWrongWithNumberedFilesIsNamedWithFileAndLine) {
   folder.write("box_0004.obj", box);
   for (const int missing : {2, 3, 5, 6, 7, 9})
     std::filesystem::remove(folder / ("box_000" + std::to_string(missing) + ".obj"));
-  has("box_0002.obj: there is no such file; missing of the numbers 0 to 11: 2, 3, 5, 6, 7 and 1 "
+  has("box_0002.obj: no such file; missing of the numbers 0 to 11: 2, 3, 5, 6, 7 and 1 "
       "more");
   sequence.last = 0;
   has("expected 2 to 10000 files");

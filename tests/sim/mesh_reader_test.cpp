@@ -194,7 +194,7 @@ TEST(Triangulate, EarsCoverConcavePolygons) {
   }
 }
 
-TEST(Triangulate, StraightCornersAndSlitsAreNoObstacle) {
+TEST(Triangulate, StraightCornersAndSlitsAreTriangulated) {
   // A square with corners on its sides, and a slit to its middle and back.
   const std::vector<Vec3d> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 1, 0},
                                   {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}};

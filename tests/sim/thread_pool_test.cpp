@@ -89,7 +89,7 @@ TEST(ThreadPool, ThreadPoolWakesThreadsThatFellAsleep) {
   }
 }
 
-TEST(ThreadPool, WhatAPartThrowsReachesTheCallerAndThePoolGoesOn) {
+TEST(ThreadPool, WhatAPartThrowsReachesTheCallerAndThePoolContinues) {
   ThreadPool pool(3);
   for (int k = 0; k < 50; ++k) {
     EXPECT_THROW(pool.run(3, 30,

@@ -74,7 +74,7 @@ TEST(Structure, TheFloorPlanHasNoCircles) {
   }
 }
 
-TEST(Structure, EveryFolderOfTheFloorPlanIsThere) {
+TEST(Structure, EveryFolderOfTheFloorPlanExists) {
   for (const Folder& folder : folders)
     EXPECT_TRUE(fs::is_directory(source_root() / folder.path)) << folder.path;
 }

@@ -108,7 +108,7 @@ class DisturbedCli : public FaultyCli, public testing::WithParamInterface<Distur
       shell(GetParam().prepare);
       kill_after(folder.path(), GetParam().arguments, seconds);
       expect_no_process(folder.path(), place);
-      expect_to_go_on(whole, place);
+      expect_to_continue(whole, place);
     }
   }
 
@@ -149,11 +149,12 @@ class DisturbedCli : public FaultyCli, public testing::WithParamInterface<Distur
           << place;
       EXPECT_TRUE(contains(result.errors, disturbance.word)) << place;
     }
-    expect_to_go_on(whole, place);
+    expect_to_continue(whole, place);
   }
 
   /// The same command once more, undisturbed.
-  void expect_to_go_on(const std::map<std::string, std::string>& whole, const std::string& place) {
+  void expect_to_continue(const std::map<std::string, std::string>& whole,
+                          const std::string& place) {
     const auto again = failing("", GetParam().arguments);
     EXPECT_EQ(again.exit_code, 0) << place << "\nthen\n" << again.errors;
     expect_same(whole, place + "\nthen\n" + again.errors);

@@ -56,7 +56,7 @@ TEST(Objects, EveryNewObjectIsASceneAndIsTakenBack) {
   EXPECT_EQ(document.scene()->colliders.size(), 5u);
 }
 
-TEST(Objects, NewSnowIsAboveWhatIsThere) {
+TEST(Objects, NewSnowIsAboveWhatExists) {
   Document document("scene.toml", two_things, {}, 1);
   for (int k = 0; k < 3; ++k) {
     const view::session::AddedObject added =
@@ -117,7 +117,7 @@ struct Working {
   view::session::Workbench bench;
 };
 
-TEST(Objects, AtTheStartTheyAreThereAtOnceAndLaterTheyWaitForReset) {
+TEST(Objects, AtTheStartTheyExistAtOnceAndLaterTheyWaitForReset) {
   Working work;
   EXPECT_EQ(work.bench.add_object(NewObject::snow_ball, {0, 0.1, 0}, 0.1), "body.ball_2");
   auto live = wait_for(work.bench.session(), [](const view::session::LiveFrame& frame) {
@@ -174,7 +174,7 @@ TEST(Objects, ASavedSceneHasThem) {
   EXPECT_EQ(saved.bodies.size(), 2u);
   ASSERT_EQ(saved.colliders.size(), 2u);
   EXPECT_EQ(saved.colliders[0].name, "floor");
-  EXPECT_EQ(saved.colliders[1].name, "obstacle");
+  EXPECT_EQ(saved.colliders[1].name, "sphere");
   // The command line of the same changes makes the same scene.
   const Document& document = work.bench.document();
   const scene::Scene by_command =
@@ -209,9 +209,9 @@ class ObjectsByScript : public Cli {};
 TEST_F(ObjectsByScript, TheyAreAddedCopiedAndRemovedByHand) {
   folder.write("clicks.json", R"([
     {"click": "Objects"}, {"wait_for": "label Add ..."},
-    {"click": "Add ..."}, {"click": "Obstacle: a sphere"}, {"wait_for": "label collider.obstacle"},
-    {"wait_for": "label collider.obstacle.friction"}, {"wait": 3},
-    {"click": "Add ..."}, {"click": "Ball of snow"}, {"wait_for": "label body.ball_2"},
+    {"click": "Add ..."}, {"click": "Collider: a sphere"}, {"wait_for": "label collider.sphere"},
+    {"wait_for": "label collider.sphere.friction"}, {"wait": 3},
+    {"click": "Add ..."}, {"click": "Body: a sphere"}, {"wait_for": "label body.ball_2"},
     {"click": "Copy"}, {"wait_for": "label body.ball_3"}, {"wait": 5},
     {"screenshot": "objects.png"},
     {"click": "body.ball"}, {"wait_for": "label Remove"}, {"click": "Remove"}, {"wait": 3},
@@ -226,7 +226,7 @@ TEST_F(ObjectsByScript, TheyAreAddedCopiedAndRemovedByHand) {
   EXPECT_EQ(saved.bodies[0].name, "ball_2");
   EXPECT_EQ(saved.bodies[1].name, "ball_3");
   ASSERT_EQ(saved.colliders.size(), 2u);
-  EXPECT_EQ(saved.colliders[1].name, "obstacle");
+  EXPECT_EQ(saved.colliders[1].name, "sphere");
   EXPECT_EQ(neve({"check", "out/scene.toml"}).exit_code, 0);
 }
 

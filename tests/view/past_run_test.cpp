@@ -80,13 +80,13 @@ TEST_F(PastRun, WithoutStatesItHasItsCheckpointsAndTheStart) {
       wait_for(session, [](const view::session::LiveFrame& other) { return other.is_older; });
   EXPECT_EQ(live->frame, 2);
   EXPECT_EQ(hash_of(*live), hashes("a")[2]);
-  // From there the run goes on as it did.
+  // From there the run continues as before.
   session.continue_from_here();
   session.run();
   EXPECT_EQ(hash_of(*rest_at(session, 4)), hashes("a")[4]);
 }
 
-TEST_F(PastRun, AnInterruptedRunGoesOnAsIfItHadNotBeen) {
+TEST_F(PastRun, AnInterruptedRunContinuesAsIfItHadNotBeen) {
   render({"scene.toml", "--out", "whole"});
   render({"scene.toml", "--out", "a", "--frames", "2"});
   view::session::Workbench bench = open("a");

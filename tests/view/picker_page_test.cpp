@@ -98,7 +98,7 @@ class PickPage : public PickSearch {
 
 /// Two browsers: the one opened last has the search. A closed page changes nothing: the round is
 /// made, and the page opened next answers it.
-TEST_F(PickPage, PagesComeAndGoAndTheSearchGoesOn) {
+TEST_F(PickPage, PagesComeAndGoAndTheSearchContinues) {
   serve();
   auto first = connect();
   ASSERT_TRUE(first->receive(WebClient::binary, 20));
@@ -125,7 +125,7 @@ TEST_F(PickPage, PagesComeAndGoAndTheSearchGoesOn) {
   expect_same_pick("a", "b");
 }
 
-/// Ctrl-C while a round is made: 75, no process left, and the same command goes on.
+/// Ctrl-C while a round is made: 75, no process left, and the same command continues.
 TEST_F(PickPage, CtrlCDuringARoundLosesNothing) {
   serve();
   ASSERT_TRUE(wait_until([&] { return exists("a/manifest.json"); }));

@@ -24,7 +24,7 @@ TEST_F(PickByScript, ClicksAndKeysGiveThePickOfAListToTheBit) {
   const auto result = replay(R"([
     {"wait_for": "label Round 1 of 8"}, {"click": "tile 3"},
     {"wait_for": "label Round 2 of 8"}, {"click": "tile 2", "shift": true}, {"click": "tile 7"},
-    {"wait_for": "label Round 3 of 8"}, {"click": "Two are as good"}, {"click": "tile 9"},
+    {"wait_for": "label Round 3 of 8"}, {"click": "Two are equal"}, {"click": "tile 9"},
     {"key": "4"}, {"wait_for": "label Round 4 of 8"}, {"key": "0"},
     {"wait_for": "label Round 5 of 8"}, {"click": "Stop and write the pick"},
     {"wait_for": "label Picked"}, {"wait": 3}, {"screenshot": "end.png"}, {"click": "Done"}])",
@@ -67,7 +67,7 @@ TEST_F(PickByScript, TheLastRoundHasItsSheetAndItsFilm) {
   EXPECT_GT(time("report.html"), time("round_2.toml"));
 }
 
-/// A closed window writes what there is; the same command goes on from there.
+/// A closed window writes what there is; the same command continues from there.
 TEST_F(PickByScript, AClosedScreenLosesNothing) {
   const auto closed = replay(R"([
     {"wait_for": "label Round 1 of 2"}, {"key": "4"},
@@ -94,7 +94,7 @@ TEST_F(PickByScript, APhoneHeldUprightHasEverything) {
     {"screenshot": "phone.png"}, {"click": "tile 6", "button": "right"},
     {"wait_for": "label closer"}, {"wait": 3}, {"screenshot": "large.png"},
     {"click": "All nine"}, {"wait_for": "label tile 1"},
-    {"click": "Two are as good"}, {"click": "tile 1"}, {"click": "tile 9"},
+    {"click": "Two are equal"}, {"click": "tile 1"}, {"click": "tile 9"},
     {"wait_for": "label Round 2 of 8"}, {"wait_for": "label map"}, {"click": "None of them"},
     {"wait_for": "label Round 3 of 8"}, {"click": "Take back"},
     {"wait_for": "label Round 2 of 8"}, {"click": "Stop and write the pick"},

@@ -1,4 +1,4 @@
-/// Edits of anybody who has the token: whatever they are, the program goes on, and no file but
+/// Edits of anybody who has the token: whatever they are, the program continues, and no file but
 /// those of the scene is read or written.
 
 #include <random>

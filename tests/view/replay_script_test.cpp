@@ -104,7 +104,7 @@ TEST(ReplayScript, EveryWrongValueIsRefusedWithWhatWasExpected) {
       {"[{\"wait\": 3, \"type\": \"a\"}]", "one thing"},
       {"[{\"click\": null}]", "null"},
       {"[{\"click\": [1, 2], \"at\": [1, 2]}]", "unknown key \"at\""},
-      {"[{\"wait\": 3, \"wait\": 4}]", "\"wait\" is there twice"},
+      {"[{\"wait\": 3, \"wait\": 4}]", "\"wait\" is given twice"},
       {"[{\"wait\": 0}]", "1 <= value"},
       {"[{\"wait\": 1.5}]", "a whole number"},
       {"[{\"wait\": \"long\"}]", "a whole number"},

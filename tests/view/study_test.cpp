@@ -110,7 +110,7 @@ TEST_F(Study, WhatCannotVaryIsRefusedWithWhatCan) {
   EXPECT_FALSE(bench->study().is_running());
 }
 
-TEST_F(Study, ASecondStudyOfAFrameHasItsOwnFolderAndAStudyCanBeStopped) {
+TEST_F(Study, ASecondSweepOfAFrameHasItsOwnFolderAndASweepCanBeStopped) {
   go_to(1);
   ASSERT_EQ(vary({{"material.snow.hardening", "4, 10"}}, 4), "");
   EXPECT_TRUE(contains(vary({{"material.snow.hardening", "4, 10"}}, 4), "in progress"));

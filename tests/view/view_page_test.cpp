@@ -204,7 +204,7 @@ TEST_F(ViewPage, ObjectsAreAddedOnThePage) {
   click_and_see(item_x, ball_y, picture, 300);
   press_with_ctrl("s", "KeyS", 83);
   const auto saved = [&] { return read_text(folder / "saved/scene.toml"); };
-  EXPECT_TRUE(wait_until([&] { return saved().find("obstacle") != std::string::npos; }));
+  EXPECT_TRUE(wait_until([&] { return saved().find("name = \"sphere\"") != std::string::npos; }));
   EXPECT_NE(saved().find("[[body]]\nname = \"ball_2\"\n"), std::string::npos) << saved();
   press_with_ctrl("z", "KeyZ", 90);
   press_with_ctrl("s", "KeyS", 83);

@@ -63,7 +63,7 @@ TEST_F(ViewByScript, AParameterIsFoundChangedSimulatedWithAndSaved) {
   EXPECT_TRUE(contains(info.output, "material.snow.hardening")) << info.output;
 }
 
-TEST_F(ViewByScript, VaryFromHereMakesAStudyOfTheFrameThatIsShown) {
+TEST_F(ViewByScript, VaryFromHereMakesASweepOfTheFrameThatIsShown) {
   const auto result = view(R"([
     {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait_for": "simulation paused"},
     {"key": "."}, {"wait_for": "simulation frame 2"}, {"wait_for": "simulation paused"},
@@ -73,7 +73,7 @@ TEST_F(ViewByScript, VaryFromHereMakesAStudyOfTheFrameThatIsShown) {
     {"wait_for": "label vary material.snow.hardening"},
     {"click": "vary material.snow.hardening"},
     {"click": "values of material.snow.hardening"}, {"key": "a", "ctrl": true}, {"type": "4, 20"},
-    {"click": "Start the runs"}, {"wait_for": "label Copy the command of the study"},
+    {"click": "Start the runs"}, {"wait_for": "label Copy the command of the sweep"},
     {"wait": 3}, {"screenshot": "done.png"}])");
   SKIP_WITHOUT_GL(result);
   ASSERT_EQ(result.exit_code, 0) << result.errors;

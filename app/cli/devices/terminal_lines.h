@@ -1,6 +1,6 @@
 #pragma once
-/// Lines that a person types into the terminal, taken when they are there: a program with a screen
-/// does not wait for them.
+/// Lines that a person types into the terminal, taken when they are complete: a program with a
+/// screen does not wait for them.
 
 #include <optional>
 #include <string>

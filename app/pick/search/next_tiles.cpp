@@ -122,7 +122,7 @@ std::vector<Point> next_tiles(const std::vector<Round>& rounds, int dimension, s
   const auto round = static_cast<std::uint32_t>(rounds.size());
   const Preference taste = learn(rounds, dimension);
   const Point best = favourite(rounds, taste);
-  // Nothing is known: the sequence goes on.
+  // Nothing is known yet: continue the sequence.
   if (best.size() == 0)
     return spread_places(round * tiles_in_round, tiles_in_round, dimension, seed);
 

@@ -41,11 +41,11 @@ Mode mode_along(const std::vector<Choice>& choices, const Eigen::MatrixXd& K,
 
 /// Newton's method; psi is concave, so halved steps always reach its only maximum.
 Mode find_mode(const std::vector<Choice>& choices, const Eigen::MatrixXd& K) {
-  constexpr int most_steps = 50;
+  constexpr int max_steps = 50;
   constexpr double tolerance = 1e-8;
   const Eigen::Index n = K.rows();
   Mode mode = mode_along(choices, K, Eigen::VectorXd::Zero(n));
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const Eigen::MatrixXd W = curvature(choices, mode.liking);
     const Eigen::VectorXd b = W * mode.liking + gradient(choices, mode.liking);
     // weights = b - W (I + K W)^-1 K b

@@ -113,7 +113,7 @@ std::string advice_on(std::string_view text, int line) {
   const std::string_view value = text.substr(first);
   if (value.empty() || value[0] == '#') return "a value follows the =";
   if (has_decimal_comma(value)) return "decimals have a point, as in 0.04";
-  if (has_unit(value)) return "numbers have no unit: metres, kilograms and seconds are meant";
+  if (has_unit(value)) return "numbers have no unit: they are in metres, kilograms and seconds";
   if (value.find('\\') != value.npos) return "in paths write / between folders, or \\\\";
   if (value.back() == ';') return "lines end without ;";
   if (has_bare_point(value)) return "a digit comes before the point, as in 0.12";

@@ -41,7 +41,7 @@ const char* encoding_advice(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     return "the file is UTF-16; save it as UTF-8";
   if (text.substr(0, 512).find('\0') != std::string_view::npos)
-    return "the file is no text; name a scene, which is a text file";
+    return "this is not a text file; name a scene, which is one";
   return "save the file as UTF-8 in your editor";
 }
 

@@ -96,7 +96,7 @@ std::optional<SweepProgress> BackgroundSweep::progress() const {
 std::string BackgroundSweep::error() const {
   const std::string found = last_error(log_);
   if (!found.empty() || code_ != exit_internal) return found;
-  return "neve sweep ended without a reason; see " + log_.string();
+  return "neve sweep ended without a message; see " + log_.string();
 }
 
 }  // namespace neve::app::sweep::jobs

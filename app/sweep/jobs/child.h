@@ -48,7 +48,8 @@ class Child {
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) = delete;
 
-  /// Enforces the limits; once the child has ended, how. To be called some times a second.
+  /// Enforces the limits. To be called some times a second.
+  /// @return how the child ended; empty while it runs
   std::optional<ChildResult> poll();
 
   /// Asks it to end; poll() kills it when it does not within the grace.

@@ -117,12 +117,12 @@ class LocalJobs {
     if (is_interrupted()) queue_.clear();
   }
 
-  /// One that was taken from a run that may not be there any more.
+  /// A beginning that was taken from a run; that run may be deleted by now.
   void require_beginning(const Run& run, const fs::path& folder) const {
     if (has_beginning(run, folder)) return;
     throw IoError(folder.string() +
-                      ": the state in which the runs part is not there; start the same neve sweep "
-                      "--from again, which takes it from " +
+                      ": the state at the fork is missing; repeat the same neve sweep --from, "
+                      "which takes it from " +
                       manifest_.beginning->source,
                   folder.string());
   }
@@ -160,9 +160,9 @@ class LocalJobs {
     const fs::path folder = store::beginning_folder(folder_);
     throw Error(
         exit_runs_failed,
-        fmt::format("no run can start: their common beginning ended as {}{}",
+        fmt::format("no run can start: the common beginning ended as {}{}",
                     store::name(status.state), status.reason.empty() ? "" : ": " + status.reason),
-        folder.string(), "mend the scene, or part the runs earlier; --retry-failed tries it again");
+        folder.string(), "correct the scene, or fork earlier; --retry-failed tries it again");
   }
 
   fs::path folder_of(const Run& run) const { return store::runs_folder(folder_) / run.folder; }
@@ -242,7 +242,7 @@ class LocalJobs {
     return options_.cores - used;
   }
 
-  /// Memory that is there and not promised to a run that has just begun to take it.
+  /// Available memory that is not promised to a run that has just begun to take it.
   double free_memory() const {
     double memory = static_cast<double>(available_memory());
     for (const Active& active : active_)

@@ -41,19 +41,19 @@ struct JobsResult {
   double core_seconds = 0;              ///< time of the children times their threads
 };
 
-/// Runs the common beginning of forked runs, unless it is there or another process makes it, which
-/// is waited for. Then runs the unfinished ones of the runs of these indices; each ends as a state
+/// Runs the common beginning of forked runs, unless it exists. Waits for another process that
+/// makes it. Then runs the unfinished runs of these indices; each ends as a state
 /// and a reason in its status.json and never ends the sweep. A run in progress elsewhere is left
 /// alone. A finished run with missing or damaged pictures is made again. A Ctrl-C asks all children
 /// to end and waits for them, and so does the end of the budget; a run that would not end before it
-/// is not started. When the machine fails, no further run is started: the next call goes on,
-/// beginning with those that have not met the failure. @throws Error when the common beginning
+/// is not started. When the machine fails, no further run is started: the next call continues,
+/// beginning with runs that have not met the failure. @throws Error when the common beginning
 /// fails
 JobsResult run_local(const std::filesystem::path& folder, const store::Manifest& manifest,
                      const std::vector<int>& indices, const LocalOptions& options,
                      Progress& progress);
 
-/// True where the common beginning of forked runs is there. @param folder  of the beginning
+/// True where the common beginning of forked runs exists. @param folder  of the beginning
 bool has_beginning(const Run& run, const std::filesystem::path& folder);
 
 /// Runs that have not ended, the one in question among them.

@@ -31,7 +31,7 @@ void take_beginning(const plan::SweepPlan& plan, const store::Beginning& beginni
   run::RenderJob job = *plan.source;
   job.scene = plan.beginning->scene;
   progress.note(
-      fmt::format("the runs part from {} at {} s", job.scene_file, rough_text(beginning.time)));
+      fmt::format("the runs fork from {} at {} s", job.scene_file, rough_text(beginning.time)));
   timeline::Timeline timeline = timeline::open(job, threads, progress);
   run::walk_to_fork(job, timeline, progress);
   record::RunRecord record = run::run_record(job, timeline.simulation());

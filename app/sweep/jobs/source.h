@@ -1,5 +1,5 @@
 #pragma once
-/// The common beginning of runs that leave a run or a picture that is there.
+/// The common beginning of runs that fork from an existing run or picture.
 
 #include <filesystem>
 
@@ -9,9 +9,8 @@
 
 namespace neve::app::sweep::jobs {
 
-/// Brings the run of plan.source to the time at which the runs part, from its newest checkpoint
-/// that is early enough or from its start, and writes that moment into DIR/beginning, unless it is
-/// there.
+/// Brings the run of plan.source to the time of the fork, from its newest checkpoint that is early
+/// enough or from its start, and writes that moment into DIR/beginning, unless it exists.
 /// @throws IoError, UsageError, Error when the run does not get there
 void take_beginning(const plan::SweepPlan& plan, const store::Beginning& beginning, int threads,
                     Progress& progress);

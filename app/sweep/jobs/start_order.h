@@ -1,5 +1,5 @@
 #pragma once
-/// The runs of a study in the order in which they start.
+/// The runs of a sweep in the order in which they start.
 
 #include <vector>
 

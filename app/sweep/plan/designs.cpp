@@ -21,7 +21,7 @@ struct Direction {
 };
 
 /// new-joe-kuo-6, from the second axis on.
-constexpr std::array<Direction, most_sobol_axes - 1> directions{{
+constexpr std::array<Direction, max_sobol_axes - 1> directions{{
     {1, 0, {1}},
     {2, 1, {1, 3}},
     {3, 1, {1, 3, 1}},

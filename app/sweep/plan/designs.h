@@ -1,5 +1,5 @@
 #pragma once
-/// Places of samples in the unit cube, for studies of several parameters.
+/// Places of samples in the unit cube, for sweeps of several parameters.
 
 #include <cstdint>
 #include <vector>
@@ -7,12 +7,12 @@
 namespace neve::app::sweep::plan {
 
 /// Axes that a Sobol sequence has here.
-inline constexpr std::size_t most_sobol_axes = 21;
+inline constexpr std::size_t max_sobol_axes = 21;
 
 /// A coordinate of a point of the Sobol sequence (Sobol 1967; direction numbers of Joe and Kuo
 /// 2008), scrambled after Owen (1995) by hashing (Burley 2020). A sequence of n points is the
 /// beginning of one of 2 n points.
-/// @param axis  below most_sobol_axes
+/// @param axis  below max_sobol_axes
 /// @return in [0, 1)
 double sobol_place(std::uint32_t sample, std::size_t axis, std::uint64_t seed);
 

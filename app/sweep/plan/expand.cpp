@@ -191,9 +191,9 @@ double count_of(const read::Sweep& sweep) {
 /// Axes of the command line come after the file was checked.
 void check_axes(const read::Sweep& sweep) {
   const bool is_drawing = read::draws(sweep.settings.method);
-  if (sweep.settings.method == read::Method::sobol && sweep.axes.size() > most_sobol_axes)
+  if (sweep.settings.method == read::Method::sobol && sweep.axes.size() > max_sobol_axes)
     sweep.fail("sweep.method",
-               fmt::format("method \"sobol\" has at most {} axes, not {}", most_sobol_axes,
+               fmt::format("method \"sobol\" has at most {} axes, not {}", max_sobol_axes,
                            sweep.axes.size()),
                "use method \"lhs\"");
   for (const read::Axis& axis : sweep.axes) {

@@ -8,8 +8,8 @@
 
 namespace neve::app::sweep::plan {
 
-/// Places of the runs of a study along each of its parameters, from 0 to 1 by the rank of the value
-/// among those of the study.
+/// Places of the runs of a sweep along each of its parameters, from 0 to 1 by the rank of the value
+/// among the values of the sweep.
 class RunPlaces {
  public:
   explicit RunPlaces(const std::vector<PlannedRun>& runs);

@@ -228,7 +228,7 @@ forecast::Cost StudyForecast::seconds_of_all(const std::vector<std::size_t>& cho
 std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                          const StudyForecast& forecast) {
   constexpr double much_longer = 1.5;  // than the median
-  constexpr std::size_t most_named = 5;
+  constexpr std::size_t max_named = 5;
   std::vector<std::size_t> order = chosen;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return forecast.seconds(a).expected > forecast.seconds(b).expected;
@@ -236,7 +236,7 @@ std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& 
   if (order.empty()) return {};
   const double usual = forecast.seconds(order[order.size() / 2]).expected;
   std::string text;
-  for (std::size_t k = 0; k < std::min(order.size(), most_named); ++k) {
+  for (std::size_t k = 0; k < std::min(order.size(), max_named); ++k) {
     const double seconds = forecast.seconds(order[k]).expected;
     if (!(seconds > much_longer * usual)) break;
     text += fmt::format("{}run {}, {}", text.empty() ? "the longest: " : "; ",

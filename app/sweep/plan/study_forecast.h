@@ -1,5 +1,5 @@
 #pragma once
-/// Forecast of the cost of each run of a study, by coarse copies of the runs.
+/// Forecast of the cost of each run of a sweep, by coarse copies of the runs.
 
 #include <cstddef>
 #include <string>
@@ -18,7 +18,7 @@ struct ForecastEffort {
 /// For a look: tens of seconds where there are many runs.
 ForecastEffort whole_effort(int cores);
 
-/// Before a study starts: about three per cent of it, and seconds at most.
+/// Before a sweep starts: about three per cent of its cost, and seconds at most.
 /// @param chosen  runs that will be made, by their places in the plan
 ForecastEffort small_effort(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                             int cores);
@@ -51,7 +51,7 @@ StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t
 std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                          const StudyForecast& forecast);
 
-/// The forecast in one or two lines, for a study that starts. @param budget  s; 0: none
+/// The forecast in one or two lines, for a sweep that starts. @param budget  s; 0: none
 std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                           const StudyForecast& forecast, int cores, double budget);
 

@@ -57,8 +57,8 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
   visit("--coarsen", o.coarsening, options::coarsening(),
         "Make cells N times as large in all runs");
   visit("--fast", o.is_fast,
-        "Take longer steps in all runs for a quick look, by settings that are recorded as --set "
-        "is");
+        "Take longer steps in all runs for a quick look, by settings that are recorded like those "
+        "of --set");
   options::describe_movie(visit, o.movie);
   visit("--out", o.out, options::folder("sheet.png"),
         "Output folder instead of out/<name of the file>.cdb");
@@ -68,8 +68,8 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
 void describe_places(options::Command& visit, SweepOptions& o) {
   visit("--only", o.only, options::text("LIST", "3,7-12"), "Make only these runs, as in 3,7-12");
   visit("--budget", o.budget, budget(),
-        "Stop after this time, as in 20m or 1h30m; the same command continues. A run that by the "
-        "forecast would not end before is not started");
+        "Stop after this time, as in 20m or 1h30m; the same command continues. A run is not "
+        "started if its forecast ends later");
   visit("--shard", o.shard, options::language("I/N", "2/8", parse_shard, shard_text),
         "Make only the I-th of N shares, each on a machine of its own that shares the output "
         "folder");

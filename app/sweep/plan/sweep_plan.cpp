@@ -74,7 +74,7 @@ class SceneMaker {
       text_ = scene::read_toml_file(sweep.scene_file);
   }
 
-  /// With the fixed settings, or of a source as it is there.
+  /// The scene with the fixed settings, or the unchanged scene of a source.
   scene::Scene make_base() const { return make({}, options_.from ? none_ : sweep_.fixed); }
 
   scene::Scene make(const std::vector<scene::Override>& settings) const {
@@ -149,7 +149,7 @@ forecast::FastLook take_fast_look(const SweepOptions& options, const scene::Scen
   return look;
 }
 
-/// The time at which the runs part; nothing where each has its values from the start.
+/// The time of the fork; empty if each run has its values from the start.
 std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& sweep) {
   if (options.fork) return options.fork;
   if (options.from) return options.from;
@@ -157,7 +157,7 @@ std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& 
   try {
     return options::time().read("--fork", sweep.settings.fork);
   } catch (const UsageError& error) {
-    sweep.fail("sweep.fork", "sweep.fork = \"" + sweep.settings.fork + "\" is no time",
+    sweep.fail("sweep.fork", "sweep.fork = \"" + sweep.settings.fork + "\" is not a time",
                "expected seconds, as in fork = \"0.8s\"");
   }
 }
@@ -174,13 +174,14 @@ PlannedRun planned(Run run, scene::Scene scene) {
 run::RenderJob source_job(const SweepOptions& options) {
   if (options.fork)
     throw UsageError("--fork", "cannot be combined with --from",
-                     "--from forks a run or picture that is there, --fork a scene");
+                     "--from forks an existing run or picture, --fork forks a scene");
   std::error_code error;
   if (!std::filesystem::exists(options.file, error))
-    throw UsageError("--from", options.file + " is not there",
+    throw UsageError("--from", options.file + " does not exist",
                      "expected the folder of a run, or a picture made by neve");
   if (!timeline::is_folder(options.file) && !record::is_picture(options.file))
-    throw UsageError("--from", options.file + " is no folder of a run and no picture made by neve",
+    throw UsageError("--from",
+                     options.file + " is not the folder of a run, nor a picture made by neve",
                      fmt::format("for a scene or a sweep file, give --fork {}s", *options.from));
   run::RenderOptions render;
   render.scene = options.file;
@@ -210,7 +211,7 @@ int axis_called(const read::Sweep& sweep, const char* key, const std::string& wa
       if (parameter.address == wanted || parameter.label == wanted) return static_cast<int>(a);
       known.push_back(parameter.address);
     }
-  sweep.fail(key, fmt::format("{} = \"{}\": there is no such axis", key, wanted),
+  sweep.fail(key, fmt::format("{} = \"{}\": no such axis", key, wanted),
              known.empty() ? "the sweep has no axes" : "expected " + scene::list_of(known));
 }
 
@@ -230,7 +231,7 @@ void share_beginning(double time, SweepPlan& plan) {
     setup::FrameRange& frames = item.run.frames;
     if (frames.last <= frame)
       throw UsageError(flag,
-                       "the runs part at frame " + std::to_string(frame) +
+                       "the runs fork at frame " + std::to_string(frame) +
                            ", and their last frame is " + std::to_string(frames.last),
                        "expected an earlier time, or later frames with --frames");
     item.run.work *= static_cast<double>(frames.last - frame) / frames.last;

@@ -35,14 +35,14 @@ struct SweepPlan {
   std::string view;   ///< that the tiles show
   scene::Scene base;  ///< with the fixed settings alone
   std::vector<PlannedRun> runs;
-  /// Of runs that part later than at the start: as far as the last frame before. Their frames and
-  /// their work begin there. Its settings are what all runs change there.
+  /// Common start of forked runs, up to the last frame before the fork. The frames and the work of
+  /// the runs begin after it. Its settings are the changes that all runs make at the fork.
   std::optional<PlannedRun> beginning;
   /// The run or picture in which the beginning is found; without it is simulated from the start.
   std::optional<run::RenderJob> source;
   bool keeps_states = false;
   int columns = -1, rows = -1;  ///< axes of the sheet that were asked for; -1: automatic
-  double fork = 0;              ///< s, where they part
+  double fork = 0;              ///< s, the time of the fork
   std::optional<forecast::FastLook>
       fast;  ///< of --fast; its overrides are among the fixed settings
 };

@@ -51,9 +51,9 @@ std::string complaint(const std::string& name, const Sweep& sweep) {
         "< 0.2\"]",
         names_of(sweep).empty() ? "hardening" : names_of(sweep).front());
   if (name.find_first_not_of(letters) != std::string::npos || number_of(name.substr(0, 1)))
-    return fmt::format("\"{}\" is neither an axis nor a number times one; {}", name, form);
+    return fmt::format("\"{}\" is not an axis, nor a number times an axis; {}", name, form);
   const std::string question = advice::suggest(name, {"", all_names_of(sweep)});
-  return fmt::format("\"{}\" is no axis of the sweep; {}expected {}", name,
+  return fmt::format("\"{}\" is not an axis of the sweep; {}expected {}", name,
                      question.empty() ? "" : question + " ", joined(names_of(sweep), ", "));
 }
 
@@ -98,7 +98,7 @@ Condition::Side Condition::read_side(const std::string& text, const Sweep& sweep
     return {*factor, address_of(second, sweep), {}};
   if (const std::optional<double> factor = number_of(second))
     return {*factor, address_of(first, sweep), {}};
-  throw std::invalid_argument(fmt::format("\"{}\" is no number times an axis; {}", text, form));
+  throw std::invalid_argument(fmt::format("\"{}\" is not a number times an axis; {}", text, form));
 }
 
 Condition::Condition(const std::string& text, const Sweep& sweep) {

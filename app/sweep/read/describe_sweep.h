@@ -48,10 +48,9 @@ void describe(V& visit, SweepSettings& s) {
         "axes, numbers, a number * an axis.");
   visit("frames", s.frames, scene::unit::none, scene::anything, restart,
         "Frames to draw, \"A-B\" or \"N\" for 0-N; default: those of the scene.");
-  visit(
-      "fork", s.fork, scene::unit::none, scene::anything, restart,
-      "Time at which the runs part, as \"0.8s\": the beginning is computed once; default: each run "
-      "has its values from the start.");
+  visit("fork", s.fork, scene::unit::none, scene::anything, restart,
+        "Time at which all runs fork, as \"0.8s\": the common start is simulated once; default: "
+        "each run has its values from the start.");
   visit("keep_states", s.keep_states, scene::unit::none, scene::anything, restart,
         "Keep the state of each drawn frame: tiles of another size, view, colour or camera are "
         "then drawn without simulating.");

@@ -205,9 +205,8 @@ void refuse_foreign_range(const scene::Override& change, const std::string& what
   std::replace(list.begin(), list.end(), ';', ',');
   if (list.find(',') == std::string::npos) std::replace(list.begin(), list.end(), ' ', ',');
   if (list != text && list.find_first_not_of("0123456789.eE+-, ") == std::string::npos)
-    throw UsageError(
-        what, "is not a list of values",
-        "values have commas between them and nothing else: -p " + change.address + "=" + list);
+    throw UsageError(what, "is not a list of values",
+                     "separate values by commas without blanks: -p " + change.address + "=" + list);
 }
 
 /// "body.ball.velocity.y", "body.ball.velocity[1]"

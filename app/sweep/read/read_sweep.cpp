@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_values = 100'000;  ///< of all axes of a sweep
+constexpr std::size_t max_sweep_values = 100'000;  ///< of all axes of a sweep
 
 /// Takes a key that is no address out of a table of addresses.
 std::optional<scene::toml::Value> take(scene::toml::Table& table, const char* key) {
@@ -77,7 +77,7 @@ class SweepReader {
     std::error_code error;
     if (!fs::is_regular_file(file, error))
       source().fail(where, "sweep.scene = " + scene::toml::toml_string(name),
-                    "there is no such file; looked for " + fs::absolute(file, error).string());
+                    "no such file; looked for " + fs::absolute(file, error).string());
     return file.string();
   }
 
@@ -98,15 +98,15 @@ class SweepReader {
     return label;
   }
 
-  /// Before all values of all axes are there: a few bytes of a file can ask for any number.
+  /// Counts before all values of all axes are made: a few bytes of a file can ask for any number.
   Axis::Parameter counted_axis(const scene::toml::Entry& entry) {
     Axis::Parameter parameter = read_axis(source(), entry);
     values_ += parameter.values.size();
-    if (values_ > most_values)
+    if (values_ > max_sweep_values)
       throw LimitError(fmt::format("{}:{}:{}: error: refused: the axes up to {} have {} values "
                                    "together; at most {} are allowed",
                                    source().file, entry.where.line, entry.where.column, entry.key,
-                                   values_, most_values),
+                                   values_, max_sweep_values),
                        entry.key, "make num smaller, or draw samples with method = \"lhs\"");
     return parameter;
   }
@@ -211,7 +211,7 @@ std::vector<const scene::Override*> varied(const Sweep& sweep) {
   return settings;
 }
 
-/// Axes of the command line, each of which is there once.
+/// Axes of the command line; each may be given once.
 std::vector<Axis::Parameter> parse_axes(const std::vector<std::string>& arguments) {
   std::vector<Axis::Parameter> axes;
   for (const std::string& argument : arguments) {
@@ -274,7 +274,7 @@ Sweep parse_sweep(const std::string& text, const std::string& file, const SweepC
     sweep.fixed.push_back(scene::parse_override(argument));
   refuse_duplicates(sweep, changes.is_forked || !sweep.settings.fork.empty());
   if (!is_sweep && sweep.axes.empty())
-    throw UsageError("", file + " is a scene, and nothing varies",
+    throw UsageError("", file + " is a scene, and no parameter varies",
                      "add -p ADDRESS=LIST, as in -p material.snow.hardening=5,10,20, or give a "
                      "file with [sweep]");
   if (sweep.axes.empty() && sweep.rows.empty())

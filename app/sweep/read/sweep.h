@@ -1,5 +1,5 @@
 #pragma once
-/// A parameter study as the user wrote it. Data only; describe_sweep.h has every key.
+/// A sweep as the user wrote it. Data only; describe_sweep.h has every key.
 
 #include <cstdint>
 #include <map>
@@ -42,7 +42,7 @@ struct Ends {
 struct WholeRange {
   std::int64_t first = 0, last = 0, step = 1;  ///< both ends included
 };
-/// Values as they were written.
+/// Values as the user wrote them.
 struct Values {
   scene::toml::Array items;
 };
@@ -64,7 +64,7 @@ struct SweepSettings {
   std::uint64_t seed = 1;
   std::vector<std::string> where;  ///< conditions, see condition.h
   std::string frames;
-  std::string fork;  ///< time at which all runs part; "": at the start
+  std::string fork;  ///< time at which all runs fork; "": no fork
   bool keep_states = false;
   std::string title;
 };

@@ -114,7 +114,7 @@ Json sweep_schema() {
   describe(writer, file);
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "Sweep of neve"}};
-  schema.update(writer.table("A parameter study: a scene, what varies, and the contact sheet."));
+  schema.update(writer.table("A sweep: a scene, the parameters that vary, and the contact sheet."));
   schema["required"] = {"sweep"};
   schema["properties"]["sweep"]["required"] = {"scene"};
   for (const scene::AddressSchema& parameter : of_scene)

@@ -78,7 +78,7 @@ void refuse_flaws(const fs::path& folder, const store::Manifest& manifest,
   if (count > 1) text += "; and " + std::to_string(count - 1) + " more runs";
   if (count > 0)
     throw Error(exit_check_failed, text, folder.string(),
-                "the sweep's own command makes these runs again");
+                "repeat the command of the sweep to make these runs again");
 }
 
 /// "sheet", and "sheet_2" of the second page.
@@ -105,7 +105,7 @@ void write_sheet_movie(const fs::path& folder, const store::Manifest& manifest,
   if (movie.outcome == output::MovieOutcome::failed) progress.warning(failure);
   if (movie.outcome == output::MovieOutcome::unwritable)
     throw IoError(failure, request.file.string(),
-                  "neve sweep collect makes the movie when there is room");
+                  "free disk space, and neve sweep collect makes the movie");
 }
 
 void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,

@@ -84,7 +84,7 @@ std::string cell(const std::string& value, const std::string& type) {
   return looks_like_number(text) || text.empty() ? "'" + text + "'" : text;
 }
 
-/// Names of columns, each of which is there once.
+/// Unique names of columns.
 class ColumnNames {
  public:
   /// @param suffix  follows a name that is taken

@@ -78,8 +78,8 @@ std::string effects_section(const store::Manifest& manifest,
          svg + "</div>\n</section>\n";
 }
 
-/// A drawing with a point for each run and metric is no part of the page: its tens of thousands of
-/// elements would make a large study slow.
+/// The page does not hold the drawing with a point for each run and metric: its tens of thousands
+/// of elements would make the page of a large sweep slow.
 std::string more_section(const store::Manifest& manifest,
                          const std::vector<store::RunResult>& results, const SheetLayout& layout,
                          const std::vector<std::uint8_t>& sheet_png, std::size_t pages) {

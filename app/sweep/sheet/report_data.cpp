@@ -46,7 +46,7 @@ Json column_names(const store::Manifest& manifest) {
   return columns;
 }
 
-/// Parameters that are numbers as they were written, by column: rounding is for results.
+/// Parameters that are numbers, as the user wrote them, by column: only results are rounded.
 Json written_values(const store::Manifest& manifest, const Run& run) {
   Json texts = Json::object();
   std::size_t c = has_labels(manifest) ? 2 : 1;

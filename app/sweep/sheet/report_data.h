@@ -1,5 +1,5 @@
 #pragma once
-/// The study that report.html has in it: columns, runs, axes, commands.
+/// The data of a sweep that report.html holds: columns, runs, axes, commands.
 
 #include <string>
 #include <vector>

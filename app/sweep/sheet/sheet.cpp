@@ -70,7 +70,7 @@ render::Image read_tile(const std::filesystem::path& file, int width, int height
     throw;
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
-    // A picture that is not there or is being replaced is no reason to have no sheet.
+    // A picture that is missing or being replaced does not prevent the sheet.
     return plain_image(width, height, background);
   }
 }

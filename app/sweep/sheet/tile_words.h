@@ -20,8 +20,8 @@ struct WordRoom {
 std::vector<std::string> tile_words(const store::Manifest& manifest, const Run& run, bool has_edges,
                                     const WordRoom& room);
 
-/// The axis of a screening that changed since the run before; -1: a trajectory starts, or the study
-/// is no screening.
+/// The axis of a screening that changed since the run before; -1: a trajectory starts, or the sweep
+/// is not a screening.
 int changed_axis(const store::Manifest& manifest, const Run& run);
 
 }  // namespace neve::app::sweep::sheet

@@ -157,7 +157,7 @@ const char* why_no_sweep(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder, error)) return "there is no such folder";
   if (!std::filesystem::is_directory(folder, error)) return "is a file, not the folder of a sweep";
   if (std::filesystem::exists(output::run_json_path(folder), error))
-    return "is the folder of one run, not that of a sweep";
+    return "is the folder of one run, not of a sweep";
   return "is a folder without a sweep in it";
 }
 
@@ -173,9 +173,9 @@ bool is_amount(double x) {
 void check_run(const Manifest& m, const Run& run) {
   check(run.frames.first >= 0 && run.frames.first <= run.frames.last &&
             run.frames.last <= output::max_frame,
-        "the frames of a run are impossible");
+        "the frames of a run are invalid");
   check(is_amount(run.particles) && is_amount(run.memory) && is_amount(run.work),
-        "the particles, memory or work of a run are impossible");
+        "the particles, memory or work of a run are invalid");
   if (!m.screened.empty())
     check(run.coordinates.empty() || run.coordinates.size() == m.screened.size(),
           "a run has no level on each axis");
@@ -193,15 +193,15 @@ void check_values(const Manifest& m) {
   const auto is_axis = [&](int axis) {
     return axis >= -1 && axis < static_cast<int>(m.axes.size());
   };
-  check(is_side(m.tile_width) && is_side(m.tile_height), "the size of its tiles is impossible");
-  check(m.fps > 0 && m.fps < 1e9, "its frames per second are impossible");
-  check(is_axis(m.columns) && is_axis(m.rows) && m.wrap >= 0, "its columns or rows are no axis");
-  check(output::is_plain_name(m.view), "its view has no name of a folder");
-  check(is_amount(m.timeout) && is_amount(m.memory), "its limits are impossible");
-  check(is_amount(m.seconds_per_work), "its seconds per work are impossible");
+  check(is_side(m.tile_width) && is_side(m.tile_height), "its tile size is invalid");
+  check(m.fps > 0 && m.fps < 1e9, "its frames per second are invalid");
+  check(is_axis(m.columns) && is_axis(m.rows) && m.wrap >= 0, "its columns or rows name no axis");
+  check(output::is_plain_name(m.view), "the name of its view is not a folder name");
+  check(is_amount(m.timeout) && is_amount(m.memory), "its limits are invalid");
+  check(is_amount(m.seconds_per_work), "its seconds per work are invalid");
   check(!m.runs.empty(), "it has no runs");
   if (m.beginning) {
-    check(is_amount(m.beginning->time), "the time at which its runs part is impossible");
+    check(is_amount(m.beginning->time), "its fork time is invalid");
     check_run(m, m.beginning->run);
   }
   for (std::size_t k = 0; k < m.runs.size(); ++k) {

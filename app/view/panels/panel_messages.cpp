@@ -43,11 +43,11 @@ void draw_incident(ViewerState& state) {
   }
   const bool is_ignored = live.scene->solver.on_divergence == sim::OnDivergence::ignore;
   if (!is_ignored && !sim::is_final_rule(live.divergence->rule)) {
-    if (ImGui::Button("Go on anyway")) {
+    if (ImGui::Button("Continue anyway")) {
       state.shows_incident = false;
-      state.bench.go_on_anyway();
+      state.bench.continue_anyway();
     }
-    note_label("Go on anyway");
+    note_label("Continue anyway");
     tip("from the last kept frame, past the broken rule, to watch the snow burst;\n"
         "pictures say so");
   }

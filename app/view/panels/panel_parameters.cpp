@@ -1,4 +1,4 @@
-/// The left column: every parameter, the changes, bodies and obstacles.
+/// The left column: every parameter, the changes, bodies and colliders.
 
 #include <imgui.h>
 
@@ -199,7 +199,7 @@ namespace {
 void draw_add_menu(ViewerState& state) {
   if (ImGui::Button("Add ...")) ImGui::OpenPopup("add");
   note_label("Add ...");
-  tip("add snow, an obstacle, a source or a drain where the camera looks");
+  tip("add a body, a collider, an emitter or a sink where the camera looks");
   if (!ImGui::BeginPopup("add")) return;
   using enum session::NewObject;
   for (const session::NewObject object :

@@ -1,4 +1,4 @@
-/// The dialog "Vary from here": parameters, values, and the study that is made of them.
+/// The dialog "Vary from here": parameters, values, and the sweep that is made of them.
 
 #include <imgui.h>
 
@@ -21,7 +21,7 @@ namespace neve::app::view::panels {
 
 namespace {
 
-constexpr std::size_t most_axes = 2, max_found = 8;
+constexpr std::size_t max_axes = 2, max_found = 8;
 
 bool labelled_button(const char* label, const char* name = nullptr) {
   const bool is_pressed = ImGui::Button(label);
@@ -75,7 +75,7 @@ void draw_axes(ViewerState& state) {
   for (std::size_t k = 0; k < axes.size(); ++k) {
     ImGui::PushID(static_cast<int>(k));
     const bool is_removed = ImGui::SmallButton("x");
-    note_label(("leave out " + axes[k].address).c_str());
+    note_label(("omit " + axes[k].address).c_str());
     ImGui::SameLine();
     ImGui::TextUnformatted(axes[k].address.c_str());
     char text[512];
@@ -101,9 +101,9 @@ void draw_form(ViewerState& state) {
   const session::LiveFrame& live = *state.live;
   wrapped_text("Runs that begin at exactly frame " + std::to_string(live.frame) + ", " +
                rough_text(live.frame / live.scene->fps) +
-               " s, as it is here, with the changes that were made before.");
+               " s, with the state shown here and the changes made before it.");
   draw_axes(state);
-  if (state.study.axes.size() < most_axes) draw_found(state);
+  if (state.study.axes.size() < max_axes) draw_found(state);
   ImGui::Separator();
   ImGui::SetNextItemWidth(9 * em());
   ImGui::InputInt("until frame", &state.study.last_frame);
@@ -158,15 +158,16 @@ void draw_files_of_study(ViewerState& state, const session::StudyProgress& progr
 void draw_result(ViewerState& state, const session::StudyProgress& progress) {
   using State = session::StudyProgress::State;
   ImGui::Separator();
-  if (progress.state == State::failed) wrapped_text("The study failed: " + progress.error);
+  if (progress.state == State::failed) wrapped_text("The sweep failed: " + progress.error);
   if (progress.state == State::stopped) wrapped_text("Stopped. The command continues from there.");
   if (progress.state == State::done) {
-    wrapped_text(
-        std::to_string(progress.ok) + " of " + std::to_string(progress.runs) + " runs are whole" +
-        (progress.failed > 0 ? ", " + std::to_string(progress.failed) + " failed" : "") + ".");
+    wrapped_text(std::to_string(progress.ok) + " of " + std::to_string(progress.runs) +
+                 " runs are finished" +
+                 (progress.failed > 0 ? ", " + std::to_string(progress.failed) + " failed" : "") +
+                 ".");
     draw_files_of_study(state, progress);
   }
-  if (labelled_button("Copy the command of the study")) state.copy(progress.command);
+  if (labelled_button("Copy the command of the sweep")) state.copy(progress.command);
   tip(progress.command.c_str());
 }
 
@@ -191,7 +192,7 @@ void draw_study(ViewerState& state) {
   if (ImGui::Begin("Vary from here", &state.study.is_open,
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
-    note_label("study", {place.at.x, place.at.y, place.size.x, place.size.y});
+    note_label("sweep", {place.at.x, place.at.y, place.size.x, place.size.y});
     const session::StudyProgress& progress = state.bench.study().progress();
     if (state.bench.study().is_running()) {
       draw_running(state, progress);

@@ -27,25 +27,27 @@ constexpr std::array stops{
          "picture", "picture"},
     Stop{"Run simulates, and stops at the last frame. Space does the same. Try it, and pause.",
          "Run", "Pause"},
-    Stop{"Frame, Step and Stage go on by one: a moment of the film, a time step, a part of a step.",
+    Stop{"Frame, Step and Stage advance by one: a moment of the film, a time step, one stage of a "
+         "step.",
          "Frame", "Frame"},
     Stop{"The bar below has every frame that was simulated. Drag it to go back; nothing is lost.",
          "time line", "Play"},
     Stop{"All numbers of the scene are in Parameters. Type what you look for: hardening, sticky, "
          "camera. "
-         "Rest on a name for its meaning.",
+         "Hover over a name for its meaning.",
          "find a parameter", "Parameters", false},
     Stop{
         "Numbers with a turning arrow wait for Reset, all others change the snow at once, while it "
         "runs.",
         "Reset", "Reset"},
-    Stop{"Objects lists bodies and obstacles. Select one, and drag its arrows in the picture.",
+    Stop{"Objects lists bodies and colliders. Select one, and drag its arrows in the picture.",
          "Objects", "Objects", false},
     Stop{
         "Views show the same snow as particles, as smoke, as a slice through the grid with arrows, "
         "or as snow in sunlight.",
         "view particles", "View", true, tab::view},
-    Stop{"Inside a step: rest on a stage to read what it does, click it to see its result. Click a "
+    Stop{"Inside a step: hover over a stage to read what it does, click it to see its result. "
+         "Click a "
          "particle in the picture to read its numbers.",
          "Stages", "Inspect", true, tab::inspect},
     Stop{"Save pictures, the scene with your changes, or the command that makes it again.",

@@ -116,7 +116,7 @@ void announce_view(ViewerState& state);
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe);
 
 void toggle_run(ViewerState& state);
-/// All snow and small obstacles.
+/// All snow and small colliders.
 void frame_all(ViewerState& state);
 /// Frames the probed or selected object; everything if there is none.
 void frame_selection(ViewerState& state);

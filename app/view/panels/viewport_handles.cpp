@@ -1,4 +1,4 @@
-/// Arrows that move bodies and obstacles.
+/// Arrows that move bodies and colliders.
 
 #include <algorithm>
 #include <cmath>

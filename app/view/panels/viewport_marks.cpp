@@ -96,7 +96,7 @@ std::string reason_for_no_arrows(const scene::View& view, const picture::FieldSa
   const std::string name = scene::name(view.slice.field);
   if (most == 0) return "no arrows: " + name + " is 0 everywhere";
   if (range > 0 && most < visible_share * range)
-    return "no arrows to be seen: the largest " + name + " is " + rough_text(most) +
+    return "no visible arrows: the largest " + name + " is " + rough_text(most) +
            ", the range ends at " + rough_text(range);
   return "";
 }

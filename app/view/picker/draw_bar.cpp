@@ -25,8 +25,8 @@ struct Answer {
 
 std::vector<Answer> answers_of(const PickerState& state) {
   if (state.phase == Phase::over)
-    return {{"Go on", "Go on", "More rounds of the same search", !state.game.is_over(), false,
-             Wish::Kind::go_on},
+    return {{"Continue", "Continue", "More rounds of the same search", !state.game.is_over(), false,
+             Wish::Kind::more_rounds},
             {"Take back", "Take back", "Takes the last answer back (U)", state.can_undo(), false,
              Wish::Kind::undo},
             {"Done", "Done", "Ends neve (Q); all files stay", true, true, Wish::Kind::done}};
@@ -35,7 +35,7 @@ std::vector<Answer> answers_of(const PickerState& state) {
         {"Try again", "Try again", "Does the same again", true, true, Wish::Kind::try_again},
         {"Stop", "Stop", "Ends neve; the same command continues", true, false, Wish::Kind::stop}};
   const bool is_asking = state.phase == Phase::asking;
-  return {{"Two are as good", "Two are as good", "The next two clicks are one answer (T, or shift)",
+  return {{"Two are equal", "Two are equal", "The next two clicks are one answer (T, or shift)",
            is_asking, state.takes_two || state.first.has_value(), Wish::Kind::nothing},
           {"None of them", "None of them", "Nine others (0)", is_asking, false, Wish::Kind::choose},
           {"Take back", "Take back", "Takes the last answer back (U)", state.can_undo(), false,
@@ -68,8 +68,8 @@ void draw_answer(PickerState& state, const Answer& answer, const char* name, ImV
 
 std::string title_of(const PickerState& state) {
   if (state.phase == Phase::over) return "The pick";
-  const int round = std::min(state.game.answered() + 1, state.game.most_rounds());
-  return "Round " + std::to_string(round) + " of " + std::to_string(state.game.most_rounds());
+  const int round = std::min(state.game.answered() + 1, state.game.max_rounds());
+  return "Round " + std::to_string(round) + " of " + std::to_string(state.game.max_rounds());
 }
 
 std::string status_of(const PickerState& state) {
@@ -81,8 +81,8 @@ std::string status_of(const PickerState& state) {
     case Phase::asking:
       if (state.first)
         return "Tile " + std::to_string(*state.first + 1) + " and ...? Choose the other one";
-      return state.takes_two ? "Choose the two that are as good"
-                             : "Choose the tile that comes nearest to what you mean";
+      return state.takes_two ? "Choose the two that are equally good"
+                             : "Choose the tile that comes nearest to the snow you want";
     case Phase::stuck:
       return "This round could not be made";
     case Phase::over:

@@ -66,13 +66,13 @@ void draw_hand(const PickerState& state) {
 }
 
 void draw_failure(PickerState& state) {
-  draw_heading("Something is in the way");
+  draw_heading("This round failed");
   draw_paragraph(state.failure, colour::wrong);
-  draw_paragraph(
-      "Nothing is lost: your answers are in " + (state.game.folder() / "clicks.txt").string() +
-          ", and runs that are finished are not made again. Try again when it is mended; or stop, "
-          "and the same command continues later.",
-      colour::dim);
+  draw_paragraph("Nothing is lost: your answers are in " +
+                     (state.game.folder() / "clicks.txt").string() +
+                     ", and runs that are finished are not made again. Solve this and try again; "
+                     "or stop, and the same command continues later.",
+                 colour::dim);
 }
 
 void draw_command(const PickerState& state, const std::string& command, const char* button) {
@@ -99,7 +99,7 @@ void draw_files(const PickerState& state) {
     say(meaning, colour::dim);
   };
   row("picked.toml", "the scene with these values, in its own resolution");
-  row("picked_sweep.toml", "a sweep over the two axes that told most");
+  row("picked_sweep.toml", "a sweep over the two axes that matter most");
   row("clicks.txt", "your answers; --clicks replays them to the bit");
   if (!state.download) draw_paragraph("in " + state.game.folder().string(), colour::dim);
 }
@@ -117,7 +117,7 @@ void draw_result(PickerState& state) {
   const int rounds = state.game.answered();
   if (state.values.empty()) {
     draw_heading("Nothing was chosen");
-    draw_paragraph("The same command continues from here, and so does Go on.");
+    draw_paragraph("The same command continues from here, and so does Continue.");
     return;
   }
   draw_heading("Picked");

@@ -189,7 +189,7 @@ void Picker::heed() {
     case Wish::Kind::try_again:
       std::exchange(retry_, nullptr)();
       break;
-    case Wish::Kind::go_on:
+    case Wish::Kind::more_rounds:
       begin_round();
       break;
     case Wish::Kind::done:
@@ -202,7 +202,7 @@ void Picker::heed() {
 void Picker::choose(const pick::Click& click) {
   state_.note = pick::why_not(state_.runs, click);
   if (!state_.note.empty()) return;
-  const bool is_last = game_.answered() + 1 >= game_.most_rounds();
+  const bool is_last = game_.answered() + 1 >= game_.max_rounds();
   const auto answer = [this, click] {
     attempt([this, click] {
       game_.answer(click);
@@ -271,7 +271,7 @@ int Picker::end() {
   if (is_interrupted()) return state_.phase == Phase::over ? exit_ok : exit_resumable;
   if (state_.phase != Phase::stuck) return exit_ok;
   throw Error(failure_code_, state_.failure, game_.folder().string(),
-              "the same command continues when this is mended; nothing is lost");
+              "solve this and repeat the command: it continues, and nothing is lost");
 }
 
 }  // namespace neve::app::view::picker

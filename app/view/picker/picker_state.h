@@ -23,7 +23,7 @@ enum class Phase {
 
 /// One action for each picture: the last one wins.
 struct Wish {
-  enum class Kind { nothing, choose, undo, stop, try_again, go_on, done };
+  enum class Kind { nothing, choose, undo, stop, try_again, more_rounds, done };
   Kind kind = Kind::nothing;
   pick::Click click{};
 };

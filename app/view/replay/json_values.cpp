@@ -87,7 +87,7 @@ class Builder {
   Value root;
 
   // The names are those that the library calls.
-  bool null() { fail(tokens_.next(), "null is not a value here", "leave out the key"); }
+  bool null() { fail(tokens_.next(), "null is not a value here", "omit the key"); }
   bool boolean(bool value) { return add({value, tokens_.next()}); }
   bool number_integer(std::int64_t value) { return add({value, tokens_.next()}); }
   bool number_unsigned(std::uint64_t value) {
@@ -108,7 +108,7 @@ class Builder {
     key_ = {name, tokens_.next(), {}};
     if (left_out_ > 0) return true;
     const Table& table = std::get<Table>(open_.back()->data);
-    if (table.find(name)) fail(key_.where, scene::toml::toml_string(name) + " is there twice", "");
+    if (table.find(name)) fail(key_.where, scene::toml::toml_string(name) + " is given twice", "");
     if (table.entries.size() >= max_keys) fail(key_.where, "too many keys in one object", "");
     return true;
   }

@@ -11,7 +11,7 @@ namespace neve::app::view::replay {
 
 /// Values nested deeper than any script needs are left empty.
 /// @param file only named in errors
-/// @throws SceneError for invalid JSON, for null, and for a key that is there twice
+/// @throws SceneError for invalid JSON, for null, and for a key that is given twice
 scene::toml::Value parse_json_values(std::string_view text, const std::string& file);
 
 }  // namespace neve::app::view::replay

@@ -40,7 +40,7 @@ Step action_of(const scene::Source& source, const scene::toml::Value& value,
     if (std::find(actions.begin(), actions.end(), entry.key) == actions.end()) continue;
     if (found)
       source.fail(entry.where, name + ": both " + found->key + " and " + entry.key + " in one step",
-                  "one step does one thing");
+                  "each step has one action");
     found = &entry;
   }
   if (!found)

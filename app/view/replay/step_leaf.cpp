@@ -116,7 +116,7 @@ void read_leaf(const scene::Leaf& leaf, PictureFile& member) {
   member.name = text_of(leaf, "the name of a PNG file");
   if (!member.name.ends_with(".png")) leaf.fail("a name that ends in .png");
   if (!stays_inside(member.name))
-    leaf.fail("a name within the folder of --out, without \"..\" and no absolute one");
+    leaf.fail("a relative name within the folder of --out, without \"..\"");
 }
 
 void read_leaf(const scene::Leaf& leaf, Crop& member) {

@@ -142,7 +142,7 @@ void Document::require_within_limits(const scene::Scene& next) const {
   const bool needs_more = plan.memory > before.memory || plan.particles > before.particles ||
                           plan.largest_picture > before.largest_picture;
   if (!needs_more) return;
-  // The run that is there holds some of the memory that is not available any more.
+  // The present run holds some of the memory that is not available any more.
   if (next.limits.memory == 0 && !plan.is_memory_capped) plan.memory_limit += before.memory;
   setup::check_limits(next, plan, coarsening_);
 }

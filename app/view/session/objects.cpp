@@ -23,7 +23,7 @@ using sim::shapes::Plane;
 using sim::shapes::Shape;
 
 /// Half of the extent of a new object, in cells.
-constexpr double fewest_cells = 4, most_cells = 10;
+constexpr double fewest_cells = 4, max_cells = 10;
 
 struct Kind {
   const char* list;
@@ -34,17 +34,17 @@ struct Kind {
 Kind kind_of(NewObject object) {
   switch (object) {
     case NewObject::snow_ball:
-      return {"body", "ball", "Ball of snow"};
+      return {"body", "ball", "Body: a sphere"};
     case NewObject::snow_block:
-      return {"body", "block", "Block of snow"};
+      return {"body", "block", "Body: a box"};
     case NewObject::emitter:
-      return {"emitter", "source", "Source of snow"};
+      return {"emitter", "emitter", "Emitter of snow"};
     case NewObject::sink:
-      return {"sink", "drain", "Drain for snow"};
+      return {"sink", "sink", "Sink for snow"};
     case NewObject::sphere:
-      return {"collider", "obstacle", "Obstacle: a sphere"};
+      return {"collider", "sphere", "Collider: a sphere"};
     case NewObject::box:
-      return {"collider", "obstacle", "Obstacle: a box"};
+      return {"collider", "box", "Collider: a box"};
     case NewObject::floor:
       break;
   }
@@ -106,9 +106,9 @@ double rise_above(const Shape& shape, const Vec3d& at, const Vec3d& half) {
 }
 
 Vec3d free_place(const scene::Scene& scene, Vec3d at, const Vec3d& half) {
-  constexpr int most_rises = 100;
+  constexpr int max_rises = 100;
   const Vec3d slack = half * (1 - 1e-6);  // what touches is free
-  for (int k = 0; k < most_rises; ++k) {
+  for (int k = 0; k < max_rises; ++k) {
     double rise = 0;
     for (const char* list : {"body", "emitter", "collider"})
       each_shape(scene, list, [&](const std::string&, const Shape& shape) {
@@ -168,11 +168,11 @@ std::optional<Table> written_object(const Document& document, const std::string&
   return table ? std::optional(*table) : std::nullopt;
 }
 
-/// From an object to its copy: beside it, and snow above what is there.
+/// From an object to its copy: beside it, and snow above what exists.
 Vec3d way_of_copy(const scene::Scene& scene, const std::string& list, const Shape& shape) {
   const double cell = scene.solver.cell_size;
   if (const auto* plane = std::get_if<Plane>(&shape.form))
-    return -most_cells * cell * plane->normal.normalized();
+    return -max_cells * cell * plane->normal.normalized();
   const std::optional<Bounds> bounds = bounds_of(shape);
   if (!bounds) return Vec3d::Zero();
   const Vec3d half = 0.5 * (bounds->max - bounds->min), middle = bounds->min + half;
@@ -227,7 +227,7 @@ AddedObject new_object(const scene::Scene& scene, NewObject object, const Vec3d&
                        double size) {
   const Kind kind = kind_of(object);
   const double cell = scene.solver.cell_size;
-  const double wanted = std::clamp(size, fewest_cells * cell, most_cells * cell);
+  const double wanted = std::clamp(size, fewest_cells * cell, max_cells * cell);
   const double half = round_to(wanted, wanted, 2);
   const double step = std::pow(10, std::floor(std::log10(half)) - 1);
   const auto rounded = [&](const Vec3d& at) {

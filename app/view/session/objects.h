@@ -11,7 +11,7 @@ namespace neve::app::view::session {
 
 enum class NewObject { snow_ball, snow_block, emitter, sink, sphere, box, floor };
 
-/// The words of a menu: "Ball of snow".
+/// The words of a menu: "Body: a sphere".
 const char* title_of(NewObject object);
 
 /// An object as an edit.
@@ -20,7 +20,7 @@ struct AddedObject {
   std::string value;    ///< TOML, a table
 };
 
-/// Snow and obstacles are put above what is there already: snow in snow is too dense, and bursts.
+/// Bodies and colliders are put above what already exists: snow in snow is too dense, and bursts.
 /// @param near  place that is looked at, m
 /// @param size  half of the object's extent, m; some cells at least, and not so many that it takes
 ///              minutes

@@ -144,17 +144,17 @@ void Session::continue_from_here() {
   mailbox_.ask([this] {
     if (!head_) return;
     head_.reset();
-    take_another_way();
+    fork_here();
   });
 }
 
-void Session::take_another_way() {
+void Session::fork_here() {
   timeline_->fork();
   samples_.forget_after(simulation().time());
 }
 
 /// The change belongs to a step before the broken one: made again, the run passes it too.
-void Session::go_on_anyway(std::shared_ptr<const scene::Scene> scene) {
+void Session::continue_anyway(std::shared_ptr<const scene::Scene> scene) {
   mailbox_.ask([this, scene = std::move(scene)] {
     leave_older();
     if (!simulation().divergence()) return;
@@ -163,7 +163,7 @@ void Session::go_on_anyway(std::shared_ptr<const scene::Scene> scene) {
     if (!kept) return;
     inspector_.stage.reset();
     load(*kept);
-    take_another_way();
+    fork_here();
     timeline_->change(scene);
     timeline_->keep();
     set_goal(Goal::end);

@@ -71,7 +71,7 @@ class Session {
 
   /// Continues a run that broke a rule from its last kept frame, with the settings of this scene,
   /// which ignore rules.
-  void go_on_anyway(std::shared_ptr<const scene::Scene> scene);
+  void continue_anyway(std::shared_ptr<const scene::Scene> scene);
 
   /// Sets the views whose fields the session computes.
   void set_views(std::vector<scene::View> views);
@@ -97,7 +97,7 @@ class Session {
   void set_goal(Goal goal);
   void load(const timeline::Moment& moment);
   void leave_older();
-  void take_another_way();
+  void fork_here();
   void advance();
   void reach_frame();
   void require_room() const;

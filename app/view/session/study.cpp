@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_study_runs = 100;
+constexpr int max_study_runs = 100;
 constexpr double study_grace = 10;  // s
 constexpr auto study_interval = std::chrono::milliseconds(300);
 
@@ -39,7 +39,7 @@ std::vector<std::string> axes_of(const StudyRequest& request) {
 void Study::start(const fs::path& folder, record::RunRecord run, timeline::Moment moment,
                   double fps, const StudyRequest& request,
                   const std::vector<std::string>& longer_steps) {
-  if (is_running()) throw UsageError("", "a study is in progress", "wait for it, or stop it");
+  if (is_running()) throw UsageError("", "a sweep is in progress", "wait for it, or stop it");
   if (request.axes.empty()) throw UsageError("", "no parameter is chosen", "find one to vary");
   const fs::path here = new_folder(folder, moment.frame);
   sweep::plan::SweepOptions options;
@@ -55,8 +55,8 @@ void Study::start(const fs::path& folder, record::RunRecord run, timeline::Momen
     timeline::write_origin(options.file, std::move(run), std::move(moment));
     // A wrong request is refused here, before a process starts.
     runs = static_cast<int>(sweep::plan::plan_sweep(options).runs.size());
-    if (runs > most_study_runs)
-      throw UsageError("", fmt::format("{} runs are more than {}", runs, most_study_runs),
+    if (runs > max_study_runs)
+      throw UsageError("", fmt::format("{} runs are more than {}", runs, max_study_runs),
                        "give fewer values, or use neve sweep in a terminal");
     sweep_.emplace(options, program_, here / "log", study_grace);
     progress_ = {};
@@ -87,7 +87,7 @@ void Study::end(int code) {
                                              : State::failed;
   if (progress_.state == State::failed) progress_.error = sweep_->error();
   if (progress_.state == State::failed && progress_.error.empty())
-    progress_.error = fmt::format("the study ended with exit code {}", code);
+    progress_.error = fmt::format("the sweep ended with exit code {}", code);
   sweep_.reset();
 }
 
@@ -109,12 +109,12 @@ bool Study::poll() {
 std::filesystem::path Study::pack() const {
   const fs::path file = progress_.folder.parent_path() / "study.tar";
   const std::optional<fs::path> tar = output::find_program("tar");
-  if (!tar) throw IoError("cannot pack the study: there is no program tar", file.string());
+  if (!tar) throw IoError("cannot pack the sweep: the program tar is not installed", file.string());
   const output::ProcessResult done = output::run_process(
       *tar,
       {"--exclude=states", "-cf", file.filename().string(), progress_.folder.filename().string()},
       fs::absolute(file.parent_path()));
-  if (done.exit_code != 0) throw IoError("cannot pack the study: " + done.errors, file.string());
+  if (done.exit_code != 0) throw IoError("cannot pack the sweep: " + done.errors, file.string());
   return file;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A study of where the shown frame leads with other values: `neve sweep --from`, in a process.
+/// A sweep that forks from the shown frame: `neve sweep --from`, in a process of its own.
 
 #include <filesystem>
 #include <optional>
@@ -23,14 +23,14 @@ struct StudyRequest {
   bool has_longer_steps = false;  ///< of forecast::longer_steps, for a quick look
 };
 
-/// State of a study, and its files.
+/// State of a sweep, and its files.
 struct StudyProgress {
   enum class State { none, running, done, stopped, failed };
   State state = State::none;
   int runs = 0, ok = 0, failed = 0;
   double share = 0;  ///< of the frames of all runs, 0 to 1
   std::string error;
-  std::filesystem::path folder;  ///< of the study
+  std::filesystem::path folder;  ///< of the sweep
   std::string command;           ///< that makes it again, or continues it
 
   std::filesystem::path sheet() const { return folder / "sheet.png"; }
@@ -42,7 +42,7 @@ class Study {
   /// @param program  whose `sweep` makes the runs
   explicit Study(std::filesystem::path program) : program_(std::move(program)) {}
 
-  /// Writes the moment and starts the study beside it, in a new folder.
+  /// Writes the moment and starts the sweep beside it, in a new folder.
   /// @param folder  of the view @param run  of the moment, with its scene and changes
   /// @throws UsageError for parameters or values that cannot be varied there, with those that can;
   ///         IoError
@@ -55,7 +55,7 @@ class Study {
   /// Asks it to end; what there is stays, and the command continues from there.
   void stop();
 
-  /// Packs the study into one file beside its folder: the report with all pictures that it shows.
+  /// Packs the sweep into one file beside its folder: the report with all pictures that it shows.
   /// @throws IoError
   std::filesystem::path pack() const;
 

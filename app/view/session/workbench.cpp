@@ -275,12 +275,12 @@ void Workbench::continue_from_here() {
   apply_running();
 }
 
-void Workbench::go_on_anyway() {
+void Workbench::continue_anyway() {
   const std::string address = "solver.on_divergence";
   try {
     document_.set(address, "\"ignore\"");
     put(running_, address, document_.edits());
-    session_->go_on_anyway(document_.scene_with(running_));
+    session_->continue_anyway(document_.scene_with(running_));
   } catch (const std::exception& error) {
     say(Message::Kind::error, text_of(error));
   }
@@ -422,7 +422,7 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
     for (const StudyAxis& axis : request.axes) chosen.push_back(axis.address);
     study_.start(options_.folder, std::move(run), std::move(moment), live->scene->fps, request,
                  forecast::longer_steps(*live->scene, chosen));
-    say(Message::Kind::note, "a study of frame " + std::to_string(frame) + " goes to " +
+    say(Message::Kind::note, "a sweep from frame " + std::to_string(frame) + " goes to " +
                                  study_.progress().folder.string() + "; " +
                                  study_.progress().command + " makes it again");
     return {};

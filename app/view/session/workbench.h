@@ -25,7 +25,7 @@ struct WorkbenchOptions {
   std::vector<std::string> overrides;  ///< of the command line, as they were given
   setup::Quality quality = setup::Quality::preview;
   std::filesystem::path folder;     ///< for pictures, sequences, scenes and sweeps
-  std::filesystem::path program{};  ///< whose `sweep` makes studies; empty: this one
+  std::filesystem::path program{};  ///< whose `sweep` makes sweeps; empty: this one
   /// Edits come from elsewhere: no file is read that the scene does not name, none is written
   /// outside of the folder, and limits stay.
   bool is_remote = false;
@@ -67,7 +67,7 @@ class Workbench {
   void continue_from_here();
 
   /// Continues a run that broke a rule past it: a change like any other, solver.on_divergence.
-  void go_on_anyway();
+  void continue_anyway();
 
   /// The scene as a picture shows it: the one that runs, with the views and the light of the
   /// document.
@@ -89,7 +89,7 @@ class Workbench {
   std::filesystem::path sweep_around(const std::string& address);
   /// Values around that of a parameter, as -p takes them; "" where none can be chosen.
   static std::string values_around(const scene::FlatParam& param);
-  /// Starts a study of runs that begin at the shown frame. @param view  of its tiles
+  /// Starts a sweep whose runs begin at the shown frame. @param view  of its tiles
   /// @return why it did not start; "" where it did
   std::string vary_from_here(const StudyRequest& request, const scene::View& view);
   Study& study() { return study_; }

@@ -47,7 +47,8 @@ OpenFile::OpenFile(const fs::path& folder, const fs::path& file)
   };
   if (file_.get() < 0) refuse(std::strerror(errno));
   struct stat status {};
-  if (::fstat(file_.get(), &status) != 0 || !S_ISREG(status.st_mode)) refuse("it is no plain file");
+  if (::fstat(file_.get(), &status) != 0 || !S_ISREG(status.st_mode))
+    refuse("it is not a regular file");
   std::error_code error;
   const fs::path allowed = fs::canonical(folder, error);
   if (error || !is_inside(allowed, place_of(file_.get())))

@@ -24,7 +24,7 @@ function penOf(drawing, layer) {
   return pen;
 }
 
-/** Words on lines of a width; what is left goes on the last of so many. */
+/** Breaks words into lines of a width; the last line takes the rest. */
 function linesOf(pen, text, width, most) {
   const lines = [''];
   for (const word of text.slice(0, 120).split(/(?<=[ _])/)) {
@@ -617,7 +617,7 @@ function startHeat() {
   if (section.hidden) return;
   const drawing = watchCanvas(by('heat')), options = axes.map((axis, k) => [k, axis.name]);
   const pick = (own, other) => k => {
-    // The same axis twice is no map: they change places.
+    // A map needs two different axes: swap them.
     if (heat[other] === k) heat[other] = heat[own];
     heat[own] = k;
     by('heat-x').value = heat.x;

@@ -1,5 +1,5 @@
 'use strict';
-// ---- the study: columns, runs, axes. Nothing here draws. -----------------------------------------
+// ---- the sweep: columns, runs, axes. Nothing here draws. -----------------------------------------
 const study = JSON.parse(document.getElementById('data').textContent);
 const {columns, rows} = study;
 

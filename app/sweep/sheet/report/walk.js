@@ -63,7 +63,7 @@ function showFrame(index) {
   change('frame');
 }
 
-/** The next picture as soon as the last one is there. */
+/** Shows the next picture as soon as the last one is loaded. */
 function playOn() {
   const isWaiting = [...document.querySelectorAll('#plates img[src]')].some(image => !image.complete);
   if (!isWaiting) showFrame((frames.indexOf(state.frame) + 1) % frames.length);

@@ -67,9 +67,9 @@ std::shared_ptr<const LiveFrame> wait_for_ignored(view::session::Session& sessio
   });
 }
 
-TEST(GoOn, ARunGoesOnPastItsBrokenRuleAndItsPicturesSaySo) {
+TEST(ContinueAnyway, ARunContinuesPastItsBrokenRuleAndItsPicturesSaySo) {
   Broken run;
-  run.bench.go_on_anyway();
+  run.bench.continue_anyway();
   const auto live = wait_for_ignored(run.bench.session());
   EXPECT_GT(live->steps, run.broken->steps);
   EXPECT_EQ(live->snapshot.warnings.first_ignored, run.broken->divergence->step)
@@ -88,9 +88,9 @@ TEST(GoOn, ARunGoesOnPastItsBrokenRuleAndItsPicturesSaySo) {
   EXPECT_TRUE(run.bench.waiting_for_reset().empty());
 }
 
-TEST(GoOn, ItsPicturesAreMadeAgainToTheBit) {
+TEST(ContinueAnyway, ItsPicturesAreMadeAgainToTheBit) {
   Broken run(fast_scene);
-  run.bench.go_on_anyway();
+  run.bench.continue_anyway();
   const auto live = wait_for_ignored(run.bench.session());
   ASSERT_FALSE(live->divergence) << live->divergence->sentence;
   const record::PictureRecord record = run.bench.picture_record(*live, live->scene->views.front());
@@ -101,21 +101,21 @@ TEST(GoOn, ItsPicturesAreMadeAgainToTheBit) {
   EXPECT_EQ(timeline.simulation().state_hash(), live->state_hash);
 }
 
-class GoOnByScript : public Cli {};
+class ContinueAnywayByScript : public Cli {};
 
-TEST_F(GoOnByScript, TheButtonIsBelowTheExplanation) {
+TEST_F(ContinueAnywayByScript, TheButtonIsBelowTheExplanation) {
   folder.write("scene.toml", bursting_scene);
   folder.write("clicks.json", R"([
-    {"click": "Run"}, {"wait_for": "label Go on anyway"}, {"wait": 5},
+    {"click": "Run"}, {"wait_for": "label Continue anyway"}, {"wait": 5},
     {"screenshot": "stopped.png"},
-    {"click": "Go on anyway"}, {"wait": 60},
+    {"click": "Continue anyway"}, {"wait": 60},
     {"screenshot": "burst.png"}, {"key": "space"}, {"wait": 10}])");
   const auto result = neve({"view", "scene.toml", "--replay", "clicks.json", "--out", "out"});
   if (result.exit_code == app::exit_no_backend) SKIP_OR_FAIL(result.errors);
   ASSERT_EQ(result.exit_code, 0) << result.errors;
 }
 
-TEST_F(GoOnByScript, ACommandMarksTheRecordOfTheRun) {
+TEST_F(ContinueAnywayByScript, ACommandMarksTheRecordOfTheRun) {
   folder.write("scene.toml", bursting_scene);
   const auto result = neve({"render", "scene.toml", "--set", "solver.on_divergence=ignore",
                             "--frames", "0-2", "--size", "64x64", "--no-movie", "--quiet"});
