@@ -8,7 +8,7 @@
 
 namespace neve::app::advice {
 
-/// "numbers have no unit: in Pa it is 1.4e+08" of "140 MPa"; "" where nothing is known about it.
+/// "numbers have no unit: in Pa it is 1.4e+08" of "140 MPa"; "" if nothing is known about it.
 /// @param unit  of the parameter, as in describe.h
 std::string number_advice(std::string_view text, std::string_view unit);
 

@@ -161,7 +161,7 @@ bool wants_screen(const pick::PickOptions& options, const view::ScreenOptions& s
   return !options.is_terminal && options.clicks.empty() && devices::TerminalLines::is_there();
 }
 
-/// Nothing where none was asked for and none can be had: the terminal is left.
+/// Empty if none was asked for and none can be had: the terminal is left.
 std::optional<devices::Place> open_screen(const view::ScreenOptions& screen,
                                           const pick::PickOptions& options) {
   const bool is_asked_for = screen.is_web || screen.is_window || !screen.replay.empty();

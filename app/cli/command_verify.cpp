@@ -23,7 +23,7 @@ struct Findings {
   std::string status;
   std::size_t files = 0;
   std::vector<record::Flaw> flaws;
-  /// Why a folder without flaws is not finished; "" where it is.
+  /// Why a folder without flaws is not finished; "" if it is.
   std::string unfinished;
   bool is_in_use = false;  ///< by a process that still runs
 

@@ -28,7 +28,7 @@ std::string flag_like(std::string variable) {
   return "--" + variable;
 }
 
-/// "" where the number fits the machine.
+/// "" if the number fits the machine.
 std::string many_threads(const options::Command& command) {
   constexpr int worth_a_word = 4;
   const options::Option* option = command.find("--threads");

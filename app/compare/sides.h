@@ -29,11 +29,11 @@ struct Pair {
 /// in common; Error for a picture or run.json that is not of neve
 Pair read_pair(const PairOptions& options);
 
-/// Why an id does not mean the same piece of snow in both runs; nothing where it does.
+/// Why an id does not mean the same piece of snow in both runs; empty if it does.
 std::optional<UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
                                      const setup::SeededScene& b);
 
-/// Why the nodes of both grids lie in other places; nothing where they do not.
+/// Why the nodes of both grids lie in other places; empty if they do not.
 std::optional<UsageError> grid_problem(const Pair& pair);
 
 }  // namespace neve::app::compare

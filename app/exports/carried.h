@@ -17,7 +17,7 @@ class Carried {
   /// @throws ShapeError for a file that cannot be read
   Carried(const scene::Scene& scene, const std::vector<std::size_t>& body_end);
 
-  /// The column of a name, its values by id, its type exact for all of them. Null where no file has
+  /// The column of a name, its values by id, its type exact for all of them. Null if no file has
   /// it. Particles whose file has no such column have 0; ids past its end come from no file.
   const sim::files::PointColumn* find(const std::string& name) const;
 

@@ -47,7 +47,7 @@ struct Table {
   std::vector<Column> columns;
   std::optional<MeshRows> mesh;
 
-  /// Null where there is none.
+  /// Null if there is none.
   const Column* find(scene::ExportAttribute attribute) const;
   /// x, 3 numbers a row.
   const std::vector<double>& places() const;

@@ -146,7 +146,7 @@ Mat3d looking(const Vec3d& forward, const Vec3d& up) {
   return rotation;
 }
 
-/// Nothing where the camera has no place yet.
+/// Empty if the camera has no place yet.
 std::string usd_camera(const scene::Scene& scene, const Axes& axes,
                        const std::vector<Sample>& samples) {
   if (!scene.camera || !scene.camera->eye || !scene.camera->target) return {};

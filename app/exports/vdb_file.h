@@ -34,7 +34,7 @@ struct VdbGrid {
 /// Leaves by their place.
 class VdbLeaves {
  public:
-  /// The leaf around a voxel, made with this value where there is none.
+  /// The leaf around a voxel, made with this value if there is none.
   /// @param values  of the grid, per voxel
   VdbLeaf& around(const sim::Vec3i& voxel, int values, float fill);
   std::vector<VdbLeaf> take() { return std::move(leaves_); }

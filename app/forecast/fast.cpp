@@ -74,7 +74,7 @@ class Candidate {
     limit_hardening();
   }
 
-  /// None where the copy diverges: a broken state foretells nothing.
+  /// None if the copy diverges: a broken state foretells nothing.
   std::optional<double> work(int last) const {
     const Forecast forecast =
         foresee(scene_, setup::planned_particles(scene_), last, forecast_budget);

@@ -11,8 +11,8 @@ namespace neve::app::forecast {
 
 /// Changes of parameters that shorten a run.
 struct FastLook {
-  std::vector<std::string> overrides;  ///< "ADDRESS=VALUE"; none where nothing would be gained
-  /// Forecasts of the work of the run, in explicit steps; none where the coarse copy diverges.
+  std::vector<std::string> overrides;  ///< "ADDRESS=VALUE"; none if nothing would be gained
+  /// Forecasts of the work of the run, in explicit steps; none if the coarse copy diverges.
   std::optional<double> work, work_before;
   bool is_implicit = false;
   /// The changes and what they gain, or why there are none; a sentence.

@@ -11,7 +11,7 @@
 namespace neve::app::health {
 
 /// Speed and velocity on the plane through the culprit that the camera of a view faces most, a few
-/// cells around it; nothing where the culprit's place is no number.
+/// cells around it; empty if the culprit's place is no number.
 /// @param scene resolved
 std::optional<scene::View> culprit_slice(const scene::Scene& scene,
                                          const sim::Divergence& divergence,

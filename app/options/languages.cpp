@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// @param meant  "" where nothing is known
+/// @param meant  "" if nothing is known
 [[noreturn]] void refuse_value(const std::string& flag, const std::string& text,
                                const std::string& meant, const std::string& expected) {
   const std::string question = advice::did_you_mean(meant);

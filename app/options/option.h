@@ -55,7 +55,7 @@ struct Option {
   const std::string& name() const { return names.front(); }
   /// "--parameter"; "" for an argument
   std::string long_name() const;
-  /// The default, as a list for several; "" where there is none.
+  /// The default, as a list for several; "" if there is none.
   std::string default_text() const;
 
   /// One value, although the member holds several.
@@ -87,7 +87,7 @@ struct Command {
   }
   template <class T>
   Option& sets(const char* names, T& member, T value, const std::string& sentence);
-  /// An option that several members keep. @param write  "" where it is not needed
+  /// An option that several members keep. @param write  "" if it is not needed
   Option& custom(const char* names, const std::string& type, const std::string& example,
                  std::function<void(const std::string&)> read, std::function<std::string()> write,
                  const std::string& sentence);

@@ -27,7 +27,7 @@ int open_temporary(const std::filesystem::path& temporary) {
   return ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
 }
 
-/// "link", "folder", "device"; nothing for regular files and where there is none.
+/// "link", "folder", "device"; nothing for regular or missing files.
 const char* special_kind(const std::filesystem::path& path) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return nullptr;

@@ -49,7 +49,7 @@ struct FoundCheckpoint {
   std::vector<std::string> damaged;      ///< those that were passed over: "FILE: why"
 };
 
-/// Nothing where the folder has none. Damaged ones are passed over and named.
+/// Empty if the folder has none. Damaged checkpoints are skipped and named.
 /// @param before  frame that the checkpoint is to be before
 /// @throws UnreadableError for one that the machine does not give
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder,
@@ -62,7 +62,7 @@ void write_state(const std::filesystem::path& folder, const Checkpoint& checkpoi
 /// Frames with a kept state, in order.
 std::vector<int> kept_states(const std::filesystem::path& folder);
 
-/// Nothing where the frame has none. @throws UnreadableError likewise
+/// Empty if the frame has none. @throws UnreadableError likewise
 FoundCheckpoint read_state(const std::filesystem::path& folder, int frame);
 
 /// Removes all kept states of a folder. Other files stay.

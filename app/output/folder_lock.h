@@ -20,7 +20,7 @@ class FolderLock {
   };
   static constexpr const char* default_name = ".lock";
 
-  /// Makes the folder where there is none, and removes what killed processes left unfinished in it.
+  /// Makes the folder if it is missing, and removes what killed processes left unfinished in it.
   /// @param holder  "neve render": what others are told, with process and host
   /// @throws IoError when another process has it, naming that one, and when it cannot be locked
   FolderLock(const std::filesystem::path& folder, const std::string& holder,

@@ -22,7 +22,7 @@ Json to_json(const sim::AdvanceReport& advance);
 sim::AdvanceReport advance_report(const Json& json);
 
 Json to_json(const sim::Divergence& divergence);
-/// Every check: check, worst, threshold, first_step (null where it held), times.
+/// Every check: check, worst, threshold, first_step (null if it held), times.
 Json to_json(const std::vector<sim::checks::WatchRecord>& records);
 Json to_json(const sim::Retry& retry);
 /// @throws nlohmann::json::exception

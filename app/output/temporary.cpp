@@ -46,7 +46,7 @@ struct Life {
   std::uint64_t start = 0;
 };
 
-/// Nothing where the system does not say. Source: proc(5), /proc/PID/stat, fields 3 and 22.
+/// Empty if the system does not say. Source: proc(5), /proc/PID/stat, fields 3 and 22.
 std::optional<Life> life_of(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/stat");
   const std::string text{std::istreambuf_iterator<char>(in), {}};

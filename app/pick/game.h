@@ -63,7 +63,7 @@ class Game {
   std::vector<scene::Override> settings(const search::Point& place) const {
     return settings_at(scene_.axes, place);
   }
-  /// Writes scene, sweep, words and map of the pick. @return its values; nothing without a choice
+  /// Writes scene, sweep, words and map of the pick. @return its values; empty without a choice
   std::optional<std::vector<scene::Override>> write_pick() const;
 
  private:

@@ -11,7 +11,7 @@ namespace neve::app::pick {
 struct RoundPage {
   int round = 1, rounds = 8;
   double fps = 24;
-  /// Pictures of each tile in order, relative to the folder of the page; none where a run has none.
+  /// Pictures of each tile in order, relative to the folder of the page; none if a run has none.
   std::vector<std::vector<std::string>> tiles;
   std::vector<std::string> learned;  ///< sentences
   std::string map;                   ///< SVG, or ""

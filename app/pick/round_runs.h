@@ -14,10 +14,10 @@ namespace neve::app::pick {
 std::vector<std::filesystem::path> pictures_of(const sweep::jobs::SweepProgress& runs,
                                                std::size_t run);
 
-/// "tile 3 cannot be chosen: its run failed: DIVERGED frame 3", or "" where the click can be used.
+/// "tile 3 cannot be chosen: its run failed: DIVERGED frame 3", or "" if the click can be used.
 std::string why_not(const sweep::jobs::SweepProgress& runs, const Click& click);
 
-/// "all nine runs failed; the first: DIVERGED frame 3", or "" where one did not.
+/// "all nine runs failed; the first: DIVERGED frame 3", or "" if one did not.
 std::string all_failed_text(const sweep::jobs::SweepProgress& runs);
 
 }  // namespace neve::app::pick

@@ -101,19 +101,19 @@ std::string picture_name(const std::string& view, int frame);
 /// "particles/0003.exr"
 std::string channels_name(const std::string& view, int frame);
 
-/// Null where there is no such file or it cannot be read.
+/// Null if there is no such file or it cannot be read.
 Json read_json(const std::filesystem::path& file);
 
-/// DIR/run.json; null where there is no such file or it cannot be read.
+/// DIR/run.json; null if there is no such file or it cannot be read.
 Json read_run_json(const std::filesystem::path& folder);
 
-/// The exports that DIR/run.json lists; null where there are none.
+/// The exports that DIR/run.json lists; null if there are none.
 Json earlier_exports(const std::filesystem::path& folder);
 
-/// The frames that it lists; none where they cannot be read.
+/// The frames that it lists; none if they cannot be read.
 std::vector<FrameRecord> frame_records(const Json& run);
 
-/// The files that it lists; none where they cannot be read.
+/// The files that it lists; none if they cannot be read.
 FileHashes file_hashes(const Json& run);
 
 /// JSON as text, with a last entry `hash`, the hash of the rest.

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char *is_missing = "is missing", *is_empty = "is empty",
                      *is_another = "is not the file that the run wrote";
 
-/// "" where the file has this hash.
+/// "" if the file has this hash.
 std::string flaw_of(const fs::path& file, const std::string& hash) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(file, error);
@@ -71,7 +71,7 @@ bool is_inside(const fs::path& name) {
          std::none_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
 }
 
-/// The words of run.json that say which pictures there are. Nothing where something is wrong with
+/// The words of run.json that say which pictures there are. Empty if something is wrong with
 /// them.
 std::optional<Pictures> listed_pictures(const Json& run) {
   Pictures pictures;

@@ -34,7 +34,7 @@ std::vector<Flaw> export_flaws(const std::filesystem::path& folder, const Json& 
                                const FileHashes& files, int last, std::vector<int>& flawed_frames);
 
 struct Verification {
-  std::string status;     ///< of run.json: "ok", "running"; "" where it cannot be read
+  std::string status;     ///< of run.json: "ok", "running"; "" if it cannot be read
   int last_frame = -1;    ///< that is listed; -1: none
   std::size_t files = 0;  ///< that were checked
   std::vector<Flaw> flaws;
@@ -43,7 +43,7 @@ struct Verification {
 /// Reads run.json and all files that it lists, and those of `neve export` of this run.
 Verification verify_run(const std::filesystem::path& folder);
 
-/// Reads export.json and all files that it lists; nothing where the folder has none.
+/// Reads export.json and all files that it lists; empty if the folder has none.
 /// @param below  put in front of names: "exports/"
 std::optional<Verification> verify_export(const std::filesystem::path& folder,
                                           const std::string& below = "");

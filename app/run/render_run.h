@@ -40,7 +40,7 @@ class RenderRun {
   RenderResult run();
 
   const record::RunRecord& record() const { return ledger_.record(); }
-  /// Findings of --validate; nothing without the flag.
+  /// Findings of --validate; empty without the flag.
   const std::optional<sim::checks::Watch>& laws() const { return laws_; }
 
  private:

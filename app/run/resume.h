@@ -19,7 +19,7 @@ struct Resumption {
 };
 
 /// Finds the newest checkpoint that is whole; damaged ones are named and passed over. Compares the
-/// pictures up to it with the run's own list. Nothing without a checkpoint: the run starts at its
+/// pictures up to it with the run's own list. Empty without a checkpoint: the run starts at its
 /// beginning.
 /// @param record   of this run, for the views that have pictures
 /// @param picture  of any view and frame: its record makes the run again

@@ -131,7 +131,7 @@ bool is_member_of_all(const std::string& list, const std::string& word) {
   });
 }
 
-/// The address with NAME in the place of a name that the document has; nothing where there is
+/// The address with NAME in the place of a name that the document has; empty if there is
 /// none.
 std::vector<std::string> patterns_of(const std::string& address, const toml::Table& root) {
   std::vector<std::string> patterns;

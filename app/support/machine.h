@@ -17,7 +17,7 @@ std::uint64_t usable_memory();
 /// Bytes of address space that this process may use (ulimit -v); the largest number when unlimited.
 std::uint64_t address_space_limit();
 
-/// The name of this machine; "" where it has none.
+/// The name of this machine; "" if it has none.
 std::string host_name();
 
 /// "AMD EPYC, 2 cores; GCC 12.2.0": the circumstances of a measurement.

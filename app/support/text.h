@@ -34,7 +34,7 @@ std::optional<Number> number_of(std::string_view text) {
 std::optional<double> finite_number(std::string_view text);
 /// Without the blanks around it.
 std::string trimmed(std::string_view text, std::string_view blanks = " \t");
-/// The last line that has more than blanks; "" where none has.
+/// The last line that has more than blanks; "" if none has.
 std::string last_line(std::string_view text);
 /// "a,b" without empty words.
 std::vector<std::string> comma_separated(std::string_view text);

@@ -27,9 +27,9 @@ struct Run {
   /// Values of its scene for parameters that only other runs set.
   std::vector<scene::Override> inherited;
 
-  /// "" where the run leaves it to the scene.
+  /// "" if the run leaves it to the scene.
   std::string setting(const std::string& address) const;
-  /// The run's own or the scene's; "" where neither has one.
+  /// The run's own or the scene's; "" if neither has one.
   std::string value(const std::string& address) const;
 };
 

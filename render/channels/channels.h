@@ -34,7 +34,7 @@ enum class Pass {
 
 /// Depth where there is nothing, m: what Blender writes.
 inline constexpr float nothing_depth = 1e10f;
-/// Number of a particle, body or collider where there is none.
+/// Number of a particle, body or collider if there is none.
 inline constexpr float no_number = -1;
 
 /// A change of place of a rigid thing: p goes to rotation p + offset.

@@ -14,7 +14,7 @@ struct LitSurfaces {
   const Frame& frame;
   const cpu::Surfaces& surfaces;  ///< whose tiles are kept
   const light::LightVolume& light;
-  const light::SmokeCover* smoke;  ///< null where there is none
+  const light::SmokeCover* smoke;  ///< null if there is none
 };
 
 /// The same volume with the key light and the sky as if nothing were in their way.

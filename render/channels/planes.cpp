@@ -19,7 +19,7 @@ struct Channels {
   }
 };
 
-/// Share of the direct light that shadows leave; 1 where there is none to lose.
+/// Share of the direct light that shadows leave; 1 if there is none to lose.
 ColorPlanes shadow_of(const LightPlanes& light) {
   ColorPlanes shadow;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -18,7 +18,7 @@ class SmokeMarch {
 
   /// @param grid of `smoke`, not empty
   /// @param surfaces keeps its tiles: rays end there
-  /// @return the smoke on the rays, valid until the next call; nothing where no smoke is in view
+  /// @return the smoke on the rays, valid until the next call; empty if no smoke is in view
   std::optional<light::SmokeCover> march(const Smoke& smoke, const light::SmokeGrid& grid,
                                          const light::SmokeVolume& volume, const Light& light,
                                          const Surfaces& surfaces, const View& view);

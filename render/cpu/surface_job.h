@@ -38,7 +38,7 @@ struct ShadeJob {
   Vec3f toward_light;
   float key_intensity, ambient_intensity;
   int is_transparent;
-  const light::SmokeCover* smoke;  ///< null where there is none
+  const light::SmokeCover* smoke;  ///< null if there is none
   const light::GBufferTile* tile;
   /// Where not null, samples of kind_lit have these parts of the light, each times its strength, in
   /// place of their colour.

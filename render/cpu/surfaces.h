@@ -59,7 +59,7 @@ class Surfaces {
   void keep_solids();
   /// Tile after tile, row by row from the lower left one.
   const light::GBufferTile* kept() const { return kept_.get(); }
-  /// Parts of the light in a kept tile; null where nothing is lit already, or they are not kept.
+  /// Parts of the light in a kept tile; null if nothing is lit already, or they are not kept.
   const light::LitTile* kept_parts(int tile) const {
     return lit_.empty() ? nullptr : lit_[static_cast<std::size_t>(tile)].get();
   }

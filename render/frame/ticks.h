@@ -12,7 +12,7 @@ struct Tick {
 };
 
 /// About `count` multiples of 1, 2, 2.5 or 5 times a power of ten within [min, max]. One tick where
-/// the range has no width, none where it is not finite.
+/// the range has no width, none if it is not finite.
 std::vector<Tick> nice_ticks(double min, double max, int count);
 
 }  // namespace neve::render

@@ -34,7 +34,7 @@ struct Egl {
   NEVE_EGL_FUNCTIONS(NEVE_EGL_MEMBER)
 #undef NEVE_EGL_MEMBER
   // NOLINTEND(bugprone-macro-parentheses)
-  // Extensions; null where the library does not have them.
+  // Extensions; null if the library does not have them.
   PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay = nullptr;
   PFNEGLQUERYDEVICESEXTPROC QueryDevices = nullptr;
   PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString = nullptr;

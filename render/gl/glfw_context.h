@@ -47,7 +47,7 @@ class GlfwContext final : public Context {
   GLFWwindow* window_ = nullptr;
 };
 
-/// "" where there is a display to open a window on.
+/// "" if there is a display to open a window on.
 std::string missing_display();
 
 }  // namespace neve::render::gl

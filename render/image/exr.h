@@ -27,7 +27,7 @@ struct ExrPicture {
   int width = 0, height = 0;
   std::vector<ExrChannel> channels;
 
-  /// Null where there is none of this name.
+  /// Null if there is none of this name.
   const ExrChannel* find(const std::string& name) const;
 };
 

@@ -100,7 +100,7 @@ class SmokePass {
   SmokePass(const gl::Gl& gl, const gl::ShaderLibrary& library);
   /// Binds a framebuffer of its own.
   /// @param grid of `smoke`, not empty
-  /// @return nothing where no smoke is in view
+  /// @return empty if no smoke is in view
   std::optional<SmokePicture> draw(const Smoke& smoke, const light::SmokeGrid& grid,
                                    const light::SmokeVolume& volume, const Light& light,
                                    const gl::Targets& targets, const View& view);
@@ -126,7 +126,7 @@ class SmokePass {
 class ShadePass {
  public:
   ShadePass(const gl::Gl& gl, const gl::ShaderLibrary& library);
-  /// @param smoke null where there is none
+  /// @param smoke null if there is none
   void draw(const gl::Targets& targets, const light::LightVolume& volume, const Frame& frame,
             const View& view, const SmokePicture* smoke);
 

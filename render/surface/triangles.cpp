@@ -63,7 +63,7 @@ class Cells {
   }
 
  private:
-  /// Gives those of a block around; empty where there is none.
+  /// Gives those of a block around; empty if there is none.
   InsideBits bits(int x, int y, int z) const {
     const std::uint32_t other = field_.near[b_][static_cast<std::size_t>(13 + 9 * z + 3 * y + x)];
     return other == no_block ? InsideBits{} : inside_[other];

@@ -24,7 +24,7 @@ struct PlaceOptions {
 /// A frontend with its drawing context.
 struct Place {
   std::unique_ptr<view::frontend::Frontend> front;
-  std::unique_ptr<render::gl::Context> own_context;  ///< none where the window has one
+  std::unique_ptr<render::gl::Context> own_context;  ///< none if the window has one
   render::gl::Context* context = nullptr;
   view::frontend::WindowFrontend* window = nullptr;
   view::web::WebFrontend* web = nullptr;

@@ -11,7 +11,7 @@
 namespace neve::app::sweep::jobs {
 
 /// The error at the end of what a neve said, as text or as an event of --progress json: its last
-/// line, of the last 64 KiB; "" where that is no error.
+/// line, of the last 64 KiB; "" if that is no error.
 std::string last_error(const std::filesystem::path& log);
 
 /// Fills in state, reason and the like from how the process ended and what it left: its log and, of

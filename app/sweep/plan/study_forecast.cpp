@@ -247,7 +247,7 @@ std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& 
 
 namespace {
 
-/// "the budget is enough for about 12 of 40 runs"; "" where all fit.
+/// "the budget is enough for about 12 of 40 runs"; "" if all fit.
 std::string budget_text(const std::vector<std::size_t>& chosen, const StudyForecast& forecast,
                         int cores, double budget) {
   if (budget <= 0 || forecast.seconds_of_all(chosen, cores).expected <= budget) return {};

@@ -110,7 +110,7 @@ setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& swee
   return {0, scene.frames};
 }
 
-/// A setting of a run that says how many frames there are; null where none does.
+/// A setting of a run that says how many frames there are; null if none does.
 const scene::Override* frames_setting(const read::Sweep& sweep) {
   for (const read::Axis& axis : sweep.axes)
     for (const read::Axis::Parameter& parameter : axis.parameters)
@@ -170,7 +170,7 @@ PlannedRun planned(Run run, scene::Scene scene) {
   return {std::move(run), std::move(scene), needs};
 }
 
-/// The job of the run or picture that the runs leave. @throws UsageError where it is none
+/// The job of the run or picture that the runs leave. @throws UsageError for another file
 run::RenderJob source_job(const SweepOptions& options) {
   if (options.fork)
     throw UsageError("--fork", "cannot be combined with --from",

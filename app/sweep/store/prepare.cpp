@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A finished run of the same simulation that is no run of the sweep any more: its drawing was
-/// another. One with kept states where there is any; null where there is none.
+/// another. One with kept states where there is any; null if there is none.
 const KnownRun* other_drawing(const std::vector<KnownRun>& known, const std::string& simulation,
                               const std::set<std::string>& wanted_keys,
                               const std::set<std::string>& used) {

@@ -23,7 +23,7 @@ const std::vector<MetricInfo>& metric_infos();
 struct RunResult {
   RunStatus status;
   std::vector<int> frames;  ///< that have a picture, in order
-  /// One per metric_infos(), of the last frame; nothing where there is no frame.
+  /// One per metric_infos(), of the last frame; empty if there is no frame.
   std::vector<std::optional<double>> metrics;
   /// That the run ended with: its numbers may be misleading.
   std::vector<std::string> warnings{};
@@ -34,7 +34,7 @@ struct RunResult {
   }
 };
 
-/// Files of a run that ended as ok or diverged which are missing or damaged; "" where all are
+/// Files of a run that ended as ok or diverged which are missing or damaged; "" if all are
 /// whole, and for other runs, whose pictures are not relied on.
 std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
                          const RunStatus& status);

@@ -19,7 +19,7 @@ namespace neve::app::view::picker {
 
 struct PickerOptions {
   bool has_own_clock = false;  ///< 1/60 s pass from picture to picture: scripts
-  /// A line that was typed into a terminal, which answers as well; empty where there is none.
+  /// A line that was typed into a terminal, which answers as well; empty if there is none.
   std::function<std::optional<std::string>()> line{};
   /// Tells a terminal that a round waits for its answer, or that the pick is written.
   std::function<void(const PickerState&)> tell{};

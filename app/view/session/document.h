@@ -72,7 +72,7 @@ class Document {
   static std::vector<std::string> difference(const std::vector<scene::Override>& before,
                                              const std::vector<scene::Override>& after);
 
-  /// The value that an address has without edits, TOML; nothing where the file has none.
+  /// The value that an address has without edits, TOML; empty if the file has none.
   std::optional<std::string> in_file(const std::string& address) const;
   std::optional<std::string> default_of(const std::string& address) const;
 

@@ -13,7 +13,7 @@ namespace {
 
 using sim::Vec3d;
 
-/// The result of a stage of the grid at the node next to each particle; zero where there is none.
+/// The result of a stage of the grid at the node next to each particle; zero if there is none.
 template <class Value>
 std::vector<Vec3d> at_particles(const dump::StepInspection& inside, Value value) {
   const sim::NodeFields& nodes = inside.step.nodes;

@@ -23,7 +23,7 @@ std::optional<picture::StageChange> change_of_stage(const dump::StepInspection& 
                                                     sim::Stage stage);
 
 /// @param stage the last one that was done; nothing: before the step
-/// @return nothing where there is no such particle, or no node
+/// @return empty if there is no such particle, or no node
 std::optional<ProbeReading> read_probe(const dump::StepInspection& inside,
                                        const dump::Probe& target,
                                        const std::optional<sim::Stage>& stage);

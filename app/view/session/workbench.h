@@ -87,10 +87,10 @@ class Workbench {
   bool save_scene(const std::filesystem::path& file);
   bool may_save_over_file() const { return !options_.is_remote; }
   std::filesystem::path sweep_around(const std::string& address);
-  /// Values around that of a parameter, as -p takes them; "" where none can be chosen.
+  /// Values around that of a parameter, as -p takes them; "" if none can be chosen.
   static std::string values_around(const scene::FlatParam& param);
   /// Starts a sweep whose runs begin at the shown frame. @param view  of its tiles
-  /// @return why it did not start; "" where it did
+  /// @return why it did not start; "" if it did
   std::string vary_from_here(const StudyRequest& request, const scene::View& view);
   Study& study() { return study_; }
   std::string command() const;

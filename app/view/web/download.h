@@ -40,7 +40,7 @@ class Tickets {
 
   /// @return the path to ask the server for: "/file/<ticket>/<name>"
   std::string add(std::unique_ptr<OpenFile> file, double now);
-  /// The file of a path, which has no ticket after that; null where it has none.
+  /// The file of a path, which has no ticket after that; null if it has none.
   std::unique_ptr<OpenFile> take(std::string_view path, double now);
 
  private:
