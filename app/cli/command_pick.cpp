@@ -38,10 +38,10 @@ std::optional<std::string> wait_for_line(devices::TerminalLines& lines) {
 Answer ask(const pick::Game& game, const sweep::jobs::SweepProgress& runs,
            devices::TerminalLines& lines, pick::Click& click) {
   for (const std::string& line : game.lesson().lines) std::cerr << "  " << line << "\n";
-  std::cerr << fmt::format("round {} of {}: {} has the nine tiles, moving; {} their last frame\n",
-                           game.answered() + 1, game.max_rounds(),
-                           (game.folder() / "round.html").string(),
-                           (game.folder() / "sheet.png").string());
+  std::cerr << fmt::format(
+      "round {} of {}: {} shows the nine tiles animated, {} shows their last frame\n",
+      game.answered() + 1, game.max_rounds(), (game.folder() / "round.html").string(),
+      (game.folder() / "sheet.png").string());
   if (const std::string failed = pick::all_failed_text(runs); !failed.empty())
     std::cerr << failed << "; 0 makes nine others\n";
   while (true) {
