@@ -74,8 +74,8 @@ constexpr BenchPart bench_parts[] = {
      "phase, memory, spray, scaling from 1 to 2 threads",
      measure_sim, false},
     {"frame",
-     "Measure seconds per frame of 300000 particles, of 4000 with drawing, to the first picture; "
-     "the gain of --coarsen 2",
+     "Measure seconds per frame of 300000 particles, per frame of 4000 particles with drawing, and "
+     "to the first picture; and the gain of --coarsen 2",
      bench::bench_frame},
     {"render",
      "Measure milliseconds per picture at 1280x720: 4000 to a million particles, all layers, each "
@@ -110,7 +110,7 @@ void describe_part(options::Command& visit, bench::BenchOptions& o, const BenchP
   if (name == "sim") {
     visit("--particles", o.particles,
           options::number<double>("N", 1, 1e9, "a number from 1 to 1e9"),
-          "Particles of the common case instead of 97336; with --curve, of its last point");
+          "Number of particles instead of 97336; with --curve, of the last point");
     visit("--curve", o.is_curve,
           "Measure throughput from 1000 to 5 million particles instead, as memory allows");
   }

@@ -22,10 +22,10 @@ options::Option& describe_argument(Command& visit, const char* name, std::string
 
 void describe_new(Command& visit, PlainOptions& o) {
   visit.about("new", "Write a first scene in which every line is explained");
-  describe_argument(visit, "NAME", o.name,
-                    "Name of the scene, as in my_scene or FOLDER/my_scene; an existing file is not "
-                    "overwritten. Beside it is scene.schema.json, for editors that complete TOML "
-                    "(taplo)")
+  describe_argument(
+      visit, "NAME", o.name,
+      "Name of the scene, as in my_scene or FOLDER/my_scene; an existing file is not overwritten. "
+      "neve also writes scene.schema.json beside it, for editors that complete TOML (taplo)")
       .required();
   visit("--json", o.is_json, "Print the names of the files as JSON");
 }
@@ -41,7 +41,7 @@ void describe_verify(Command& visit, PlainOptions& o) {
   visit.about("verify", "Check that every file of a run or a sweep exists and is unchanged");
   describe_argument(visit, "DIR", o.name, "Output folder of a run or a sweep").required();
   visit("--json", o.is_json, json_help);
-  visit("--quiet,-q", o.is_quiet, "Print only what is wrong");
+  visit("--quiet,-q", o.is_quiet, "Print only flaws");
 }
 
 void describe_doctor(Command& visit, PlainOptions& o) {
@@ -59,7 +59,7 @@ void describe_schema(Command& visit, PlainOptions& o) {
 
 void describe_manual(Command& visit, PlainOptions& o) {
   visit.about("manual", "Write man pages, and completions for bash, zsh and fish, into a folder");
-  describe_argument(visit, "DIR", o.name, "The folder; it gets man1, bash, zsh and fish")
+  describe_argument(visit, "DIR", o.name, "Folder in which man1, bash, zsh and fish are made")
       .required();
 }
 

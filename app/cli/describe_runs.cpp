@@ -108,7 +108,7 @@ void describe_formats(Command& visit, ExportCommand& o) {
       options::number<double>("S", 1e-6, 1e6,
                               "a number of units per metre from 1e-6 to 1e6, as in --scale 100 for "
                               "centimetres"),
-      "Units of the files per metre, of lengths and velocities; 100: centimetres")
+      "Units per metre in the files, for lengths and velocities; 100: centimetres")
       .with_default();
 }
 
@@ -129,8 +129,8 @@ void describe_dump(Command& visit, dump::DumpOptions& o) {
               "stage, with their expected ranges");
   describe_scene(visit, o.run, run::origin_help);
   visit("--at", o.at, options::times(),
-        "Times in seconds, as in 0.1,0.2, all of one simulation; neve shows the step that contains "
-        "each. A run continues from its nearest kept moment")
+        "Times in seconds, as in 0.1,0.2, in one simulation; neve shows the step that contains "
+        "each time. A run continues from its nearest kept moment")
       .with_default();
   visit("--stage", o.stage,
         options::language("NAME", "advection", dump::parse_stage,
@@ -155,7 +155,7 @@ void describe_dump(Command& visit, dump::DumpOptions& o) {
 
 void describe_export(Command& visit, ExportCommand& o) {
   visit.about("export",
-              "Write the particles, their surface and the grid at some times for ParaView, "
+              "Write the particles, their surface and the grid at chosen times for ParaView, "
               "Houdini, USD, OpenVDB, numpy");
   describe_scene(visit, o.run,
                  "Scene file (TOML), the folder of a run, or a picture made by neve, for the state "
@@ -185,11 +185,11 @@ void describe_strip(Command& visit, run::StripOptions& o) {
   visit("--tiles", o.tiles, count(1, "1 to 200 moments"),
         "Number of moments, evenly spread over the frames; default: 6");
   visit("--frames", o.run.frames, options::frames(),
-        "Frames to spread them over: A-B, or N for 0-N");
-  visit("--at", o.at, options::times(), "Times in seconds instead")
+        "Frames over which the moments are spread: A-B, or N for 0-N");
+  visit("--at", o.at, options::times(), "Times in seconds, instead of --tiles")
       .excludes({"--frames", "--tiles"}, "give the times alone");
   visit("--columns", o.columns, count(0, "1 to 200, or 0 for about a screen"),
-        "Tiles beside each other; 0, the default: chosen for about 16:9");
+        "Number of tiles side by side; 0, the default: chosen for about 16:9");
   visit("--width", o.width, options::number<int>("PX", 160, 16384, "160 to 16384 pixels"),
         "Width of the whole picture in pixels; default: 1920");
   visit("--out", o.run.out, options::text("PNG", "strip.png", check_picture),
@@ -225,7 +225,7 @@ void describe_compare(Command& visit, CompareOptions& o) {
             joined(scene::choices<compare::Mode>(), ", "));
   visit("--frames", pictures.frames, options::frames(), "Frames to draw: A-B, or N for 0-N");
   visit("--view", pictures.view, options::text("NAME", "smoke"),
-        "View of A that is drawn; default: its first");
+        "View of A to draw; default: the first");
   visit("--size", pictures.size, options::size(), "Size of the picture of one run");
   visit(
       "--wipe", pictures.wipe,

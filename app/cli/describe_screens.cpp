@@ -61,8 +61,8 @@ void describe_view(Command& visit, view::ViewOptions& o) {
   visit.about("view", "Inspect and change a running simulation, in a window or in a browser");
   describe_scene(visit, o.run, run::origin_help);
   visit("--at", o.at, options::time(),
-        "Show a run at this time in seconds, as in 0.25s, or at the nearest moment before it that "
-        "the run has kept; default: its last");
+        "Show a run at this time in seconds, as in 0.25s, or at the nearest kept moment before it; "
+        "default: the last moment");
   describe_place(visit, o.screen);
   visit("--view", o.run.views, options::text("NAME", "smoke"), "View to show first").once();
   visit("--run", o.is_running, "Start simulating at once");
@@ -102,7 +102,7 @@ void describe_pick(Command& visit, PickCommand& o) {
       .with_default();
   visit("--clicks", o.pick.clicks, options::text("FILE", "clicks.txt"),
         "Replay a list of choices, one round a line: a tile from 1 to 9, two of them, or 0 for "
-        "none; then ask, if there is a terminal");
+        "none; then ask for more, in a terminal");
   describe_place(visit, o.screen);
   visit("--terminal", o.pick.is_terminal, "Ask in the terminal; DIR/round.html shows the tiles")
       .excludes({"--window", "--web", "--listen", "--replay"}, "choose one");
@@ -113,7 +113,7 @@ void describe_pick(Command& visit, PickCommand& o) {
   visit("--frames", runs.frames, options::frames(), "Frames of each run: A-B, or N for 0-N");
   visit("--size", runs.size, options::size(), "Size of a tile; default: 480 pixels wide");
   visit("--coarsen", runs.coarsening, options::coarsening(),
-        "Make cells N times as large in all tiles; the picked scene keeps its own");
+        "Make cells N times as large in all tiles; the picked scene keeps its cell_size");
   visit("--out", runs.out, options::folder("round.html"),
         "Output folder instead of out/<name of the scene>.pick");
   options::describe_threads(visit, runs.threads, "Number of cores; 0: all");

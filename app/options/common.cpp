@@ -120,7 +120,7 @@ void describe_movie(Command& visit, output::MovieStyle& movie) {
         movie.is_chosen = true;
       },
       [&movie, fps] { return movie.fps == 0 ? "" : fps.write(movie.fps); },
-      "Frames of a movie per second; fewer than the scene's make slow motion; default: those of "
+      "Frames per second of movies; fewer than the scene's make slow motion; default: those of "
       "the scene");
 }
 

@@ -88,13 +88,13 @@ void describe(options::Command& visit, RenderOptions& o) {
   describe_scene(visit, o);
   visit("--frames", o.frames, options::frames(), "Frames to draw: A-B, or N for 0-N");
   visit("--from", o.from, options::time(),
-        "Fork the run of SCENE, a picture or the folder of a run, at a time: --set then changes "
-        "parameters there, and frames after it are drawn");
+        "Fork the run of SCENE (a scene, a picture or the folder of a run) at a time: --set "
+        "changes parameters at that time, and the frames after it are drawn");
   describe_pictures(visit, o);
   describe_reference(visit, o);
   visit("--validate", o.validate,
-        "Check the laws of the method in the first steps and every 256th; warn if one is broken, "
-        "exit with 9 if the error is large");
+        "Check the laws of the method in the first steps and in every 256th step; warn of a broken "
+        "law, exit with 9 if the error is large");
   visit("--resume", o.resume,
         "Continue the run in the output folder from its last checkpoint, bit for bit; a finished "
         "run continues with more --frames");
@@ -102,16 +102,16 @@ void describe(options::Command& visit, RenderOptions& o) {
         options::number<int>("FRAMES", 0, 1000000, "a whole number of frames, or 0 for none"),
         "Frames between checkpoints in DIR/checkpoint; 0: none")
       .with_default();
-  visit("--keep-states", o.keeps_states,
-        "Keep the state of each drawn frame in DIR/states: the same run in the same folder is then "
-        "drawn with other views, sizes, colours or cameras without simulating; about 160 bytes a "
-        "particle and frame");
+  visit(
+      "--keep-states", o.keeps_states,
+      "Keep the state of each drawn frame in DIR/states: the same command can then draw other "
+      "views, sizes, colours or cameras without simulating; about 160 bytes a particle and frame");
   describe_movies(visit, o);
   visit.sets("--no-caption", o.has_caption, false,
              "Omit the words over the pictures: for films; the layers counter and slate stay");
   visit("--shader-dir", o.shader_dir, options::existing_folder("the files of shaders/"),
         "Read shaders from this folder");
-  visit("--dry-run", o.dry_run, "Print particles, memory, pixels and frames, without a run");
+  visit("--dry-run", o.dry_run, "Print particles, memory, pixels and frames; start nothing");
   visit("--json", o.is_json, options::json_help);
   options::describe_progress(visit, o.progress);
   options::describe_verbosity(visit, o.verbosity, "Print more about each frame");

@@ -571,17 +571,19 @@ void describe(V& visit, Export& e) {
   visit("up", e.up, unit::none, anything, restart,
         "Axis that points up in the files: (x, y, z) becomes (x, -z, y) for z.");
   visit("scale", e.scale, unit::none, at_least(1e-6).at_most(1e6), restart,
-        "Units of the files per metre, of lengths and velocities; all else stays in SI units.");
+        "Units per metre in the files, for lengths and velocities; all else stays in SI units.");
   visit("surface", e.surface, unit::none, anything, restart,
-        "Write a closed mesh around the particles instead of them (ply, vtp, usda, obj), or its "
+        "Write a closed mesh around the particles instead of the particles (ply, vtp, usda, obj), "
+        "or its "
         "signed distance (vdb).");
-  visit("surface_cell", e.surface_cell, unit::none, between(0.2, 4), restart,
-        "Cell of the mesh, in particle spacings; half as much: four times the triangles.");
+  visit(
+      "surface_cell", e.surface_cell, unit::none, between(0.2, 4), restart,
+      "Cell size of the mesh, in particle spacings; half the size makes four times the triangles.");
   visit("surface_smoothing", e.surface_smoothing, unit::none, between(0.5, 3), restart,
         "Width of the kernel that makes the surface, in particle spacings; below 0.8 packed snow "
         "looks like beads.");
   visit("smallest_piece", e.smallest_piece, unit::none, between(1, 1000000), restart,
-        "Particles of the smallest piece that the mesh has; smaller ones stay points.");
+        "Number of particles in the smallest piece of the mesh; smaller pieces stay points.");
 }
 
 template <class V>

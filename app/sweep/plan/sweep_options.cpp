@@ -48,11 +48,11 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
         "Fork all runs at a time, as in 0.8s: simulate the common start once, then change live "
         "parameters in each");
   visit("--from", o.from, options::time(),
-        "Fork all runs at a time from the run in FILE, the folder of a run or a picture: they "
-        "start with its state there, and -p and --set change it");
+        "Fork all runs from the run of FILE (the folder of a run, or a picture) at a time: they "
+        "start with its state at that time, and -p and --set change parameters there");
   visit("--keep-states", o.keeps_states,
         "Keep the state of each drawn frame: tiles of another size, view, colour or camera are "
-        "then drawn without simulating; --dry-run says what that takes");
+        "then drawn without simulating; --dry-run says how much disk space the states take");
   visit("--size", o.size, options::size(), "Size of a tile; default: 480 pixels wide");
   visit("--coarsen", o.coarsening, options::coarsening(),
         "Make cells N times as large in all runs");
@@ -71,8 +71,8 @@ void describe_places(options::Command& visit, SweepOptions& o) {
         "Stop after this time, as in 20m or 1h30m; the same command continues. A run is not "
         "started if its forecast ends later");
   visit("--shard", o.shard, options::language("I/N", "2/8", parse_shard, shard_text),
-        "Make only the I-th of N shares, each on a machine of its own that shares the output "
-        "folder");
+        "Make only the I-th of N shares; each share runs on a machine of its own, all write to one "
+        "output folder");
   visit("--engine", o.engine, options::text("NAME", "slurm", check_engine),
         "local: run on this machine; slurm: submit a job array and wait for it (Ctrl-C cancels it)")
       .with_default();
