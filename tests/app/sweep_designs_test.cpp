@@ -280,8 +280,8 @@ TEST_F(Designs, ConditionsThatMeanNothingAreExplained) {
       {"fps * seed < 2",
        "3:9 where = \"fps * seed < 2\": \"fps * seed\" is not a number times an axis"},
       {"seed < 3*", "3:9 where = \"seed < 3*\": an axis is missing; expected two sides"},
-      {"seed < 3 fps", "3:9 where = \"seed < 3 fps\": \"3 fps\" is neither an axis nor a number"},
-      {"seed < fps + 1", "3:9 where = \"seed < fps + 1\": \"fps + 1\" is neither an axis"},
+      {"seed < 3 fps", "3:9 where = \"seed < 3 fps\": \"3 fps\" is not an axis, nor a number"},
+      {"seed < fps + 1", "3:9 where = \"seed < fps + 1\": \"fps + 1\" is not an axis"},
       {"1 < seed < 3", "3:9 where = \"1 < seed < 3\": it compares twice; write a condition for"},
       {"fps < 'a'", "3:9 where = \"fps < 'a'\": text compares only with == and !="},
       {"fps > 9", "3:9 no run meets the conditions; make them weaker"}};

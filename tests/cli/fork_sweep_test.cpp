@@ -206,7 +206,7 @@ TEST_F(ForkSweep, ABeginningThatFailsEndsTheSweepWithItsReason) {
       "--fork", "0.25s",    "--out", "bad.cdb"};
   const auto done = neve(words);
   EXPECT_EQ(done.exit_code, 7);
-  EXPECT_TRUE(contains(done.errors, "no run can start: their common beginning ended as diverged"))
+  EXPECT_TRUE(contains(done.errors, "no run can start: the common beginning ended as diverged"))
       << done.errors;
   EXPECT_EQ(neve(words).exit_code, 7);
   EXPECT_EQ(json_of("bad.cdb/beginning/status.json")["attempts"], 1);

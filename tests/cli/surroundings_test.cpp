@@ -123,7 +123,7 @@ TEST_F(Surroundings, ARunThatAnotherProcessWritesIsNotToBeResumed) {
   run["status"] = "running";
   folder.write("out/scene/run.json", run.dump());
   const auto left = neve({"verify", "out/scene"});
-  EXPECT_TRUE(contains(left.output, "with --resume, makes the rest")) << left.output;
+  EXPECT_TRUE(contains(left.output, "with --resume, to make the rest")) << left.output;
   const app::output::FolderLock lock(folder.path() / "out/scene", "neve render");
   const auto used = neve({"verify", "out/scene"});
   EXPECT_EQ(used.exit_code, 9);

@@ -105,7 +105,7 @@ TEST_F(SweepFrom, TheSweepContinuesWithoutTheRunThatItLeft) {
   const auto lost = neve({"sweep", "run", "f.cdb", "--index", "1"});
   EXPECT_EQ(lost.exit_code, 6);
   EXPECT_TRUE(
-      contains(lost.errors, "start the same neve sweep --from again, which takes it from a"))
+      contains(lost.errors, "repeat the same neve sweep --from, which takes it from a"))
       << lost.errors;
 }
 

@@ -140,7 +140,7 @@ TEST(MeshReader, MistakesAreNamed) {
       "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
       "0 0 0 1 0 0 0 1 0\n";
   expect(head + "3 0 1 3\n", "m", "face 1 names vertex 3; the file has 3");
-  expect(head + "3 0 1 -1\n", "m", "is no number from 0");
+  expect(head + "3 0 1 -1\n", "m", "is not a number from 0");
   expect(head + "2 0 1\n", "m", "face 1 has 2 corners");
   expect(head + "3 0 1\n", "m", "truncated");
   expect(head + "200 0 1\n", "m", "longer than the file");

@@ -247,7 +247,7 @@ TEST(Slice, SliceTellsWhyThereAreNoArrows) {
   EXPECT_EQ(app::view::panels::reason_for_no_arrows(view, fields),
             "no arrows: velocity is 0 everywhere");
   fields.vectors[app::scene::VectorField::velocity] = {{0, 0.001f, 0}};
-  EXPECT_NE(app::view::panels::reason_for_no_arrows(view, fields).find("no arrows to be seen"),
+  EXPECT_NE(app::view::panels::reason_for_no_arrows(view, fields).find("no visible arrows"),
             std::string::npos);
   fields.vectors[app::scene::VectorField::velocity] = {{0, 1, 0}};
   EXPECT_EQ(app::view::panels::reason_for_no_arrows(view, fields), "");

@@ -101,7 +101,7 @@ TEST(ReplayScript, EveryWrongValueIsRefusedWithWhatWasExpected) {
       {"{\"wait\": 3}", "is a list of steps"},
       {"[3]", "3 is not a step"},
       {"[{}]", "nothing to do"},
-      {"[{\"wait\": 3, \"type\": \"a\"}]", "one thing"},
+      {"[{\"wait\": 3, \"type\": \"a\"}]", "one action"},
       {"[{\"click\": null}]", "null"},
       {"[{\"click\": [1, 2], \"at\": [1, 2]}]", "unknown key \"at\""},
       {"[{\"wait\": 3, \"wait\": 4}]", "\"wait\" is given twice"},
