@@ -24,7 +24,7 @@ std::string advice_on_unit(double value, std::string_view written, std::string_v
 /// "2.5%", "2M", "1.4*10^5", "140 000", "0,04": numbers as they are written elsewhere.
 /// @param written what follows the number, without blanks before it
 std::string advice_on_spelling(double value, std::string_view text, std::string_view written) {
-  if (written == "%") return "expected a share of 1: " + rough_text(0.01 * value);
+  if (written == "%") return "as a share of 1 it is " + rough_text(0.01 * value);
   if (written == "k" || written == "K") return "write it out: " + rough_text(1e3 * value);
   if (written == "M") return "write it out: " + rough_text(1e6 * value);
   std::string spelt(text);

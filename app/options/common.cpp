@@ -53,7 +53,7 @@ void read_format(const std::string& text, output::MovieStyle& movie) {
 
 void check_log(const std::string& flag, const std::string& file) {
   if (!is_log_name(file))
-    throw UsageError(flag, "\"" + file + "\" does not end in .log",
+    throw UsageError(flag, "\"" + file + "\" is not a log",
                      "expected a file for the messages, as in --log run.log");
 }
 

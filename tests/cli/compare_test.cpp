@@ -215,7 +215,7 @@ TEST_F(Compare, RunsThatCannotBeComparedAreRefusedWithTheReason) {
   refused("a", "a", {"--out", "a"}, "a is the folder of a run");
   refused("a", "a", {"--mode", "wipe"}, "needs pictures");
   refused("a", "a", {"--out", "x.png", "--mode", "wip"}, "did you mean wipe?");
-  refused("a", "a", {"--out", "x.mp4", "--mode", "metrics"}, "no movie");
+  refused("a", "a", {"--out", "x.mp4", "--mode", "metrics"}, "not a movie");
   // A folder takes the modes that are possible, and says which are not.
   const auto rest = compare("a", "fine", {"--out", "rest"});
   EXPECT_EQ(rest.exit_code, 0) << rest.errors;

@@ -96,7 +96,7 @@ TEST_F(PickCli, MistakesAreToldBeforeAnythingIsMade) {
     return result.errors;
   };
   EXPECT_TRUE(contains(message({"material.snow.hardening=2,20"}), "bad.txt:3"));
-  EXPECT_TRUE(contains(message({"material.snow.hardening=2"}), "has one value"));
+  EXPECT_TRUE(contains(message({"material.snow.hardening=2"}), "has only one value"));
   EXPECT_TRUE(contains(message({"solver.transfer=apic,flip"}), "expected two numbers"));
   EXPECT_TRUE(contains(message({"material.snow.hardenin=2,20"}), "hardening"));
   EXPECT_TRUE(contains(message({"material.snow.hardening=2,20", "--rounds", "0"}), "--rounds"));

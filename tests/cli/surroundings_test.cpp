@@ -112,7 +112,7 @@ TEST_F(Surroundings, ALogIsNeverWrittenIntoAScene) {
         {"sweep", "scene.toml", "-p", "seed=1,2", "--log", "scene.toml"}}) {
     const auto answer = neve(command);
     EXPECT_EQ(answer.exit_code, 2);
-    EXPECT_TRUE(contains(answer.errors, "\"scene.toml\" does not end in .log")) << answer.errors;
+    EXPECT_TRUE(contains(answer.errors, "\"scene.toml\" is not a log")) << answer.errors;
   }
   EXPECT_EQ(read_text(folder.path() / "scene.toml"), before);
 }

@@ -104,8 +104,7 @@ TEST_F(SweepFrom, TheSweepContinuesWithoutTheRunThatItLeft) {
   std::filesystem::remove_all(folder / "f.cdb/runs/0001/particles");
   const auto lost = neve({"sweep", "run", "f.cdb", "--index", "1"});
   EXPECT_EQ(lost.exit_code, 6);
-  EXPECT_TRUE(
-      contains(lost.errors, "repeat the same neve sweep --from, which takes it from a"))
+  EXPECT_TRUE(contains(lost.errors, "repeat the same neve sweep --from, which takes it from a"))
       << lost.errors;
 }
 
