@@ -32,11 +32,17 @@ const char* name(SimdLevel level) {
 }
 
 bool is_available(SimdLevel level) {
-#ifdef NEVE_X86_KERNELS
-  if (level == SimdLevel::avx2) return runs_x86_64_v3();
+#ifdef NEVE_AVX512_KERNELS
   if (level == SimdLevel::avx512) return runs_x86_64_v4();
 #endif
+#ifdef NEVE_AVX2_KERNELS
+  if (level == SimdLevel::avx2) return runs_x86_64_v3();
+#endif
+#ifdef NEVE_WITHOUT_BASELINE_KERNELS
+  return false;
+#else
   return level == SimdLevel::baseline;
+#endif
 }
 
 SimdLevel chosen_simd_level() {

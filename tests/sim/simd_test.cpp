@@ -31,7 +31,9 @@ TEST(Simd, UnknownLevelsAreRefusedWithTheChoices) {
   for (const char* wrong : {"foo", "AVX2", " avx2", "avx", "avx2 ", "baseline,avx2"}) {
     const std::string complaint = complaint_about(wrong);
     EXPECT_TRUE(complaint.starts_with("NEVE_SIMD=" + std::string(wrong))) << complaint;
-    EXPECT_NE(complaint.find("this machine has baseline"), std::string::npos) << complaint;
+    const char* least =
+        kernels::is_available(kernels::SimdLevel::baseline) ? "has baseline" : "has ";
+    EXPECT_NE(complaint.find(std::string("this machine ") + least), std::string::npos) << complaint;
   }
 }
 

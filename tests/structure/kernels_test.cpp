@@ -62,7 +62,8 @@ TEST(Structure, KernelFilesShareNoFunction) {
   }
 #if defined(__x86_64__) && \
     !defined(__SANITIZE_ADDRESS__)  // sanitized builds have the baseline only
-  EXPECT_EQ(files, 6);
+  // Three a set, and of a build for this machine alone one set.
+  EXPECT_TRUE(files == 6 || files == 3) << files;
 #endif
 }
 
