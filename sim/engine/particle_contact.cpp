@@ -7,8 +7,12 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// The first goes most of the way, the second sees what it did to the neighbours.
+/// They begin where the last step ended: loads that stay are carried whole, and an impact, a press
+/// and a rebound come out as with a hundred passes, within a percent.
 constexpr int passes = 2;
+
+/// ContactArgs::carried. Loads go on in a longer step; what stopped snow in a short one does not.
+constexpr double most_carried = 2;
 
 /// ContactArgs::apart, 1/s. It makes up for what the iteration leaves undone, step by step in the
 /// same direction, and nobody sees it. Springs give way to snow that presses against them, by about
@@ -37,6 +41,7 @@ void ParticleContact<Real>::make_room(std::size_t particles, const Partition& pa
   near_counts_.resize(blocks);
   counts_.resize(blocks);
   first_.resize(blocks);
+  first_to_keep_.resize(blocks);
   blocks_.reserve(near_counts_.capacity());
   is_reached_.resize(nodes);
   node_blocks_.reserve(is_reached_.capacity());
@@ -46,7 +51,8 @@ void ParticleContact<Real>::make_room(std::size_t particles, const Partition& pa
 
 template <class Real>
 kernels::ContactArgs<Real> ParticleContact<Real>::contact_args(
-    const State<Real>& state, const kernels::SweepArgs<Real>& step) {
+    State<Real>& state, const kernels::SweepArgs<Real>& step) {
+  KeptContacts<Real>& contacts = state.particles.contacts;
   kernels::ContactArgs<Real> a{};
   a.step = step;
   a.poses = step.constants.colliders;
@@ -59,6 +65,13 @@ kernels::ContactArgs<Real> ParticleContact<Real>::contact_args(
   a.near_counts = near_counts_.data();
   a.counts = counts_.data();
   a.first = first_.data();
+  a.kept = contacts.data();
+  a.kept_count = contacts.size();
+  a.head = contacts.heads();
+  const double last_dt = state.progress.last_dt;
+  const double longer = last_dt > 0 ? static_cast<double>(step.constants.dt) / last_dt : 1;
+  a.carried = static_cast<Real>(std::min(longer, most_carried));
+  a.first_to_keep = first_to_keep_.data();
   a.nodes = nodes_.data();
   return a;
 }
@@ -72,6 +85,17 @@ std::uint64_t ParticleContact<Real>::place_contacts() {
     most += counts_[b];
   }
   return most;
+}
+
+/// The same for those that are remembered. @return how many contacts there are
+template <class Real>
+std::uint32_t ParticleContact<Real>::place_kept() {
+  std::uint32_t count = 0;
+  for (const std::uint32_t b : blocks_) {
+    first_to_keep_[b] = count;
+    count += counts_[b];
+  }
+  return count;
 }
 
 template <class Real>
@@ -101,34 +125,41 @@ void ParticleContact<Real>::over(const std::vector<std::uint32_t>& blocks, Sweep
 }
 
 template <class Real>
-void ParticleContact<Real>::act(const State<Real>& state, const kernels::SweepArgs<Real>& step,
+void ParticleContact<Real>::act(State<Real>& state, const kernels::SweepArgs<Real>& step,
                                 bool is_before_solve) {
+  KeptContacts<Real>& kept = state.particles.contacts;
   blocks_.clear();
-  if (step.constants.collider_count == 0) return;
+  if (step.constants.collider_count == 0) return kept.keep_none();
   const Partition& partition = state.particles.partition;
   const kernels::ContactSweeps<Real>& sweeps = *state.method.contact_sweeps;
   make_room(step.particle_count, partition);
+  kept.resize(step.particle_count);
+  kept.reserve(step.particle_count / 8);
   kernels::ContactArgs<Real>& a = args_ = contact_args(state, step);
   a.is_before_solve = is_before_solve;
   a.apart = is_before_solve ? Real(apart_after_solve) : Real(apart_after_passes);
   state.over_particle_blocks(sweeps.find, a);
   const std::uint64_t most = place_contacts();
-  if (most == 0) return;
+  if (most == 0) return kept.keep_none();
   if (contacts_.size() < most) contacts_.resize(2 * most);
   a.contacts = contacts_.data();
   list_blocks();
   a.blocks = blocks_.data();
   over(blocks_, sweeps.start, state);
   list_blocks();
-  if (blocks_.empty()) return;
+  if (blocks_.empty()) return kept.keep_none();
+  const std::uint32_t count = place_kept();
   list_node_blocks(partition);
   a.node_blocks = node_blocks_.data();
   over(node_blocks_, sweeps.weigh, state);
   for (int pass = 1; pass <= passes; ++pass) {
     a.is_last = pass == passes;
+    // What was remembered has been read.
+    if (a.is_last && !is_before_solve) a.keep = kept.room_for(count);
     over(blocks_, sweeps.press, state);
     over(node_blocks_, sweeps.yield, state);
   }
+  kept_count_ = count;
 }
 
 template <class Real>
@@ -149,8 +180,9 @@ void ParticleContact<Real>::hold(const State<Real>& state, const kernels::SolveA
 }
 
 template <class Real>
-void ParticleContact<Real>::settle(const State<Real>& state,
-                                   const kernels::SolveArgs<Real>& solve) {
+void ParticleContact<Real>::settle(State<Real>& state, const kernels::SolveArgs<Real>& solve) {
+  if (blocks_.empty()) return;
+  args_.keep = state.particles.contacts.room_for(kept_count_);
   over_springs(state.method.contact_sweeps->settle, state, solve, true);
 }
 
@@ -159,8 +191,8 @@ std::size_t ParticleContact<Real>::memory_bytes() const {
   return sizeof(std::uint32_t) *
              (candidates_.capacity() + near_counts_.capacity() + counts_.capacity() +
               blocks_.capacity() + node_blocks_.capacity()) +
-         sizeof(std::uint64_t) * first_.capacity() + is_reached_.capacity() +
-         sizeof(kernels::Contact<Real>) * contacts_.capacity() +
+         sizeof(std::uint64_t) * first_.capacity() + 4 * first_to_keep_.capacity() +
+         is_reached_.capacity() + sizeof(kernels::Contact<Real>) * contacts_.capacity() +
          sizeof(kernels::ContactNodes<Real>) * nodes_.capacity();
 }
 

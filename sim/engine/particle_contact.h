@@ -18,7 +18,7 @@ class ParticleContact {
   /// adds the work of the colliders to that of the nodes.
   /// @param step  whose nodes have v_free
   /// @param is_before_solve  the springs come into it
-  void act(const State<Real>& state, const kernels::SweepArgs<Real>& step, bool is_before_solve);
+  void act(State<Real>& state, const kernels::SweepArgs<Real>& step, bool is_before_solve);
 
   // In the semi-implicit solve of the step that `act` was called for.
 
@@ -26,7 +26,7 @@ class ParticleContact {
   void hold(const State<Real>& state, const kernels::SolveArgs<Real>& solve, bool is_first);
   /// Adds the impulses of the springs at u = v_new, and the work of the colliders to that of the
   /// nodes.
-  void settle(const State<Real>& state, const kernels::SolveArgs<Real>& solve);
+  void settle(State<Real>& state, const kernels::SolveArgs<Real>& solve);
 
   std::size_t memory_bytes() const;
 
@@ -35,21 +35,23 @@ class ParticleContact {
   void over(const std::vector<std::uint32_t>& blocks, Sweep sweep, const State<Real>& state) const;
   void over_springs(Sweep sweep, const State<Real>& state, const kernels::SolveArgs<Real>& solve,
                     bool is_first);
-  kernels::ContactArgs<Real> contact_args(const State<Real>& state,
-                                          const kernels::SweepArgs<Real>& step);
+  kernels::ContactArgs<Real> contact_args(State<Real>& state, const kernels::SweepArgs<Real>& step);
   void make_room(std::size_t particles, const Partition& partition);
   std::uint64_t place_contacts();
+  std::uint32_t place_kept();
   void list_blocks();
   void list_node_blocks(const Partition& partition);
 
   std::vector<std::uint32_t> candidates_;            ///< per sorted position
   std::vector<std::uint32_t> near_counts_, counts_;  ///< per particle block, see ContactArgs
   std::vector<std::uint64_t> first_;
+  std::vector<std::uint32_t> first_to_keep_;         ///< likewise
   std::vector<std::uint32_t> blocks_, node_blocks_;  ///< that take part
   std::vector<std::uint8_t> is_reached_;             ///< per node block
   std::vector<kernels::Contact<Real>> contacts_;
   std::vector<kernels::ContactNodes<Real>> nodes_;
   kernels::ContactArgs<Real> args_{};  ///< of the last step
+  std::uint32_t kept_count_ = 0;       ///< of its contacts, that may be remembered
 };
 
 }  // namespace neve::sim::engine

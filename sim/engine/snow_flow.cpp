@@ -152,6 +152,7 @@ void SnowFlow<Real>::emit(State<Real>& state, StartState& start) {
   state.particles.resize(after);
   const kernels::BlockReport<Real> report = state.refresh(before, after);
   if (report.overflowed > 0) throw std::invalid_argument("an emitter is outside the lattice");
+  state.note_touching(before, after);
   include_limits(report, state, start);
 }
 

@@ -44,6 +44,11 @@ struct State {
   void advance_time(double dt);
   /// Makes the speed of colliders that snow may meet a limit of the next step.
   void note_near_colliders();
+  /// Lets new particles [begin, end) touch colliders where they are: those that lie nearer than
+  /// snow rests are not pushed away.
+  void note_touching(std::size_t begin, std::size_t end);
+  /// Distance from a surface at which snow rests, m.
+  double touching_distance(const kernels::Particle<Real>& p) const;
   /// Brings particles out of colliders, if the settings ask for it.
   void push_out(kernels::SweepArgs<Real> a) const;
 

@@ -107,6 +107,7 @@ void StagedDriver<Real>::collide_grid() {
   const auto keep_v_free = [&] {
     each_node([](auto& nodes, int n) { nodes.v_star[n] = nodes.v_free[n]; });
     clear_node_contact_work();
+    state_.particles.contacts.keep_none();
   };
   const auto collide = [&] {
     if (state_.method.settings.is_contact_at_particles())

@@ -13,6 +13,8 @@
 /// step never goes too far, however many particles share a node, and one is enough where all of
 /// them want the same.
 ///
+/// It begins with the impulses of the last step, projected.
+///
 /// The semi-implicit solve starts from the velocities that this leaves, and each contact that
 /// pushes then acts as a spring of stiffness `hold` / D_p between v_p and the velocity that it
 /// wants: along the normal, and along the surface where friction or the collider holds on to it.
@@ -45,12 +47,36 @@ struct ContactRecord {
   R own[3];      ///< m/s, what the particle keeps beside the velocity of the grid
   R holds;       ///< in the solve: 0 nothing, 1 along the normal, 2 in all directions
   I cell[3];
-  I collider;  ///< its index; negative (-1 - index) if it holds on to the particle
+  I collider;    ///< its index; negative (-1 - index) if it holds on to the particle
+  R touches;     ///< m: distance from the surface at which they touch
+  R is_shallow;  ///< 1: that is less than other particles touch at
+  I particle;    ///< storage index
+  I list;        ///< number of the collider in the list of the run
 };
 template <class Real>
 using Contact = ContactRecord<Real, Integer<Real>>;
-inline constexpr int contact_quads = 6;
+inline constexpr int contact_quads = 7;
 static_assert(sizeof(Contact<float>) == 16 * contact_quads);
+
+/// What a particle and a collider remember of each other until the next step: what pressed it then
+/// is where the iteration begins, so that a load that stays is carried whole, and one that changes
+/// is met by a few passes.
+template <class Real>
+struct KeptContact {
+  Real impulse, sliding[3], touches;  ///< see ContactRecord
+  std::uint32_t particle;             ///< storage index
+  std::int32_t collider;              ///< number in the list of the run
+  std::uint32_t next;                 ///< another one of the same particle, or no_contact
+};
+inline constexpr std::uint32_t no_contact = ~std::uint32_t(0);
+
+/// True if a particle's head leads to its first contact. Heads of particles that have none left may
+/// lead anywhere.
+template <class Real>
+NEVE_INLINE bool is_contact_of(const KeptContact<Real>* kept, std::uint32_t count,
+                               std::uint32_t head, std::uint32_t particle) {
+  return head < count && kept[head].particle == particle;
+}
 
 /// A block of nodes while impulses are found.
 template <class Real>
@@ -76,8 +102,15 @@ struct ContactArgs {
   const std::uint64_t* first;   ///< per particle block: its first contact
   const std::uint32_t* node_blocks;  ///< those that they reach
   Contact<Real>* contacts;
-  ContactNodes<Real>* nodes;  ///< per node block
-  bool is_last;               ///< of the passes
+  // What is remembered.
+  const KeptContact<Real>* kept;  ///< of the last step
+  std::uint32_t kept_count;
+  Real carried;             ///< length of this step over that of the last
+  std::uint32_t* head;      ///< per storage index: its first contact in `kept`, and then in `keep`
+  KeptContact<Real>* keep;  ///< of this step: as many as there are contacts
+  const std::uint32_t* first_to_keep;  ///< per particle block
+  ContactNodes<Real>* nodes;           ///< per node block
+  bool is_last;                        ///< of the passes
   // In the semi-implicit solve.
   bool is_before_solve;  ///< the passes are: their impulses are not the last word
   bool is_first;         ///< u are velocities, otherwise a change of them

@@ -121,11 +121,12 @@ struct ContactSweepsFor {
   /// The candidates [q, q + W) of a block; lanes without one repeat the last.
   /// @return the share of their own velocity that they move with
   NEVE_INLINE static V load_candidates(const Args& a, const ParticleBlock& block, Index q,
-                                       Index count, Batch& p) {
+                                       Index count, Batch& p, Index* storage) {
     const Particle<Real>* record[W];
     for (int l = 0; l < W; ++l) {
       const Index at = smaller<Index>(q + static_cast<Index>(l), count - 1);
-      record[l] = a.step.particles + a.step.order[a.candidates[block.begin + at]];
+      storage[l] = a.step.order[a.candidates[block.begin + at]];
+      record[l] = a.step.particles + storage[l];
     }
     RecordReader<V, I> read(record, p);
     read.place();
@@ -176,7 +177,8 @@ struct ContactSweepsFor {
       const Index count = a.near_counts[b];
       for (Index q = 0; q < count; q += W) {
         Batch p;
-        const V kept = load_candidates(a, block, q, count, p);
+        Index storage[W];
+        const V kept = load_candidates(a, block, q, count, p, storage);
         s.template set<false, false>(0, p.offset, p.cell);
         const FourWords<V> on_grid = gathered(s, v_free);
         Velocities v{{on_grid.w[0], on_grid.w[1], on_grid.w[2]}, {}};
@@ -184,13 +186,12 @@ struct ContactSweepsFor {
           const FourWords<V> changed = gathered(s, change);
           for (int x = 0; x < 3; ++x) v.own[x] = (p.v[x] - (on_grid.w[x] - changed.w[x])) * kept;
         }
-        V touches{};
+        FourWords<V> given{};  // impulses to begin with, and 1 per contact
         const I is_used = first_lanes<I>(static_cast<int>(count - q));
         for (int k = 0; k < near.colliders.count; ++k)
-          touches +=
-              add_contacts(a, p, block.key, v, is_used, near.colliders.local[k], near.index[k], to);
-        scatter(s, FourWords<V>{{V{}, V{}, V{}, touches}},
-                static_cast<int>(smaller<Index>(W, count - q)), tile);
+          add_contacts(a, p, storage, block.key, v, is_used, near.colliders.local[k], near.index[k],
+                       to, given);
+        scatter(s, given, static_cast<int>(smaller<Index>(W, count - q)), tile);
       }
       a.counts[b] = static_cast<Index>(to - (a.contacts + a.first[b]));
     }
@@ -200,17 +201,47 @@ struct ContactSweepsFor {
     Vec3<V> of_grid, own;  ///< their sum is what the particle moves with
   };
 
-  /// Finds the particles of a batch that would come nearer to a collider than they may.
-  /// @return 1 in their lanes
-  NEVE_INLINE static V add_contacts(const Args& a, const Batch& p, std::uint64_t key,
-                                    const Velocities& v, const I& is_used,
-                                    const LocalCollider<Real>& collider, Integer<Real> index,
-                                    Contact<Real>*& to) {
+  /// What particles remember of a collider.
+  struct Memory {
+    V impulse{}, touches;
+    Vec3<V> sliding{};
+  };
+  /// @param touches  where particles touch that remember nothing
+  NEVE_INLINE static Memory recall(const Args& a, const Index* storage, int list,
+                                   const V& touches) {
+    Memory memory;
+    memory.touches = touches;
+    if (a.kept_count == 0) return memory;
+    for (int l = 0; l < W; ++l) {
+      Index at = a.head[storage[l]];
+      if (!is_contact_of(a.kept, a.kept_count, at, storage[l])) continue;
+      for (; at != no_contact; at = a.kept[at].next) {
+        const KeptContact<Real>& k = a.kept[at];
+        if (k.collider != list) continue;
+        memory.impulse[l] = k.impulse * a.carried;
+        memory.touches[l] = smaller(k.touches, touches[l]);
+        for (int x = 0; x < 3; ++x) memory.sliding[x][l] = k.sliding[x] * a.carried;
+        break;
+      }
+    }
+    return memory;
+  }
+
+  /// Finds the particles of a batch that would come nearer to a collider than they may, and those
+  /// that it pressed or held in the last step.
+  /// @param given  gets what they begin with, and 1 in their lanes
+  NEVE_INLINE static void add_contacts(const Args& a, const Batch& p, const Index* storage,
+                                       std::uint64_t key, const Velocities& v, const I& is_used,
+                                       const LocalCollider<Real>& collider, Integer<Real> index,
+                                       Contact<Real>*& to, FourWords<V>& given) {
     const StepConstants<Real>& c = a.step.constants;
     const Vec3<V> r = places_in_block(p, key, c.h);
     Vec3<V> normal;
     const V distance = surface_distance(collider, r, normal);
-    const V gap = distance - touching_distance(a, p);
+    const V touching = touching_distance(a, p);
+    const int list = a.poses[index].index;
+    const Memory memory = recall(a, storage, list, touching);
+    const V gap = distance - memory.touches;
     const Vec3<V> surface = surface_velocity(collider, r);
     // A surface that does not let go stops what is inside where it is: there is no way out.
     const bool lets_go = collider.contact == ContactLaw::separate;
@@ -220,15 +251,16 @@ struct ContactSweepsFor {
     const V inside = lets_go ? larger_lanes(-distance * out, apart) : V{};
     const V least = gap > V{} ? -gap / c.dt : distance > V{} ? apart : inside;
     const V v_n = dot(v.of_grid + v.own - surface, normal);
-    I is_contact = is_used & (v_n < least);
+    const I is_shallow = memory.touches < touching;
+    const I is_near = gap <= all<V>(static_cast<Real>(touching_slack) * c.h);
+    I is_contact = is_used & ((v_n < least) | (is_near & (is_shallow | (memory.impulse > V{}))));
     I number = all<I>(index);
     if (!lets_go) {
-      const I is_held = gap <= all<V>(static_cast<Real>(touching_slack) * c.h);
-      is_contact = is_contact | (is_used & is_held);
-      number = is_held ? -1 - number : number;
+      is_contact = is_contact | (is_used & is_near);
+      number = is_near ? -1 - number : number;
     }
     const unsigned bits = lane_bits(is_contact);
-    if (bits == 0) return V{};
+    if (bits == 0) return;
     Lanes contact{};
     for (int x = 0; x < 3; ++x) {
       contact.offset[x] = p.offset[x];
@@ -236,12 +268,37 @@ struct ContactSweepsFor {
       contact.normal[x] = normal[x];
       contact.surface[x] = surface[x];
       contact.own[x] = v.own[x];
+      for (int l = 0; l < W; ++l) contact.particle[l] = static_cast<Integer<Real>>(storage[l]);
     }
     contact.least = least;
     contact.friction = all<V>(friction_of(collider));
     contact.collider = number;
+    contact.touches = memory.touches;
+    contact.is_shallow = is_shallow ? all<V>(1) : V{};
+    contact.list = all<I>(list);
+    begin_with(memory, contact);
     store(contact, bits, to);
-    return is_contact ? all<V>(1) : V{};
+    for (int x = 0; x < 3; ++x) {
+      const V impulse = contact.normal[x] * contact.impulse + contact.sliding[x];
+      given.w[x] += is_contact ? impulse : V{};
+    }
+    given.w[3] += is_contact ? all<V>(1) : V{};
+  }
+
+  /// The impulse of the last step as this one lets it be: the normal may have turned.
+  NEVE_INLINE static void begin_with(const Memory& memory, Lanes& c) {
+    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+    const I is_held = c.collider < I{};
+    c.impulse = is_held ? memory.impulse : larger_lanes(memory.impulse, V{});
+    const Vec3<V> sliding = within_friction(memory.sliding - n * dot(memory.sliding, n), c);
+    for (int x = 0; x < 3; ++x) c.sliding[x] = sliding[x];
+  }
+
+  /// An impulse along the surface, no larger than friction.
+  NEVE_INLINE static Vec3<V> within_friction(const Vec3<V>& sliding, const Lanes& c) {
+    const V size = square_root_lanes(dot(sliding, sliding));
+    const V most = c.collider < I{} ? c.friction : c.friction * c.impulse;
+    return select(size > most, sliding * (most / size), sliding);
   }
 
   NEVE_INLINE static Real friction_of(const LocalCollider<Real>& collider) {
@@ -277,13 +334,14 @@ struct ContactSweepsFor {
     put(4, c.own[0], c.own[1], c.own[2], c.holds);
     put(5, reinterpret_cast<V>(c.cell[0]), reinterpret_cast<V>(c.cell[1]),
         reinterpret_cast<V>(c.cell[2]), reinterpret_cast<V>(c.collider));
+    put(6, c.touches, c.is_shallow, reinterpret_cast<V>(c.particle), reinterpret_cast<V>(c.list));
   }
 
   NEVE_INLINE static void read(Lanes& c, Contact<Real>* const* records) {
     const auto get = [&](int quad) NEVE_INLINE_BODY {
       return load_words<V>(records, 4 * quad * static_cast<int>(sizeof(Real)));
     };
-    const FourWords<V> q[contact_quads] = {get(0), get(1), get(2), get(3), get(4), get(5)};
+    const FourWords<V> q[contact_quads] = {get(0), get(1), get(2), get(3), get(4), get(5), get(6)};
     for (int x = 0; x < 3; ++x) {
       c.offset[x] = q[0].w[x];
       c.normal[x] = q[1].w[x];
@@ -298,6 +356,10 @@ struct ContactSweepsFor {
     c.row = q[3].w[3];
     c.holds = q[4].w[3];
     c.collider = reinterpret_cast<I>(q[5].w[3]);
+    c.touches = q[6].w[0];
+    c.is_shallow = q[6].w[1];
+    c.particle = reinterpret_cast<I>(q[6].w[2]);
+    c.list = reinterpret_cast<I>(q[6].w[3]);
   }
 
   // ---- passes -----------------------------------------------------------------------------------
@@ -336,13 +398,18 @@ struct ContactSweepsFor {
       Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
       Base::clear(a.step.blocks[b], tile);
       Account account(a);
+      Keeper keeper(a, b);
       each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
         const Vec3<V> change = respond_to(gathered(group.s, v), group.contact);
         write(group.contact, group.record, group.used);
         scatter(group.s, FourWords<V>{{change.x, change.y, change.z, V{}}}, group.used, tile);
-        if (is_final) account.add(group.contact, group.used);
+        if (!is_final) return;
+        account.add(group.contact, group.used);
+        keeper.add(group.contact, group.used);
       });
-      if (is_final) account.give(b);
+      if (!is_final) continue;
+      account.give(b);
+      keeper.end();
     }
   }
 
@@ -397,6 +464,7 @@ struct ContactSweepsFor {
       const Index b = a.blocks[n];
       load_u(a, b, u);
       Account account(a);
+      Keeper keeper(a, b);
       each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
         Lanes& c = group.contact;
         const Vec3<V> spring = spring_of(gathered(group.s, u), c, a.is_first);
@@ -406,8 +474,10 @@ struct ContactSweepsFor {
         for (int x = 0; x < 3; ++x) c.sliding[x] -= (spring[x] - normal[x] * along) * a.hold;
         write(c, group.record, group.used);
         account.add(c, group.used);
+        keeper.add(c, group.used);
       });
       account.give(b);
+      keeper.end();
     }
   }
 
@@ -475,6 +545,45 @@ struct ContactSweepsFor {
     double work_ = 0;
   };
 
+  /// Remembers the contacts of a block until the next step.
+  class Keeper {
+   public:
+    NEVE_INLINE Keeper(const Args& a, Index b)
+        : a_(a), begin_(a.first_to_keep[b]), end_(begin_), limit_(begin_ + a.counts[b]) {}
+
+    /// The first `count` lanes.
+    NEVE_INLINE void add(const Lanes& c, int count) {
+      V pressed = absolute_lanes(c.impulse) + c.is_shallow;
+      for (int x = 0; x < 3; ++x) pressed += absolute_lanes(c.sliding[x]);
+      for (int l = 0; l < count; ++l)
+        if (pressed[l] > Real(0)) add_lane(c, l);
+    }
+
+    /// Places that are left must not name particles.
+    NEVE_INLINE void end() const {
+      for (Index at = end_; at < limit_; ++at) a_.keep[at].particle = no_contact;
+    }
+
+   private:
+    NEVE_INLINE void add_lane(const Lanes& c, int l) {
+      const auto particle = static_cast<Index>(c.particle[l]);
+      Index& head = a_.head[particle];
+      const bool has_more = head >= begin_ && is_contact_of(a_.keep, end_, head, particle);
+      a_.keep[end_] = {c.impulse[l],
+                       {c.sliding[0][l], c.sliding[1][l], c.sliding[2][l]},
+                       c.touches[l],
+                       particle,
+                       static_cast<std::int32_t>(c.list[l]),
+                       has_more ? head : no_contact};
+      head = end_++;
+    }
+
+    const Args& a_;
+    const Index begin_;
+    Index end_;
+    const Index limit_;
+  };
+
   // ---- nodes ------------------------------------------------------------------------------------
 
   /// The tiles of blocks in contact that reach a node block.
@@ -516,7 +625,8 @@ struct ContactSweepsFor {
       for (int n = 0; n < block_nodes; n += block_side) {
         const R free = R::load(v_free + n);
         const bool is_pressed = (rows >> (n / block_side) & 1) != 0;
-        with_fourths(free, is_pressed ? over_mass(R::load(sum + n), free) : R::zero()).store(v + n);
+        const R given = is_pressed ? over_mass(R::load(sum + n), free) : R::zero();
+        with_fourths(free + given, given).store(v + n);
       }
     }
   }
