@@ -93,7 +93,8 @@ void measure_sums(const SolverSettings& settings, const ParticleArrays& p, const
   size += mass * settings.gravity.norm() * dt;
   out[WatchCheck::mass] = share(std::abs(node_mass - mass), mass);
   out[WatchCheck::p2g_momentum] = share((before - momentum).norm(), size);
-  out[WatchCheck::g2p_momentum] = share((after - momentum_after).norm(), size + node_size);
+  out[WatchCheck::g2p_momentum] =
+      share((after - momentum_after - step.own_taken).norm(), size + node_size);
   out[WatchCheck::newton] = share(newton, newton_size);
   out[WatchCheck::force_sum] = share(f.norm(), sum_f);
   out[WatchCheck::torque] = share(turn.norm(), sum_turn);

@@ -17,16 +17,27 @@ class ParticleContact {
   /// v_star from v_free, both as v_new of the nodes. Overwrites the first channel of the tiles, and
   /// adds the work of the colliders to that of the nodes.
   /// @param step  whose nodes have v_free
-  /// @param is_before_solve  the springs come into it
+  /// @param is_before_solve  impulses are those of the last step: the solve finds those of this one
   void act(State<Real>& state, const kernels::SweepArgs<Real>& step, bool is_before_solve);
 
   // In the semi-implicit solve of the step that `act` was called for.
 
   /// Adds the forces of the springs to H u in the tiles. @param is_first  u are velocities
   void hold(const State<Real>& state, const kernels::SolveArgs<Real>& solve, bool is_first);
-  /// Adds the impulses of the springs at u = v_new, and the work of the colliders to that of the
-  /// nodes.
-  void settle(State<Real>& state, const kernels::SolveArgs<Real>& solve);
+  /// Of the velocities u.
+  struct Solution {
+    double missing = 0;            ///< J, of the impulses that contact would still need
+    Vec3d spring = Vec3d::Zero();  ///< kg m/s, of the springs
+  };
+  Solution look(const State<Real>& state, const kernels::SolveArgs<Real>& solve);
+  /// Impulses that u asks for: they change v_star of the nodes.
+  void renew(const State<Real>& state, const kernels::SolveArgs<Real>& solve);
+  /// Impulses at u = v_new of the nodes, and what contact still needs of them; adds the work of the
+  /// colliders to that of the nodes.
+  /// @param unexplained  kg m/s that the snow got in the solve from none of the springs
+  void settle(State<Real>& state, const kernels::SolveArgs<Real>& solve, const Vec3d& unexplained);
+  /// Without a solution: as an explicit step, from v_star.
+  void settle_without(State<Real>& state);
 
   std::size_t memory_bytes() const;
 
@@ -39,6 +50,10 @@ class ParticleContact {
   void make_room(std::size_t particles, const Partition& partition);
   std::uint64_t place_contacts();
   std::uint32_t place_kept();
+  void pass(const State<Real>& state);
+  void pass_again(const State<Real>& state);
+  void share(const Vec3d& unexplained);
+  void book(State<Real>& state);
   void list_blocks();
   void list_node_blocks(const Partition& partition);
 
@@ -52,6 +67,7 @@ class ParticleContact {
   std::vector<kernels::ContactNodes<Real>> nodes_;
   kernels::ContactArgs<Real> args_{};  ///< of the last step
   std::uint32_t kept_count_ = 0;       ///< of its contacts, that may be remembered
+  std::vector<double> sums_;           ///< see ContactArgs
 };
 
 }  // namespace neve::sim::engine
