@@ -28,7 +28,7 @@ class Validation {
   bool has_errors() const { return watch_.has_errors(); }
   bool has_held() const;
 
-  /// "validation: 18 checks at 12 steps, all held", or which did not.
+  /// "validation: 19 checks at 12 steps, all held", or which did not.
   std::string summary() const;
 
  private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/checks/places.h"
 #include "sim/engine/time_step.h"
 #include "sim/health/diagnostics.h"
 #include "sim/staged.h"
@@ -209,6 +210,9 @@ WatchValues Watch::measure(const Simulation& simulation) const {
   out[WatchCheck::acoustic_cfl] = limits.max_sound_speed * dt / h;
   out[WatchCheck::speed_cfl] = limits.max_speed * dt / h;
   out[WatchCheck::energy] = energy_account(simulation).ratio();
+  const seeding::FlowTotals flow = simulation.flow_totals();
+  const double volume = believed_volume(p, materials_, p.x.size() + flow.removed - flow.emitted);
+  out[WatchCheck::places] = std::max(volume, share(1, volume));
   const StagedStep step = staged_step(simulation, dt);
   for (const Mat3d& grad_v : step.grad_v)
     out[WatchCheck::strain_step] =

@@ -62,6 +62,7 @@ struct Beam {
 std::vector<double> sags(const Beam& beam, const std::vector<double>& times) {
   SolverSettings s;
   s.cell_size = 0.03;
+  s.transfer = Transfer::flip;
   s.flip_ratio = 0.5;  // at rest soon
   const double half = beam.thickness / 2;
   const int across = 8, along = static_cast<int>(std::lround((beam.length + beam.root) / 0.015));
