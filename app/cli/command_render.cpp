@@ -180,7 +180,7 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
   }
 }
 
-/// "validation: 18 checks at 12 steps, all held", or which did not.
+/// "validation: 19 checks at 12 steps, all held", or which did not.
 std::string text_of_laws(const sim::checks::Watch& laws) {
   std::string broken;
   for (const sim::checks::WatchRecord& record : laws.records()) {

@@ -14,10 +14,10 @@ namespace neve::app::forecast {
 
 namespace {
 
-/// Studied in docs/time_step.md. FLIP drifts less with longer steps than APIC and MLS, and cubic
-/// weights are stable in longer ones: an elastic body with one particle to a cell too, up to a
-/// Poisson ratio of 0.3.
-constexpr double flip_snow_cfl = 1.2, flip_cfl = 0.85, affine_cfl = 0.7;
+/// Studied in docs/time_step.md. FLIP, AFLIP and ASFLIP damp by the second and not by the step, so
+/// they drift less with longer steps than APIC and MLS. FLIP with cubic weights is stable in longer
+/// ones still: an elastic body with one particle to a cell too, up to a Poisson ratio of 0.3.
+constexpr double flip_snow_cfl = 1.2, flip_cfl = 0.85, smoothed_cfl = 0.7;
 constexpr double longest_steps_poisson_ratio = 0.3;
 constexpr double hardening_ceiling = 20;
 /// Semi-implicit steps damp waves and with them fracture, so they must gain much. The longest steps
@@ -30,7 +30,8 @@ constexpr ForecastBudget forecast_budget{1e9, 3e6, 400};
 
 double fast_cfl(const scene::Scene& scene) {
   const sim::SolverSettings& s = scene.solver;
-  if (s.transfer != sim::Transfer::flip) return affine_cfl;
+  if (s.transfer == sim::Transfer::apic || s.transfer == sim::Transfer::mls) return smoothed_cfl;
+  if (s.transfer != sim::Transfer::flip) return flip_cfl;
   const bool is_snow =
       std::all_of(scene.materials.begin(), scene.materials.end(), [](const sim::Material& m) {
         return m.model == sim::Model::snow && m.poisson_ratio <= longest_steps_poisson_ratio;

@@ -35,8 +35,8 @@ std::vector<std::string> step_warnings(const scene::Scene& scene,
         "(solver.max_dt, solver.dt)");
   if (warnings.solves_given_up > 0)
     list.push_back(semi_implicit_steps(warnings.solves_given_up) +
-                   "could not be solved, and explicit steps replaced them; try a smaller dt "
-                   "(solver.max_dt, solver.dt)");
+                   "could not be solved, and shorter ones, at last explicit ones, replaced them; "
+                   "try a smaller dt (solver.max_dt, solver.dt)");
   const std::vector<std::uint64_t> withheld = simulation.withheld();
   for (std::size_t k = 0; k < withheld.size(); ++k)
     if (withheld[k] > 0)

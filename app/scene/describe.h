@@ -82,7 +82,7 @@ void describe(V& visit, sim::SolverSettings& s) {
         "per step.");
   visit("advect", s.advect, unit::none, anything, live,
         "Velocity that moves particles of flip, apic and mls: their own (the paper) or the "
-        "grid's.");
+        "grid's, which strains them.");
   visit("separation_min", s.separation_min, unit::none, between(0, 1), live,
         "Share of its own velocity, beside the grid's, that moves compressed snow of asflip.");
   visit(

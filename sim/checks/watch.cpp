@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/checks/places.h"
 #include "sim/health/diagnostics.h"
 #include "sim/staged.h"
 #include "sim/types/number_text.h"
@@ -93,7 +94,8 @@ void measure_sums(const SolverSettings& settings, const ParticleArrays& p, const
   size += mass * settings.gravity.norm() * dt;
   out[WatchCheck::mass] = share(std::abs(node_mass - mass), mass);
   out[WatchCheck::p2g_momentum] = share((before - momentum).norm(), size);
-  out[WatchCheck::g2p_momentum] = share((after - momentum_after).norm(), size + node_size);
+  out[WatchCheck::g2p_momentum] =
+      share((after - momentum_after - step.own_taken).norm(), size + node_size);
   out[WatchCheck::newton] = share(newton, newton_size);
   out[WatchCheck::force_sum] = share(f.norm(), sum_f);
   out[WatchCheck::torque] = share(turn.norm(), sum_turn);
@@ -208,6 +210,9 @@ WatchValues Watch::measure(const Simulation& simulation) const {
   out[WatchCheck::acoustic_cfl] = limits.max_sound_speed * dt / h;
   out[WatchCheck::speed_cfl] = limits.max_speed * dt / h;
   out[WatchCheck::energy] = energy_account(simulation).ratio();
+  const seeding::FlowTotals flow = simulation.flow_totals();
+  const double volume = believed_volume(p, materials_, p.x.size() + flow.removed - flow.emitted);
+  out[WatchCheck::places] = std::max(volume, share(1, volume));
   const StagedStep step = staged_step(simulation, dt);
   for (const Mat3d& grad_v : step.grad_v)
     out[WatchCheck::strain_step] =

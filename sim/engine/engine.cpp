@@ -13,6 +13,13 @@
 
 namespace neve::sim::engine {
 
+namespace {
+
+/// Of a semi-implicit step: each costs the solves that were of no use.
+constexpr int max_halvings = 2;
+
+}  // namespace
+
 template <class Real>
 Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>& materials,
                      const std::vector<shapes::Collider>& colliders,
@@ -37,8 +44,28 @@ void Engine<Real>::take_step(double dt) {
   const Method<Real>& method = state_.method;
   if (state_.particles.size() == 0) return state_.advance_time(dt);
   if (method.takes_stages()) return take_stages(dt);
-  if (take_fused(dt, method.settings.is_implicit())) return;
-  const int parts = explicit_parts(method.settings, state_.progress.limits, dt);
+  solve_ = {};
+  took_explicit_ = false;
+  if (method.settings.is_implicit())
+    take_implicit(dt, max_halvings);
+  else
+    take_fused(dt, false);
+}
+
+/// Where the solve is of no use: two steps of half the length, and in the end explicit ones.
+template <class Real>
+void Engine<Real>::take_implicit(double dt, int halvings) {
+  const bool is_taken = take_fused(dt, true);
+  SolveReport solve = parts_.solver.last_solve();
+  if (!is_taken) solve.residual = 0;
+  solve_.add(solve);
+  if (is_taken) return;
+  if (halvings > 0) {
+    for (int half = 0; half < 2 && !divergence(); ++half) take_implicit(0.5 * dt, halvings - 1);
+    return;
+  }
+  took_explicit_ = true;
+  const int parts = explicit_parts(state_.method.settings, state_.progress.limits, dt);
   for (int part = 0; part < parts && !divergence(); ++part) take_fused(dt / parts, false);
 }
 
@@ -55,6 +82,7 @@ template <class Real>
 void Engine<Real>::take_stages(double dt) {
   StageFields<Real> fields;
   StagedDriver<Real>(state_, parts_, fields, dt).step();
+  solve_ = parts_.solver.last_solve();
   StateLimits& limits = state_.progress.limits;
   const double sound_speed = limits.max_sound_speed;
   check_step(dt);
@@ -145,12 +173,12 @@ void Engine<Real>::advance_frame(const DtChoice& choice, AdvanceReport& report) 
     if (!report.solve) report.solve.emplace();
     report.solve->add(last_solve());
   }
-  // Explicit steps may have taken the place of one.
+  // Shorter steps may have taken the place of one.
   const std::uint64_t steps = progress.steps - steps_before;
   const double dt = steps > 1 ? progress.last_dt : choice.dt;
   report.dt_min = report.steps == 0 ? dt : std::min(report.dt_min, dt);
   report.dt_max = std::max(report.dt_max, dt);
-  const DtLimit limit = steps > 1 ? explicit_limit(settings, progress.limits) : choice.limit;
+  const DtLimit limit = took_explicit_ ? explicit_limit(settings, progress.limits) : choice.limit;
   report.ruled[static_cast<std::size_t>(limit)] += steps;
   report.steps += steps;
   report.seconds += choice.dt;

@@ -1,11 +1,11 @@
 #pragma once
 /// A simulation in one precision: steps, and all that happens between them.
 
-#include "sim/engine/health_watch.h"
 #include "sim/engine/snow_flow.h"
-#include "sim/engine/state.h"
 #include "sim/engine/step.h"
 #include "sim/engine/stepper.h"
+#include "sim/state/health_watch.h"
+#include "sim/state/state.h"
 
 namespace neve::sim::engine {
 
@@ -28,7 +28,7 @@ class Engine final : public Stepper {
   const Progress& progress() const override { return state_.progress; }
   std::vector<std::uint64_t> withheld() const override { return flow_.withheld(); }
   const std::optional<Divergence>& divergence() const override { return watch_.divergence(); }
-  SolveReport last_solve() const override { return parts_.solver.last_solve(); }
+  SolveReport last_solve() const override { return solve_; }
   PhaseSeconds phase_seconds() const override { return parts_.seconds; }
   DtChoice choose_dt(double remaining) const override;
   StepLimits step_limits() const override;
@@ -51,6 +51,7 @@ class Engine final : public Stepper {
 
  private:
   void take_step(double dt);
+  void take_implicit(double dt, int halvings);
   bool take_fused(double dt, bool is_implicit);
   void take_stages(double dt);
   void check_step(double dt);
@@ -61,6 +62,8 @@ class Engine final : public Stepper {
   State<Real> state_;
   StepParts<Real> parts_;
   std::vector<ColliderLoad> loads_;  ///< since advance_to was called
+  SolveReport solve_;                ///< of the last step, if it was semi-implicit
+  bool took_explicit_ = false;       ///< in place of a semi-implicit part of it
   SnowFlow<Real> flow_;
   HealthWatch watch_;
 };

@@ -9,12 +9,21 @@ namespace {
 
 /// Below this the recurrences of the method still fall, and the true residual does not.
 template <class Real>
-constexpr double least_tolerance = sizeof(Real) == 4 ? 1e-6 : 1e-14;
+constexpr double min_tolerance = sizeof(Real) == 4 ? 1e-6 : 1e-14;
 
 /// The solve only takes energy where H is positive definite. Compressed snow can buckle, H is then
 /// indefinite, and at a large dt a velocity may come out many times too large: beyond twice the
 /// length of v_star it is not taken.
 constexpr double max_growth_squared = 4;
+
+/// A solution with a larger residual than this share of the motion is of no use.
+constexpr double max_residual = 0.1;
+
+/// Solutions of a step at most, each with the contacts that the one before asked for, and the share
+/// of the motion that contact may still want to change after one. What is left closes after the
+/// solve: see ParticleContact::settle.
+constexpr int max_rounds = 4;
+constexpr double contact_tolerance = 0.02;
 
 /// Contacts are as stiff as the snow that presses against them can be: in units of 1 / D_p a node's
 /// mass is 1, and the elastic part of the matrix is at most about beta (c dt / h)^2. Stiffer ones
@@ -31,17 +40,17 @@ double contact_stiffness(const SolverSettings& settings, const StateLimits& limi
 /// @param sums  of SolveSweeps::start
 double motion_squared(const std::array<double, kernels::solve_sums>& sums,
                       const SolverSettings& settings, double dt) {
-  constexpr double least_share = 1e-4;
+  constexpr double min_share = 1e-4;
   const double whole = sums[0], mass = sums[4];
   if (!(mass > 0)) return 0;
   const double mean = (sums[1] * sums[1] + sums[2] * sums[2] + sums[3] * sums[3]) / mass;
-  return std::max(whole - mean, least_share * least_share * whole) +
+  return std::max(whole - mean, min_share * min_share * whole) +
          mass * dt * dt * settings.gravity.squaredNorm();
 }
 
 template <class Real>
 double tolerance(const SolverSettings& settings) {
-  return std::max(settings.solve_tolerance, least_tolerance<Real>);
+  return std::max(settings.solve_tolerance, min_tolerance<Real>);
 }
 
 }  // namespace
@@ -119,8 +128,8 @@ kernels::SolveArgs<Real> ImplicitSolver<Real>::solve_args(const State<Real>& sta
 }
 
 template <class Real>
-void ImplicitSolver<Real>::add_work_on_held_nodes(const State<Real>& state,
-                                                  const kernels::SolveArgs<Real>& a) {
+void ImplicitSolver<Real>::book_held_nodes(const State<Real>& state, kernels::SolveArgs<Real>& a,
+                                           const Vec3d& gained) {
   const kernels::SolveSweeps<Real>& s = *state.method.solve_sweeps;
   const Partition& partition = state.particles.partition;
   held_blocks_.clear();
@@ -143,7 +152,46 @@ void ImplicitSolver<Real>::add_work_on_held_nodes(const State<Real>& state,
                        });
   };
   over(reaching_blocks_, s.apply);
+  over(held_blocks_, s.reaction);
+  Sums found{};
+  for (const std::uint32_t n : held_blocks_)
+    for (std::size_t k = 0; k < 4; ++k) found[k] += sums_[n * kernels::solve_sums + k];
+  for (int k = 0; k < 3; ++k)
+    a.per_impulse[k] = static_cast<Real>(
+        found[3] > 0 ? (gained[k] - found[static_cast<std::size_t>(k)]) / found[3] : 0);
   over(held_blocks_, s.react);
+}
+
+/// Where contact asks for other impulses than the solve began with, it is solved again with those.
+template <class Real>
+typename ImplicitSolver<Real>::Motion ImplicitSolver<Real>::find_velocities(
+    const State<Real>& state, kernels::SolveArgs<Real>& a, double dt,
+    ParticleContact<Real>* contact) {
+  const kernels::SolveSweeps<Real>& s = *state.method.solve_sweeps;
+  const auto motion_now = [&](double missing) {
+    const Sums sums = sum_over_nodes(state, s.motion, a);
+    return Motion{std::max(motion_squared(sums, state.method.settings, dt), missing), sums[0]};
+  };
+  last_solve_ = {};
+  const Real hold = a.hold;
+  a.hold = 0;
+  double missing = contact ? contact->look(state, a).missing : 0;
+  a.hold = hold;
+  Motion motion = motion_now(missing);
+  for (int round = 1;; ++round) {
+    const SolveReport solve = conjugate_residuals(state, a, motion.squared, contact);
+    last_solve_.residual = solve.residual;
+    last_solve_.iterations += solve.iterations;
+    if (!contact) break;
+    state.over_node_blocks(s.show, a);
+    missing = contact->look(state, a).missing;
+    if (round == max_rounds || !(missing > contact_tolerance * contact_tolerance * motion.squared))
+      break;
+    contact->renew(state, a);
+    motion = motion_now(0);
+  }
+  last_solve_.all_iterations = static_cast<std::uint64_t>(last_solve_.iterations);
+  return motion;
 }
 
 template <class Real>
@@ -152,32 +200,31 @@ bool ImplicitSolver<Real>::solve(State<Real>& state, const kernels::SweepArgs<Re
   const kernels::SolveSweeps<Real>& s = *state.method.solve_sweeps;
   kernels::SolveArgs<Real> a = solve_args(state, step, dt);
   state.over_particle_blocks(s.keep_elasticity, a);
-  const Sums start = sum_over_nodes(state, s.start, a);
-  const double given = start[0], scale = motion_squared(start, state.method.settings, dt);
-  last_solve_ = conjugate_residuals(state, a, scale, contact);
+  state.over_node_blocks(s.start, a);
+  const Motion motion = find_velocities(state, a, dt, contact);
   const double found = sum_over_nodes(state, s.size, a)[0];
-  // A velocity of zero has a residual of |M^1/2 v_star|. NaN is of no use either.
-  const bool is_useful = last_solve_.residual * last_solve_.residual * scale <= given &&
-                         found <= max_growth_squared * given;
-  // From here on the velocities of the nodes count.
-  a.u = step.nodes;
-  a.u_stride = static_cast<std::size_t>(step.channels) * kernels::block_nodes;
+  const double wanted = tolerance<Real>(state.method.settings);
+  const bool is_useful = last_solve_.residual <= std::max(wanted, max_residual) &&
+                         found <= max_growth_squared * std::max(motion.whole, motion.squared);
   if (!is_useful) {
-    a.hold = 0;
-    if (contact) contact->settle(state, a);
     last_solve_.given_up = 1;
     ++state.progress.warnings.solves_given_up;
     return false;
   }
-  if (last_solve_.residual > tolerance<Real>(state.method.settings)) {
+  if (last_solve_.residual > wanted) {
     last_solve_.cut_short = 1;
     ++state.progress.warnings.solves_cut_short;
   }
-  state.over_node_blocks(s.finish, a);
+  const Vec3d spring = contact ? contact->look(state, a).spring : Vec3d(Vec3d::Zero());
+  const Sums finished = sum_over_nodes(state, s.finish, a);
+  const Vec3d gained(finished[0], finished[1], finished[2]);
+  // From here on the velocities of the nodes count.
+  a.u = step.nodes;
+  a.u_stride = static_cast<std::size_t>(step.channels) * kernels::block_nodes;
   if (contact)
-    contact->settle(state, a);
+    contact->settle(state, a, gained - spring);
   else
-    add_work_on_held_nodes(state, a);
+    book_held_nodes(state, a, gained);
   return true;
 }
 

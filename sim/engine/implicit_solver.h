@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sim/engine/particle_contact.h"
-#include "sim/engine/state.h"
 #include "sim/kernels/implicit.h"
+#include "sim/state/state.h"
 #include "sim/types/reports.h"
 
 namespace neve::sim::engine {
@@ -18,7 +18,7 @@ class ImplicitSolver {
   /// v_star and v_new from v_free on the nodes; the warnings of the state say how often that ended
   /// early. Adds the work of the colliders to that of the nodes.
   /// @param step  of dt, whose nodes have v_free
-  /// @return false: the result is of no use, and the nodes have v_star
+  /// @return false: the result is of no use, the nodes have v_star, and no contact is settled
   /// @param contact  at particles, which has acted for this step; or none
   bool solve(State<Real>& state, const kernels::SweepArgs<Real>& step, double dt,
              ParticleContact<Real>* contact);
@@ -37,8 +37,16 @@ class ImplicitSolver {
                                       const kernels::SweepArgs<Real>& step, double dt);
   SolveReport conjugate_residuals(const State<Real>& state, kernels::SolveArgs<Real>& a,
                                   double scale_squared, ParticleContact<Real>* contact) const;
-  /// The colliders' work on the nodes that they hold, from v_new.
-  void add_work_on_held_nodes(const State<Real>& state, const kernels::SolveArgs<Real>& a);
+  /// J, of v_star: within the snow, see motion_squared, and of all of it.
+  struct Motion {
+    double squared, whole;
+  };
+  /// y of v_new. @return what its residual was measured by
+  Motion find_velocities(const State<Real>& state, kernels::SolveArgs<Real>& a, double dt,
+                         ParticleContact<Real>* contact);
+  /// Loads and work of the colliders on the nodes that they hold, from v_new.
+  /// @param gained  kg m/s that the snow got in the solve
+  void book_held_nodes(const State<Real>& state, kernels::SolveArgs<Real>& a, const Vec3d& gained);
   Sums sum_over_nodes(const State<Real>& state, kernels::SolveSweep<Real> sweep,
                       const kernels::SolveArgs<Real>& a) const;
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/engine/records.h"
 #include "sim/engine/state_reader.h"
 #include "sim/engine/still_grid.h"
+#include "sim/state/records.h"
 
 namespace neve::sim::engine {
 
@@ -59,6 +59,13 @@ std::vector<shapes::Collider> with_offsets(const std::vector<shapes::Collider>& 
         same ? shapes::offset_after(*same, after[k], time) : shapes::PoseOffset{.since = time};
   }
   return colliders;
+}
+
+/// True if numbers of colliders mean the same ones, so that contacts with them stay.
+bool are_the_same(const std::vector<shapes::Collider>& before,
+                  const std::vector<shapes::Collider>& after) {
+  return std::equal(before.begin(), before.end(), after.begin(), after.end(),
+                    [](const auto& a, const auto& b) { return a.name == b.name; });
 }
 
 /// Steps that skip the colliders leave them where they were.
@@ -176,6 +183,8 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
       has_new_accounts ? energy_account(before, progress.energy, found) : EnergyAccount{};
   const double longest_before = longest_step(before, progress.limits);
 
+  if (!settings.is_contact_at_particles() || !are_the_same(state.colliders.list(), colliders))
+    state.particles.contacts.forget();
   state.method = std::move(method);
   state.colliders = std::move(moving);
   progress.colliders_time = colliders_time;

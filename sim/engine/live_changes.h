@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sim/engine/state.h"
+#include "sim/state/state.h"
 
 namespace neve::sim::engine {
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/engine/records.h"
 #include "sim/engine/state_reader.h"
 #include "sim/engine/still_grid.h"
+#include "sim/state/records.h"
 
 namespace neve::sim::engine {
 
@@ -134,6 +134,7 @@ void prepare(State<Real>& state, StartState& start) {
   limits.max_sound_speed = std::sqrt(static_cast<double>(report.max_sound_squared));
   limits.max_strain_rate = static_cast<double>(std::max(report.max_strain_rate, max_strain_rate));
   state.note_near_colliders();
+  state.note_touching(0, count);
   StateLimits at_rest = limits;
   at_rest.max_strain_rate = 0;
   start.max_speed = limits.max_speed;

@@ -1,7 +1,7 @@
 #pragma once
 /// The start of a run: from particles as arrays to a state that a step can be taken from.
 
-#include "sim/engine/state.h"
+#include "sim/state/state.h"
 #include "sim/types/particle_arrays.h"
 #include "sim/types/reports.h"
 

@@ -7,17 +7,22 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// The first goes most of the way, the second sees what it did to the neighbours.
+/// They begin where the last step ended: loads that stay are carried whole, and an impact, a press
+/// and a rebound come out as with a hundred passes, within a percent.
 constexpr int passes = 2;
+/// After a solve: springs gave way, at each particle by another share.
+constexpr int passes_after_solve = 4;
+
+/// ContactArgs::carried. Loads go on in a longer step; what stopped snow in a short one does not.
+constexpr double max_carried = 2;
 
 /// ContactArgs::apart, 1/s. It makes up for what the iteration leaves undone, step by step in the
-/// same direction, and nobody sees it. Springs give way to snow that presses against them, by about
-/// its share of their stiffness. Too little in both cases to make snow bounce.
-constexpr double apart_after_passes = 1, apart_after_solve = 20;
+/// same direction, and nobody sees it: too little to make snow bounce.
+constexpr double apart = 1;
 
-/// ContactArgs::most_touching
+/// ContactArgs::max_touching_gap
 template <class Real>
-double most_touching(const State<Real>& state) {
+double max_touching_gap(const State<Real>& state) {
   const std::vector<Real>& half = state.method.half_spacing;
   const double thinnest = static_cast<double>(*std::max_element(half.begin(), half.end()));
   const double wanted = kernels::touching_share * thinnest *
@@ -37,6 +42,7 @@ void ParticleContact<Real>::make_room(std::size_t particles, const Partition& pa
   near_counts_.resize(blocks);
   counts_.resize(blocks);
   first_.resize(blocks);
+  first_to_keep_.resize(blocks);
   blocks_.reserve(near_counts_.capacity());
   is_reached_.resize(nodes);
   node_blocks_.reserve(is_reached_.capacity());
@@ -46,12 +52,13 @@ void ParticleContact<Real>::make_room(std::size_t particles, const Partition& pa
 
 template <class Real>
 kernels::ContactArgs<Real> ParticleContact<Real>::contact_args(
-    const State<Real>& state, const kernels::SweepArgs<Real>& step) {
+    State<Real>& state, const kernels::SweepArgs<Real>& step) {
+  KeptContacts<Real>& contacts = state.particles.contacts;
   kernels::ContactArgs<Real> a{};
   a.step = step;
   a.poses = step.constants.colliders;
   a.half_spacing = state.method.half_spacing.data();
-  a.most_touching = static_cast<Real>(most_touching(state));
+  a.max_touching_gap = static_cast<Real>(max_touching_gap(state));
   a.kept_min = step.constants.alpha * step.constants.beta_min;
   a.kept_max = step.constants.alpha * step.constants.beta_max;
   a.max_speed = static_cast<Real>(state.progress.limits.max_speed);
@@ -59,6 +66,13 @@ kernels::ContactArgs<Real> ParticleContact<Real>::contact_args(
   a.near_counts = near_counts_.data();
   a.counts = counts_.data();
   a.first = first_.data();
+  a.kept = contacts.data();
+  a.kept_count = contacts.size();
+  a.head = contacts.heads();
+  const double last_dt = state.progress.last_dt;
+  const double longer = last_dt > 0 ? static_cast<double>(step.constants.dt) / last_dt : 1;
+  a.carried = static_cast<Real>(std::min(longer, max_carried));
+  a.first_to_keep = first_to_keep_.data();
   a.nodes = nodes_.data();
   return a;
 }
@@ -72,6 +86,17 @@ std::uint64_t ParticleContact<Real>::place_contacts() {
     most += counts_[b];
   }
   return most;
+}
+
+/// The same for those that are remembered. @return how many contacts there are
+template <class Real>
+std::uint32_t ParticleContact<Real>::place_kept() {
+  std::uint32_t count = 0;
+  for (const std::uint32_t b : blocks_) {
+    first_to_keep_[b] = count;
+    count += counts_[b];
+  }
+  return count;
 }
 
 template <class Real>
@@ -101,34 +126,47 @@ void ParticleContact<Real>::over(const std::vector<std::uint32_t>& blocks, Sweep
 }
 
 template <class Real>
-void ParticleContact<Real>::act(const State<Real>& state, const kernels::SweepArgs<Real>& step,
+void ParticleContact<Real>::act(State<Real>& state, const kernels::SweepArgs<Real>& step,
                                 bool is_before_solve) {
+  KeptContacts<Real>& kept = state.particles.contacts;
   blocks_.clear();
-  if (step.constants.collider_count == 0) return;
+  if (step.constants.collider_count == 0) return kept.keep_none();
   const Partition& partition = state.particles.partition;
   const kernels::ContactSweeps<Real>& sweeps = *state.method.contact_sweeps;
   make_room(step.particle_count, partition);
+  kept.resize(step.particle_count);
+  kept.reserve(step.particle_count / 8);
   kernels::ContactArgs<Real>& a = args_ = contact_args(state, step);
   a.is_before_solve = is_before_solve;
-  a.apart = is_before_solve ? Real(apart_after_solve) : Real(apart_after_passes);
+  a.apart = Real(apart);
   state.over_particle_blocks(sweeps.find, a);
   const std::uint64_t most = place_contacts();
-  if (most == 0) return;
+  if (most == 0) return kept.keep_none();
   if (contacts_.size() < most) contacts_.resize(2 * most);
   a.contacts = contacts_.data();
   list_blocks();
   a.blocks = blocks_.data();
   over(blocks_, sweeps.start, state);
   list_blocks();
-  if (blocks_.empty()) return;
+  if (blocks_.empty()) return kept.keep_none();
+  const std::uint32_t count = place_kept();
   list_node_blocks(partition);
   a.node_blocks = node_blocks_.data();
   over(node_blocks_, sweeps.weigh, state);
-  for (int pass = 1; pass <= passes; ++pass) {
-    a.is_last = pass == passes;
-    over(blocks_, sweeps.press, state);
-    over(node_blocks_, sweeps.yield, state);
+  kept_count_ = count;
+  if (is_before_solve) return over(blocks_, sweeps.rows, state);
+  for (int k = 1; k <= passes; ++k) {
+    a.is_last = k == passes;
+    // What was remembered has been read.
+    if (a.is_last) a.keep = kept.room_for(count);
+    pass(state);
   }
+}
+
+template <class Real>
+void ParticleContact<Real>::pass(const State<Real>& state) {
+  over(blocks_, state.method.contact_sweeps->press, state);
+  over(node_blocks_, state.method.contact_sweeps->yield, state);
 }
 
 template <class Real>
@@ -149,9 +187,75 @@ void ParticleContact<Real>::hold(const State<Real>& state, const kernels::SolveA
 }
 
 template <class Real>
-void ParticleContact<Real>::settle(const State<Real>& state,
-                                   const kernels::SolveArgs<Real>& solve) {
+typename ParticleContact<Real>::Solution ParticleContact<Real>::look(
+    const State<Real>& state, const kernels::SolveArgs<Real>& solve) {
+  sums_.resize(kernels::contact_sums * blocks_.size());
+  args_.sums = sums_.data();
+  over_springs(state.method.contact_sweeps->measure, state, solve, true);
+  // One after the other: the same bits at any number of threads.
+  Solution solution;
+  for (std::size_t k = 0; k < sums_.size(); k += kernels::contact_sums) {
+    solution.missing += sums_[k];
+    solution.spring += Vec3d::Map(&sums_[k + 1]);
+  }
+  return solution;
+}
+
+template <class Real>
+void ParticleContact<Real>::renew(const State<Real>& state, const kernels::SolveArgs<Real>& solve) {
+  const kernels::ContactSweeps<Real>& sweeps = *state.method.contact_sweeps;
+  over_springs(sweeps.renew, state, solve, true);
+  args_.is_last = true;
+  over(node_blocks_, sweeps.take, state);
+  over(node_blocks_, sweeps.yield, state);
+}
+
+template <class Real>
+void ParticleContact<Real>::settle(State<Real>& state, const kernels::SolveArgs<Real>& solve,
+                                   const Vec3d& unexplained) {
+  if (blocks_.empty()) return;
   over_springs(state.method.contact_sweeps->settle, state, solve, true);
+  args_.only_closes = true;
+  pass_again(state);
+  share(unexplained);
+  book(state);
+}
+
+/// What the springs do not explain, by the impulse of each contact; without any, in equal parts.
+template <class Real>
+void ParticleContact<Real>::share(const Vec3d& unexplained) {
+  double pressed = 0;
+  std::size_t count = 0;
+  for (const std::uint32_t b : blocks_)
+    for (std::uint32_t k = 0; k < counts_[b]; ++k, ++count)
+      pressed += std::abs(static_cast<double>(contacts_[first_[b] + k].impulse));
+  for (int x = 0; x < 3; ++x) {
+    args_.per_impulse[x] = pressed > 0 ? static_cast<Real>(unexplained[x] / pressed) : Real(0);
+    args_.per_contact[x] =
+        pressed > 0 ? Real(0) : static_cast<Real>(unexplained[x] / static_cast<double>(count));
+  }
+}
+
+template <class Real>
+void ParticleContact<Real>::pass_again(const State<Real>& state) {
+  over(node_blocks_, state.method.contact_sweeps->take, state);
+  for (int k = 1; k <= passes_after_solve; ++k) {
+    args_.is_last = k == passes_after_solve;
+    pass(state);
+  }
+}
+
+template <class Real>
+void ParticleContact<Real>::settle_without(State<Real>& state) {
+  if (blocks_.empty()) return;
+  pass_again(state);
+  book(state);
+}
+
+template <class Real>
+void ParticleContact<Real>::book(State<Real>& state) {
+  args_.keep = state.particles.contacts.room_for(kept_count_);
+  over(blocks_, state.method.contact_sweeps->book, state);
 }
 
 template <class Real>
@@ -159,7 +263,8 @@ std::size_t ParticleContact<Real>::memory_bytes() const {
   return sizeof(std::uint32_t) *
              (candidates_.capacity() + near_counts_.capacity() + counts_.capacity() +
               blocks_.capacity() + node_blocks_.capacity()) +
-         sizeof(std::uint64_t) * first_.capacity() + is_reached_.capacity() +
+         sizeof(std::uint64_t) * first_.capacity() + 4 * first_to_keep_.capacity() +
+         8 * sums_.capacity() + is_reached_.capacity() +
          sizeof(kernels::Contact<Real>) * contacts_.capacity() +
          sizeof(kernels::ContactNodes<Real>) * nodes_.capacity();
 }

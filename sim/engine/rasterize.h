@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sim/engine/state.h"
+#include "sim/state/state.h"
 #include "sim/types/grid_fields.h"
 
 namespace neve::sim::engine {

@@ -6,8 +6,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "sim/engine/state.h"
 #include "sim/seeding/flow.h"
+#include "sim/state/state.h"
 
 namespace neve::sim::engine {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "sim/engine/records.h"
 #include "sim/health/limits.h"
+#include "sim/state/records.h"
 #include "sim/types/errors.h"
 #include "sim/types/number_text.h"
 #include "sim/types/time_step.h"
@@ -70,6 +70,17 @@ void require_place(const kernels::Particle<Real>& p, const Method<Real>& method,
   const unsigned flags = static_cast<unsigned>(p.flags()) & kernels::needs_volume;
   if (p.kind != kernels::kind_of<Real>(static_cast<std::uint16_t>(material), model, flags))
     refuse_number("a particle with flags", std::to_string(p.flags()), "0 or 1");
+}
+
+template <class Real>
+void require_place(const kernels::KeptContact<Real>& contact, std::size_t particles,
+                   std::size_t colliders) {
+  if (contact.particle >= particles)
+    refuse_number("a contact of particle", std::to_string(contact.particle),
+                  "one of " + std::to_string(particles) + " particles");
+  if (contact.collider < 0 || static_cast<std::size_t>(contact.collider) >= colliders)
+    refuse_number("a contact with collider", std::to_string(contact.collider),
+                  "one of " + std::to_string(colliders) + " colliders");
 }
 
 // ---- numbers of healthy runs --------------------------------------------------------------------
@@ -161,7 +172,14 @@ void require_healthy_offset(const shapes::PoseOffset& offset) {
   for (const double moved : offset.moved) require_finite("a collider with moved", moved);
   const Mat3d gram = offset.turned.transpose() * offset.turned;
   if (!(gram - Mat3d::Identity()).isZero(1e-6) || !(offset.turned.determinant() > 0))
-    throw SavedStateError("the saved state has a collider that is turned by no rotation");
+    throw SavedStateError("the orientation of a collider in the saved state is not a rotation");
+}
+
+template <class Real>
+void require_healthy_contact(const kernels::KeptContact<Real>& contact) {
+  if (!std::isfinite(contact.impulse) || !are_finite(contact.sliding))
+    throw SavedStateError("the saved state has a contact whose impulse is not finite");
+  require_not_negative("a contact with touches", static_cast<double>(contact.touches));
 }
 
 void require_healthy_emitter(const seeding::EmitterStream::State& emitter, double time) {
@@ -187,6 +205,8 @@ void require_consistent(const SavedNumbers<Real>& saved, const Method<Real>& met
     ids.push_back(static_cast<std::uint32_t>(p.id));
   }
   require_once(std::move(ids));
+  for (const kernels::KeptContact<Real>& contact : saved.contacts)
+    require_place(contact, saved.records.size(), saved.offsets.size());
 }
 
 template <class Real>
@@ -197,6 +217,7 @@ void require_healthy(const SavedNumbers<Real>& saved, const Method<Real>& method
   require_healthy_counters(saved.progress);
   for (const kernels::Particle<Real>& p : saved.records) require_healthy_particle(p);
   for (const shapes::PoseOffset& offset : saved.offsets) require_healthy_offset(offset);
+  for (const kernels::KeptContact<Real>& contact : saved.contacts) require_healthy_contact(contact);
   for (const seeding::EmitterStream::State& emitter : saved.emitters)
     require_healthy_emitter(emitter, saved.progress.time);
 }

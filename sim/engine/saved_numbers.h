@@ -3,11 +3,12 @@
 
 #include <vector>
 
-#include "sim/engine/method.h"
-#include "sim/engine/progress.h"
+#include "sim/kernels/particle_contact.h"
 #include "sim/kernels/particles.h"
 #include "sim/seeding/flow.h"
 #include "sim/shapes/collider.h"
+#include "sim/state/method.h"
+#include "sim/state/progress.h"
 
 namespace neve::sim::engine {
 
@@ -17,6 +18,7 @@ struct SavedNumbers {
   std::vector<kernels::Particle<Real>> records;
   std::vector<shapes::PoseOffset> offsets;  ///< of colliders
   std::vector<seeding::EmitterStream::State> emitters;
+  std::vector<kernels::KeptContact<Real>> contacts;
 };
 
 /// Refuses numbers that would be used as places in memory: of cells, materials, models, ids.

@@ -12,21 +12,51 @@ namespace neve::sim::engine {
 namespace {
 
 /// The last sign is the version of the layout.
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'D'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'E'};
 
 /// At the beginning: it says what follows. Then come Progress, the records, the offsets of the
-/// colliders and the emitters.
+/// colliders, the emitters and the contacts.
 struct SavedHead {
   char magic[8];
   std::uint32_t bytes_per_number, bytes_per_record;
   std::uint64_t particles, colliders, emitters;
-  std::int32_t lattice_origin[3], unused;
+  std::int32_t lattice_origin[3];
+  std::uint32_t contacts;
 };
 static_assert(std::has_unique_object_representations_v<SavedHead>);
 
 struct SavedOffset {
   double since, moved[3], turned[9], delay;
 };
+
+/// KeptContact, without the order that they are read in.
+struct SavedContact {
+  double impulse, sliding[3], touches;
+  std::uint32_t particle;
+  std::int32_t collider;
+};
+
+template <class Real>
+SavedContact saved(const kernels::KeptContact<Real>& contact) {
+  SavedContact out{};
+  out.impulse = static_cast<double>(contact.impulse);
+  for (int a = 0; a < 3; ++a) out.sliding[a] = static_cast<double>(contact.sliding[a]);
+  out.touches = static_cast<double>(contact.touches);
+  out.particle = contact.particle;
+  out.collider = contact.collider;
+  return out;
+}
+
+template <class Real>
+kernels::KeptContact<Real> restored(const SavedContact& in) {
+  kernels::KeptContact<Real> out{};
+  out.impulse = static_cast<Real>(in.impulse);
+  for (int a = 0; a < 3; ++a) out.sliding[a] = static_cast<Real>(in.sliding[a]);
+  out.touches = static_cast<Real>(in.touches);
+  out.particle = in.particle;
+  out.collider = in.collider;
+  return out;
+}
 
 SavedOffset saved(const shapes::PoseOffset& offset) {
   SavedOffset out{};
@@ -56,7 +86,7 @@ std::size_t bytes_in(const std::vector<T>& list) {
 }
 
 template <class Real>
-SavedHead head_of(const State<Real>& state, std::size_t emitters) {
+SavedHead head_of(const State<Real>& state, std::size_t emitters, std::size_t contacts) {
   SavedHead head{};
   std::memcpy(head.magic, magic, sizeof magic);
   head.bytes_per_number = sizeof(Real);
@@ -64,11 +94,12 @@ SavedHead head_of(const State<Real>& state, std::size_t emitters) {
   head.particles = state.particles.size();
   head.colliders = state.colliders.list().size();
   head.emitters = emitters;
+  head.contacts = static_cast<std::uint32_t>(contacts);
   for (int a = 0; a < 3; ++a) head.lattice_origin[a] = state.method.lattice.origin[a];
   return head;
 }
 
-/// Compares everything but the number of particles.
+/// Compares everything but the numbers of particles and contacts.
 void require_same(const SavedHead& found, const SavedHead& expected) {
   if (found.bytes_per_number != expected.bytes_per_number)
     refuse_saved("has a different precision");
@@ -94,19 +125,22 @@ SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<R
   if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse_saved("is from another version");
   SavedNumbers<Real> saved;
   saved.emitters = flow.emitter_states();
-  require_same(head, head_of(state, saved.emitters.size()));
+  require_same(head, head_of(state, saved.emitters.size(), head.contacts));
   std::vector<SavedOffset> offsets(state.colliders.list().size());
   if (head.particles > bytes.size() / sizeof(kernels::Particle<Real>) ||
       bytes.size() != sizeof head + sizeof saved.progress +
                           head.particles * sizeof(kernels::Particle<Real>) + bytes_in(offsets) +
-                          bytes_in(saved.emitters))
+                          bytes_in(saved.emitters) + head.contacts * sizeof(SavedContact))
     refuse_saved("has a different length than it says");
   take(&saved.progress, sizeof saved.progress);
   saved.records.resize(head.particles);
   take(saved.records.data(), bytes_in(saved.records));
   take(offsets.data(), bytes_in(offsets));
   take(saved.emitters.data(), bytes_in(saved.emitters));
+  std::vector<SavedContact> contacts(head.contacts);
+  take(contacts.data(), bytes_in(contacts));
   for (const SavedOffset& offset : offsets) saved.offsets.push_back(restored(offset));
+  for (const SavedContact& contact : contacts) saved.contacts.push_back(restored<Real>(contact));
   return saved;
 }
 
@@ -120,9 +154,12 @@ std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& f
   for (const shapes::Collider& collider : state.colliders.list())
     offsets.push_back(saved(collider.pose_offset));
   const std::vector<seeding::EmitterStream::State> emitters = flow.emitter_states();
-  const SavedHead head = head_of(state, emitters.size());
+  std::vector<SavedContact> contacts;
+  for (const kernels::KeptContact<Real>& contact : state.particles.contacts.list())
+    contacts.push_back(saved(contact));
+  const SavedHead head = head_of(state, emitters.size(), contacts.size());
   std::vector<std::uint8_t> bytes(sizeof head + sizeof state.progress + bytes_in(records) +
-                                  bytes_in(offsets) + bytes_in(emitters));
+                                  bytes_in(offsets) + bytes_in(emitters) + bytes_in(contacts));
   std::uint8_t* next = bytes.data();
   const auto put = [&](const void* data, std::size_t size) {
     if (size > 0) std::memcpy(next, data, size);
@@ -133,6 +170,7 @@ std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& f
   put(records.data(), bytes_in(records));
   put(offsets.data(), bytes_in(offsets));
   put(emitters.data(), bytes_in(emitters));
+  put(contacts.data(), bytes_in(contacts));
   return bytes;
 }
 
@@ -146,6 +184,7 @@ void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<R
   state.colliders.place(state.method.lattice, saved.progress.colliders_time, *state.pool);
   flow.restore(saved.emitters);
   state.particles.replace(saved.records);
+  state.particles.contacts.replace(saved.contacts, saved.records.size());
   if (saved.records.empty()) return;
   // Keys come from a sweep that also computes the stress, perhaps with another last bit: the
   // records go back as they were.

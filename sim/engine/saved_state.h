@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/engine/snow_flow.h"
-#include "sim/engine/state.h"
+#include "sim/state/state.h"
 
 namespace neve::sim::engine {
 

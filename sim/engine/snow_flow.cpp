@@ -7,8 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "sim/engine/records.h"
 #include "sim/engine/room.h"
+#include "sim/state/records.h"
 
 namespace neve::sim::engine {
 
@@ -152,6 +152,7 @@ void SnowFlow<Real>::emit(State<Real>& state, StartState& start) {
   state.particles.resize(after);
   const kernels::BlockReport<Real> report = state.refresh(before, after);
   if (report.overflowed > 0) throw std::invalid_argument("an emitter is outside the lattice");
+  state.note_touching(before, after);
   include_limits(report, state, start);
 }
 
@@ -197,7 +198,7 @@ void SnowFlow<Real>::remove_in_sinks(State<Real>& state) const {
     particles.remove(q);
   }
   progress.flow.removed += gone.size();
-  particles.partition.forget();
+  particles.partition.invalidate();
 }
 
 template <class Real>

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/engine/state.h"
 #include "sim/seeding/flow.h"
 #include "sim/shapes/solid.h"
+#include "sim/state/state.h"
 
 namespace neve::sim::engine {
 

@@ -1,8 +1,8 @@
 #include "sim/engine/staged_step.h"
 
-#include "sim/engine/records.h"
 #include "sim/engine/state_reader.h"
 #include "sim/engine/step.h"
+#include "sim/state/records.h"
 
 namespace neve::sim::engine {
 
@@ -62,6 +62,7 @@ StagedStep staged_step(State<Real> copy, double dt) {
   StagedDriver<Real>(copy, parts, fields, dt).step();
   out.nodes = node_fields(copy, fields);
   read_particle_fields(copy, fields, out);
+  out.own_taken = fields.own_taken;
   const StateReader<Real> reader(copy);
   out.after = reader.particles();
   copy.grid.add_loads(copy.method.load_unit, out.loads);

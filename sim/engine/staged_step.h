@@ -1,7 +1,7 @@
 #pragma once
 /// A step by the staged driver for people to read: every field in SI units.
 
-#include "sim/engine/state.h"
+#include "sim/state/state.h"
 #include "sim/types/grid_fields.h"
 
 namespace neve::sim::engine {

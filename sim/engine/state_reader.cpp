@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t chunk = 4096;
 
 /// With more ids, most are of particles that left: no list has a place for each.
-constexpr std::uint64_t most_ids_per_particle = 16;
+constexpr std::uint64_t max_ids_per_particle = 16;
 
 constexpr std::size_t chunks_of(std::size_t count) {
   return (count + chunk - 1) / chunk;
@@ -44,7 +44,7 @@ Ranks StateReader<Real>::ranks() const {
   const std::uint64_t ids = state_.progress.next_id;
   // Ids grow: where none is left out they are ranks themselves.
   if (ids == state_.particles.size()) return {};
-  if (ids / most_ids_per_particle > state_.particles.size()) return ranks_among_few();
+  if (ids / max_ids_per_particle > state_.particles.size()) return ranks_among_few();
   std::vector<std::uint32_t> rank(ids, 0);
   for (const kernels::Particle<Real>& p : state_.particles.records)
     rank[static_cast<std::size_t>(p.id)] = 1;

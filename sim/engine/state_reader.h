@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/engine/state.h"
 #include "sim/kernels/contact.h"
+#include "sim/state/state.h"
 #include "sim/types/particle_arrays.h"
 #include "sim/types/reports.h"
 

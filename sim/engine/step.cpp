@@ -66,6 +66,7 @@ void StagedDriver<Real>::sort_particles() {
   a_.F_trial = fields_.F_trial.data();
   a_.v_before_collision = fields_.v_before_collision.data();
   a_.carrier = fields_.carrier.data();
+  fields_.momentum = momentum();
 }
 
 /// Skipped, it leaves a grid without mass.
@@ -107,6 +108,7 @@ void StagedDriver<Real>::collide_grid() {
   const auto keep_v_free = [&] {
     each_node([](auto& nodes, int n) { nodes.v_star[n] = nodes.v_free[n]; });
     clear_node_contact_work();
+    state_.particles.contacts.keep_none();
   };
   const auto collide = [&] {
     if (state_.method.settings.is_contact_at_particles())
@@ -133,7 +135,8 @@ void StagedDriver<Real>::solve_velocities() {
   const auto solve = [&] {
     if (!settings.is_implicit()) return keep_v_star();
     if (has_channels) {
-      parts_.solver.solve(state_, without_colliders(a_), dt_, &parts_.contact);
+      if (!parts_.solver.solve(state_, without_colliders(a_), dt_, &parts_.contact))
+        parts_.contact.settle_without(state_);
     } else {
       write_velocities(&kernels::StagedNodes<Real>::v_free);
       clear_node_contact_work();
@@ -162,6 +165,7 @@ void StagedDriver<Real>::update_deformation() {
 
 template <class Real>
 void StagedDriver<Real>::update_particle_velocities() {
+  fields_.own_taken = static_cast<double>(a_.constants.alpha) * (fields_.momentum - momentum());
   stage(Stage::particle_velocities,
         [&] { over_particle_blocks(state_.method.sweeps->particle_velocities); });
 }
@@ -290,6 +294,14 @@ void StagedDriver<Real>::read_velocities(NodeVelocities field) {
   const std::size_t nodes_per_block = kernels::all_channels * kernels::block_nodes;
   for (std::size_t b = 0; b < fields_.nodes.size(); ++b)
     std::copy_n(a_.nodes + b * nodes_per_block, kernels::block_nodes, fields_.nodes[b].*field);
+}
+
+template <class Real>
+Vec3d StagedDriver<Real>::momentum() const {
+  Vec3d sum = Vec3d::Zero();
+  for (const kernels::Particle<Real>& p : state_.particles.records)
+    for (int x = 0; x < 3; ++x) sum[x] += static_cast<double>(p.m) * static_cast<double>(p.v[x]);
+  return sum;
 }
 
 template <class Real>

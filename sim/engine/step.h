@@ -7,7 +7,7 @@
 
 #include "sim/engine/implicit_solver.h"
 #include "sim/engine/particle_contact.h"
-#include "sim/engine/state.h"
+#include "sim/state/state.h"
 #include "sim/types/reports.h"
 #include "sim/types/stage.h"
 
@@ -63,6 +63,8 @@ struct StageFields {
   std::vector<kernels::Gathered<Real>> gathered;     ///< per record, like those below
   std::vector<Real> F_trial, v_before_collision;     ///< 9 and 3 numbers
   std::vector<Real> carrier;                         ///< 3 numbers, see SweepArgs
+  Vec3d momentum = Vec3d::Zero();                    ///< kg m/s, of the particles at the start
+  Vec3d own_taken = Vec3d::Zero();                   ///< see StagedStep
   std::array<double, stage_names.size()> seconds{};  ///< see StagedStep
 };
 
@@ -106,6 +108,7 @@ class StagedDriver {
   void read_velocities(NodeVelocities field);
   void over_particle_blocks(kernels::Sweep<Real> sweep) { state_.over_particle_blocks(sweep, a_); }
   void over_node_blocks(kernels::Sweep<Real> sweep) { state_.over_node_blocks(sweep, a_); }
+  Vec3d momentum() const;
   void clear_node_contact_work();
   void rest_light_nodes();
   void deform();

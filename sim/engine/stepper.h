@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/engine/progress.h"
 #include "sim/shapes/collider.h"
+#include "sim/state/progress.h"
 #include "sim/types/energy_account.h"
 #include "sim/types/grid_fields.h"
 #include "sim/types/material.h"

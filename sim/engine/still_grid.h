@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "sim/engine/state.h"
 #include "sim/kernels/kernels.h"
+#include "sim/state/state.h"
 
 namespace neve::sim::engine {
 

@@ -111,7 +111,7 @@ std::string what(const Divergence& d, double acoustic_cfl) {
 }  // namespace
 
 double hardening_factor(const Material& material, double J_P) {
-  return std::clamp(std::exp(material.hardening * (1 - J_P)), kernels::least_hardening,
+  return std::clamp(std::exp(material.hardening * (1 - J_P)), kernels::min_hardening,
                     material.max_hardening);
 }
 

@@ -2,7 +2,7 @@
 /// Stress and plastic projection of particles of one model, in lanes.
 ///
 /// All models take mu = mu0 e^(xi (1 - J_P)) and lambda likewise (the paper, equation 2), with the
-/// factor held between least_hardening and the material's max_hardening. Stress is the Kirchhoff
+/// factor held between min_hardening and the material's max_hardening. Stress is the Kirchhoff
 /// stress tau = P F_E^T: the force of a particle is -V0 tau grad_w, J cancels.
 
 #include "sim/kernels/decompose.h"
@@ -14,7 +14,7 @@ namespace neve::sim::kernels {
 /// Torn snow is at least this stiff, relative to snow at rest. Its forces are far below the
 /// rounding of its weight, but no product of them is so small that processors slow down
 /// (denormals).
-inline constexpr double least_hardening = 1e-12;
+inline constexpr double min_hardening = 1e-12;
 
 /// No bound on a number, in float and in double.
 inline constexpr double no_bound = 3e38;
@@ -73,7 +73,7 @@ struct MaterialLanes {
   NEVE_INLINE void harden(V& mu, V& lambda) {
     const V grown = exponential_lanes(word[word_xi] * (Real(1) - J_P()));
     const V hardening =
-        smaller_lanes(larger_lanes(grown, all<V>(Real(least_hardening))), word[word_max_hardening]);
+        smaller_lanes(larger_lanes(grown, all<V>(Real(min_hardening))), word[word_max_hardening]);
     mu = hardening * word[word_mu];
     lambda = hardening * word[word_lambda];
   }

@@ -228,7 +228,7 @@ template <class V>
 NEVE_INLINE SignedSvd<V> signed_svd_lanes(const V* F) {
   using Real = ElementOf<V>;
   constexpr Real tolerance = sizeof(Real) == 4 ? Real(4e-7) : Real(4e-16);
-  constexpr int most_sweeps = 12;
+  constexpr int max_sweeps = 12;
   const V zero{}, one = all<V>(1);
   // F is scaled to a largest entry of 1, so that no square underflows or overflows.
   V scale = zero;
@@ -241,7 +241,7 @@ NEVE_INLINE SignedSvd<V> signed_svd_lanes(const V* F) {
       row[i].u[a] = i == a ? one : zero;
     }
   const V limit = all<V>(tolerance * tolerance);
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
     MaskOf<V> has_turned = make_orthogonal(row[0], row[1], limit);
     has_turned |= make_orthogonal(row[0], row[2], limit);
     has_turned |= make_orthogonal(row[1], row[2], limit);

@@ -38,6 +38,7 @@ struct SolveArgs {
   Real beta_dt_squared;    ///< s2
   Real along, turn;        ///< the step's length and the share of the last direction
   Real hold;               ///< stiffness of contacts at particles, see particle_contact.h
+  Real per_impulse[3];     ///< `react`: momentum that nothing held gave, per impulse of what did
   bool collides;           ///< nodes meet colliders again
   Quad<Real>* elasticity;  ///< per sorted position
   Quad<Real>* vectors;     ///< per node block: solve_vectors x 64
@@ -54,14 +55,18 @@ using SolveSweep = void (*)(const SolveArgs<Real>&, std::uint32_t begin, std::ui
 template <class Real>
 struct SolveSweeps {
   SolveSweep<Real> keep_elasticity, apply;
-  /// v_star and what is held, y = P M^1/2 v_star; sums m v_star^2, m v_star (three), m
-  SolveSweep<Real> start;
-  SolveSweep<Real> residual;  ///< r, of the first y; sums r^2
+  SolveSweep<Real> start;     ///< v_star and what is held, y = P M^1/2 v_star
+  SolveSweep<Real> motion;    ///< sums m v_star^2, m v_star (three), m
+  SolveSweep<Real> show;      ///< u, of y: the velocities that it stands for
+  SolveSweep<Real> residual;  ///< r, of y and its u; sums r^2
   SolveSweep<Real> image;     ///< P A r; sums r . A r, (A r)^2, A r . A q
   SolveSweep<Real> advance;   ///< q = r + turn q, y += along q, r -= along A q; sums r^2
   SolveSweep<Real> size;      ///< sums y^2; no number where a velocity is none
-  SolveSweep<Real> finish;    ///< v_new, collisions if asked for, and the change for FLIP
-  SolveSweep<Real> react;     ///< from H v_new: the work of what holds the nodes
+  SolveSweep<Real> finish;    ///< v_new, collisions if asked for, and the change for FLIP; sums
+                              ///< m (v_new - v_star), three
+  // From H v_new, over blocks that have held nodes:
+  SolveSweep<Real> reaction;  ///< sums impulses of what holds the nodes (three), and their sizes
+  SolveSweep<Real> react;     ///< loads and work of these impulses
 };
 
 /// The sweeps of an instruction set. MLS has its own gradient, the others share one.

@@ -154,21 +154,33 @@ struct SolveSweepsFor {
       collide_and_hold(a, b, v_star, held);
       Quad<Real>*y = vector(a, b, solve_y), *u = vector(a, b, solve_u);
       Quad<Real>*q = vector(a, b, solve_q), *Aq = vector(a, b, solve_Aq);
+      for (int n = 0; n < block_nodes; ++n) {
+        const Real root = root_mass(v_star[n]);
+        y[n] = free_part(held[n], with_fourth(v_star[n] * root, 0));
+        u[n] = with_fourth(v_star[n], root > Real(0) ? Real(1) / root : Real(0));
+        q[n] = Aq[n] = Quad<Real>{};
+      }
+      set_velocities<Set>(a.step, b, v_star);
+    }
+  }
+
+  NEVE_INLINE static Real root_mass(const Quad<Real>& v) {
+    return v[3] > Real(0) ? square_root(v[3]) : Real(0);
+  }
+
+  static void motion(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      const Quad<Real>* v_star = nodes_of(a.step, b, channel_v_new);
       Products squares{}, momentum{};
       for (int n = 0; n < block_nodes; ++n) {
-        const Real mass = v_star[n][3];
-        const Real root = mass > Real(0) ? square_root(mass) : Real(0);
+        const Real root = root_mass(v_star[n]);
         const Quad<Real> whole = with_fourth(v_star[n] * root, 0);
-        y[n] = free_part(held[n], whole);
-        u[n] = with_fourth(v_star[n], mass > Real(0) ? Real(1) / root : Real(0));
-        q[n] = Aq[n] = Quad<Real>{};
         squares += product(whole, whole);
         momentum += product(with_fourth(whole, root), with_fourth(Quad<Real>{} + root, root));
       }
       double* sums = sums_of(a, b);
       sums[0] = total(squares);
       for (int k = 0; k < 4; ++k) sums[1 + k] = momentum[k];
-      set_velocities<Set>(a.step, b, v_star);
     }
   }
 
@@ -203,15 +215,26 @@ struct SolveSweepsFor {
       change[n] = with_fourth(change[n] * (a.beta_dt_squared * u[n][3]), 0);
   }
 
-  /// Takes y = P M^1/2 v_star and u = v_star.
+  /// Nodes without mass stay at rest.
+  static void show(const Args& a, Index begin, Index end) {
+    for (Index b = begin; b < end; ++b) {
+      const Quad<Real>* y = vector(a, b, solve_y);
+      Quad<Real>* u = vector(a, b, solve_u);
+      for (int n = 0; n < block_nodes; ++n) u[n] = with_fourth(y[n] * u[n][3], u[n][3]);
+    }
+  }
+
   static void residual(const Args& a, Index begin, Index end) {
     Quad<Real> change[block_nodes];
     for (Index b = begin; b < end; ++b) {
       Quad<Real>*r = vector(a, b, solve_r), *u = vector(a, b, solve_u);
-      const Quad<Real>* held = vector(a, b, solve_held);
+      const Quad<Real>*held = vector(a, b, solve_held), *y = vector(a, b, solve_y);
+      const Quad<Real>* v_star = nodes_of(a.step, b, channel_v_new);
       collect_change(a, b, u, change);
       each_node(a, b, [&](int n, Products& sum) {
-        r[n] = -free_part(held[n], change[n]);
+        const Quad<Real> whole = with_fourth(v_star[n] * root_mass(v_star[n]), 0);
+        const Quad<Real> wanted = free_part(held[n], whole);
+        r[n] = (wanted - y[n]) - free_part(held[n], change[n]);
         u[n] = with_fourth(r[n] * u[n][3], u[n][3]);
         sum += product(r[n], r[n]);
       });
@@ -274,10 +297,13 @@ struct SolveSweepsFor {
       const Quad<Real>*y = vector(a, b, solve_y), *u = vector(a, b, solve_u);
       const Quad<Real>*held = vector(a, b, solve_held),
             *v_star = nodes_of(a.step, b, channel_v_new);
+      Products gained{};
       for (int n = 0; n < block_nodes; ++n) {
         const Quad<Real> v_held = v_star[n] - free_part(held[n], v_star[n]);
         v[n] = with_fourth(v_held + y[n] * u[n][3], v_star[n][3]);
+        gained += product(v[n] - v_star[n], Quad<Real>{} + v_star[n][3]);
       }
+      for (int k = 0; k < 3; ++k) sums_of(a, b)[k] = gained[k];
       double work = 0;
       if (a.collides) {
         NearColliders<Real> near;
@@ -291,25 +317,48 @@ struct SolveSweepsFor {
     }
   }
 
-  /// Held directions keep their momentum in the solve: what acts there is beta dt^2 H v_new. It is
-  /// the doing of the collider that the node is deepest in.
-  static void react(const Args& a, Index begin, Index end) {
+  /// Held directions keep their momentum in the solve: what acts there is beta dt^2 H v_new.
+  /// body(n, impulse, size) for the held nodes of a block, from the tiles.
+  template <class Body>
+  NEVE_INLINE static void each_reaction(const Args& a, Index block, const Body& body) {
     Quad<Real> force[block_nodes];
+    collect<Real, K, Set>(a.step, block, 0, force);
+    const Quad<Real>*held = vector(a, block, solve_held),
+          *v_new = nodes_of(a.step, block, channel_v_new);
+    for (int n = 0; n < block_nodes; ++n) {
+      if (!(v_new[n][3] > Real(0)) || held[n][3] == Real(0)) continue;
+      const Quad<Real> impulse = with_fourth(force[n] * a.beta_dt_squared, 0);
+      const Quad<Real> on_held = impulse - free_part(held[n], impulse);
+      const Quad<Real> squares = on_held * on_held;
+      body(n, on_held, square_root(squares[0] + squares[1] + squares[2]));
+    }
+  }
+
+  static void reaction(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b) {
-      collect<Real, K, Set>(a.step, b, 0, force);
-      const Quad<Real>*held = vector(a, b, solve_held), *v_new = nodes_of(a.step, b, channel_v_new);
+      double* sums = sums_of(a, b);
+      for (int k = 0; k < 4; ++k) sums[k] = 0;
+      each_reaction(a, b, [&](int, const Quad<Real>& impulse, Real size) NEVE_INLINE_BODY {
+        for (int k = 0; k < 3; ++k) sums[k] += static_cast<double>(impulse[k]);
+        sums[3] += static_cast<double>(size);
+      });
+    }
+  }
+
+  /// It is the doing of the collider that the node is deepest in.
+  static void react(const Args& a, Index begin, Index end) {
+    const Quad<Real> more{a.per_impulse[0], a.per_impulse[1], a.per_impulse[2], Real(0)};
+    for (Index b = begin; b < end; ++b) {
       NearColliders<Real> near;
       find_near_nodes<Set>(near, a.step.constants, a.step.node_blocks[b].key);
       BlockLoads<Set> loads(a.step.load_count);
+      const Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
       double work = 0;
-      for (int n = 0; n < block_nodes; ++n) {
-        if (!(v_new[n][3] > Real(0)) || held[n][3] == Real(0)) continue;
-        const Quad<Real> impulse = with_fourth(force[n] * a.beta_dt_squared, 0);
-        const Quad<Real> on_held = impulse - free_part(held[n], impulse);
-        const Quad<Real> done = on_held * v_new[n];
+      each_reaction(a, b, [&](int n, const Quad<Real>& reaction, Real size) NEVE_INLINE_BODY {
+        const Quad<Real> impulse = reaction + more * size, done = impulse * v_new[n];
         work += static_cast<double>(done[0] + done[1] + done[2]);
-        add_load(near, n, a.step.constants.h, on_held, loads);
-      }
+        add_load(near, n, a.step.constants.h, impulse, loads);
+      });
       loads.give(a.step.loads, a.step.load_unit);
       a.step.node_contact_work[b] += work;
     }
@@ -335,8 +384,9 @@ struct SolveSweepsFor {
                 Vec3<One>{all<One>(impulse[0]), all<One>(impulse[1]), all<One>(impulse[2])}, r, 1u);
   }
 
-  static constexpr SolveSweeps<Real> table{keep_elasticity, apply, start,  residual, image,
-                                           advance,         size,  finish, react};
+  static constexpr SolveSweeps<Real> table{keep_elasticity, apply, start,   motion, show,
+                                           residual,        image, advance, size,   finish,
+                                           reaction,        react};
 };
 
 template <class Real, class Set>

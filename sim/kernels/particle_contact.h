@@ -7,16 +7,23 @@
 /// such that the velocity v_p that the particle will move with closes its gap and no more. FLIP
 /// particles keep alpha (v_p - sum w_ip v_i) of before the step beside what the grid gives them,
 /// ASFLIP particles move with beta of that, AFLIP particles with nothing of it.
+/// A collider that holds on to a particle takes what it holds of the particle's own velocity: the
+/// grid does not see that velocity, and an answer to it would strain snow by what it does not feel,
+/// again and again.
 /// The impulses are found by a projected Jacobi iteration
 ///   j_p <- project(j_p + (wanted - v_p) / D_p),  D_p = sum_i w_ip c_i / m_i,  c_i = sum_q w_iq
 /// with c over the particles in contact. D is the sum of a row of the system, not its diagonal: a
 /// step never goes too far, however many particles share a node, and one is enough where all of
 /// them want the same.
 ///
-/// The semi-implicit solve starts from the velocities that this leaves, and each contact that
-/// pushes then acts as a spring of stiffness `hold` / D_p between v_p and the velocity that it
-/// wants: along the normal, and along the surface where friction or the collider holds on to it.
-/// The impulses of the springs are added to the others.
+/// It begins with the impulses of the last step, projected.
+///
+/// In the semi-implicit solve, elasticity answers too. Each contact that acts is a spring of
+/// stiffness `hold` / D_p there, between v_p and the velocity that it wants: along the normal, and
+/// along the surface where friction or the collider holds on to it. Its impulse adds to that of the
+/// last step, with which the solve begins (an augmented Lagrangian). Where the solution asks for
+/// other contacts to act, or springs gave way, the impulses are projected and it is solved again;
+/// the passes above close what is left.
 ///
 /// Plain data, as in kernels.h.
 
@@ -43,14 +50,41 @@ struct ContactRecord {
   R sliding[3];  ///< kg m/s, impulse along the surface
   R row;         ///< D_p, 1/kg
   R own[3];      ///< m/s, what the particle keeps beside the velocity of the grid
-  R holds;       ///< in the solve: 0 nothing, 1 along the normal, 2 in all directions
+  R holds;       ///< in the solve: holds_normal, holds_surface, their sum or 0
   I cell[3];
-  I collider;  ///< its index; negative (-1 - index) if it holds on to the particle
+  I collider;    ///< its index; negative (-1 - index) if it holds on to the particle
+  R touches;     ///< m: distance from the surface at which they touch
+  R is_shallow;  ///< 1: that is less than other particles touch at
+  I particle;    ///< storage index
+  I list;        ///< number of the collider in the list of the run
+  R lost[3];     ///< m/s, of the particle's own velocity: the collider takes it
+  R mass;        ///< kg, of the particle
 };
+inline constexpr int holds_normal = 1, holds_surface = 2;
 template <class Real>
 using Contact = ContactRecord<Real, Integer<Real>>;
-inline constexpr int contact_quads = 6;
+inline constexpr int contact_quads = 8;
 static_assert(sizeof(Contact<float>) == 16 * contact_quads);
+
+/// What a particle and a collider remember of each other until the next step: what pressed it then
+/// is where the iteration begins, so that a load that stays is carried whole, and one that changes
+/// is met by a few passes.
+template <class Real>
+struct KeptContact {
+  Real impulse, sliding[3], touches;  ///< see ContactRecord
+  std::uint32_t particle;             ///< storage index
+  std::int32_t collider;              ///< number in the list of the run
+  std::uint32_t next;                 ///< another one of the same particle, or no_contact
+};
+inline constexpr std::uint32_t no_contact = ~std::uint32_t(0);
+
+/// True if a particle's head leads to its first contact. Heads of particles that have none left may
+/// lead anywhere.
+template <class Real>
+NEVE_INLINE bool is_contact_of(const KeptContact<Real>* kept, std::uint32_t count,
+                               std::uint32_t head, std::uint32_t particle) {
+  return head < count && kept[head].particle == particle;
+}
 
 /// A block of nodes while impulses are found.
 template <class Real>
@@ -63,7 +97,7 @@ struct ContactArgs {
   SweepArgs<Real> step;       ///< nodes have v_free and get v_star
   const ColliderPose* poses;  ///< those of `step`, which the solve does not show to the nodes
   const Real* half_spacing;   ///< per material: of particles of 1 kg, m
-  Real most_touching;         ///< m: no particle touches at more
+  Real max_touching_gap;      ///< m: no particle touches at more
   /// Shares of its own velocity that a particle moves with, compressed and separating: alpha beta,
   /// see StepConstants.
   Real kept_min, kept_max;
@@ -76,16 +110,33 @@ struct ContactArgs {
   const std::uint64_t* first;   ///< per particle block: its first contact
   const std::uint32_t* node_blocks;  ///< those that they reach
   Contact<Real>* contacts;
-  ContactNodes<Real>* nodes;  ///< per node block
-  bool is_last;               ///< of the passes
+  // What is remembered.
+  const KeptContact<Real>* kept;  ///< of the last step
+  std::uint32_t kept_count;
+  Real carried;             ///< length of this step over that of the last
+  std::uint32_t* head;      ///< per storage index: its first contact in `kept`, and then in `keep`
+  KeptContact<Real>* keep;  ///< of this step: as many as there are contacts
+  const std::uint32_t* first_to_keep;  ///< per particle block
+  ContactNodes<Real>* nodes;           ///< per node block
+  bool is_last;                        ///< of the passes
+  bool only_closes;                    ///< the passes follow a solution
   // In the semi-implicit solve.
-  bool is_before_solve;  ///< the passes are: their impulses are not the last word
+  bool is_before_solve;  ///< and the nodes get v_star from `weigh`
   bool is_first;         ///< u are velocities, otherwise a change of them
   const Quad<Real>* u;   ///< per node block, `u_stride` apart
   std::size_t u_stride;
   Real hold;  ///< stiffness of contacts, as a share of 1 / D_p
   Real beta_dt_squared;
+  double* sums;                         ///< per block with contacts: ContactSums of `measure`
+  Real per_impulse[3], per_contact[3];  ///< `book`: momentum that none of the springs gave
 };
+
+/// Sums over the contacts of a block at the solution.
+struct ContactSums {
+  double missing;    ///< J, of the impulses that would still be needed
+  double spring[3];  ///< kg m/s, of the springs
+};
+inline constexpr int contact_sums = 4;
 
 template <class Real>
 using ContactSweep = void (*)(const ContactArgs<Real>&, std::uint32_t begin, std::uint32_t end);
@@ -93,13 +144,19 @@ using ContactSweep = void (*)(const ContactArgs<Real>&, std::uint32_t begin, std
 /// Over blocks of particles and of nodes in turn.
 template <class Real>
 struct ContactSweeps {
-  ContactSweep<Real> find;    ///< all particle blocks: candidates
-  ContactSweep<Real> start;   ///< contacts of candidates, c into the tiles
-  ContactSweep<Real> weigh;   ///< nodes: velocities and c / m
-  ContactSweep<Real> press;   ///< change of the impulses into the tiles
-  ContactSweep<Real> yield;   ///< nodes: velocities after it, after the last pass v_star
-  ContactSweep<Real> hold;    ///< adds the springs' part of H u to the tiles
-  ContactSweep<Real> settle;  ///< adds the springs' impulses at v_new
+  ContactSweep<Real> find;   ///< all particle blocks: candidates
+  ContactSweep<Real> start;  ///< contacts of candidates, c into the tiles
+  ContactSweep<Real> weigh;  ///< nodes: velocities and c / m
+  ContactSweep<Real> press;  ///< change of the impulses into the tiles
+  ContactSweep<Real> yield;  ///< nodes: velocities after it, after the last pass those of the step
+  // In the semi-implicit solve.
+  ContactSweep<Real> rows;     ///< D_p
+  ContactSweep<Real> hold;     ///< adds the springs' part of H u to the tiles
+  ContactSweep<Real> measure;  ///< ContactSums of the solution u
+  ContactSweep<Real> renew;    ///< projects impulses at u, their change into the tiles
+  ContactSweep<Real> settle;   ///< adds the springs' impulses at u
+  ContactSweep<Real> take;     ///< nodes: velocities of the step
+  ContactSweep<Real> book;     ///< loads and work of the impulses, which are remembered
 };
 
 /// The sweeps of an instruction set.

@@ -44,7 +44,7 @@ struct ContactSweepsFor {
     const Real centre = static_cast<Real>(particle_middle<K>) * c.h;
     const Vec3<Real> middle{centre, centre, centre};
     const Real half = static_cast<Real>(particle_reach) * c.h;
-    const Real still = a.most_touching + static_cast<Real>(touching_slack) * c.h;
+    const Real still = a.max_touching_gap + static_cast<Real>(touching_slack) * c.h;
     int& count = near.colliders.count;
     for (int k = 0; k < c.collider_count; ++k) {
       const LocalCollider<Real> candidate = localize<Real>(c.colliders[k], cell, c.h_double);
@@ -71,15 +71,21 @@ struct ContactSweepsFor {
   /// The lanes of a batch that may come to touch a collider in this step.
   NEVE_INLINE static unsigned coming(const Args& a, const Batch& p, const Vec3<V>& r,
                                      const LocalCollider<Real>& collider) {
-    const StepConstants<Real>& c = a.step.constants;
+    const Real h = a.step.constants.h;
     Vec3<V> normal;
     const V distance = surface_distance(collider, r, normal);
-    const Vec3<V> v{p.v[0], p.v[1], p.v[2]};
-    const V closing = larger_lanes(-dot(v - surface_velocity(collider, r), normal), V{});
-    const V room = distance - closing * (2 * c.dt) - static_cast<Real>(touching_slack) * c.h;
+    const V room = room_before(a, p, distance, normal, surface_velocity(collider, r));
     // Most are further away than any particle touches.
-    if (!any_lane(room <= all<V>(static_cast<Real>(max_touching) * c.h))) return 0;
+    if (!any_lane(room <= all<V>(static_cast<Real>(max_touching) * h))) return 0;
     return lane_bits(room <= touching_distance(a, p));
+  }
+  /// Distance that is left after a step in which particles come nearer by twice what they fly.
+  NEVE_INLINE static V room_before(const Args& a, const Batch& p, const V& distance,
+                                   const Vec3<V>& normal, const Vec3<V>& surface) {
+    const StepConstants<Real>& c = a.step.constants;
+    const Vec3<V> v{p.v[0], p.v[1], p.v[2]};
+    const V closing = larger_lanes(-dot(v - surface, normal), V{});
+    return distance - closing * (2 * c.dt) - static_cast<Real>(touching_slack) * c.h;
   }
 
   static void find(const Args& a, Index begin, Index end) {
@@ -121,11 +127,12 @@ struct ContactSweepsFor {
   /// The candidates [q, q + W) of a block; lanes without one repeat the last.
   /// @return the share of their own velocity that they move with
   NEVE_INLINE static V load_candidates(const Args& a, const ParticleBlock& block, Index q,
-                                       Index count, Batch& p) {
+                                       Index count, Batch& p, Index* storage) {
     const Particle<Real>* record[W];
     for (int l = 0; l < W; ++l) {
       const Index at = smaller<Index>(q + static_cast<Index>(l), count - 1);
-      record[l] = a.step.particles + a.step.order[a.candidates[block.begin + at]];
+      storage[l] = a.step.order[a.candidates[block.begin + at]];
+      record[l] = a.step.particles + storage[l];
     }
     RecordReader<V, I> read(record, p);
     read.place();
@@ -176,41 +183,72 @@ struct ContactSweepsFor {
       const Index count = a.near_counts[b];
       for (Index q = 0; q < count; q += W) {
         Batch p;
-        const V kept = load_candidates(a, block, q, count, p);
+        Index storage[W];
+        const V kept = load_candidates(a, block, q, count, p, storage);
         s.template set<false, false>(0, p.offset, p.cell);
         const FourWords<V> on_grid = gathered(s, v_free);
-        Velocities v{{on_grid.w[0], on_grid.w[1], on_grid.w[2]}, {}};
+        Velocities v{{on_grid.w[0], on_grid.w[1], on_grid.w[2]}, {}, kept};
         if (keeps) {
           const FourWords<V> changed = gathered(s, change);
-          for (int x = 0; x < 3; ++x) v.own[x] = (p.v[x] - (on_grid.w[x] - changed.w[x])) * kept;
+          for (int x = 0; x < 3; ++x) v.own[x] = p.v[x] - (on_grid.w[x] - changed.w[x]);
         }
-        V touches{};
+        FourWords<V> given{};  // impulses to begin with, and 1 per contact
         const I is_used = first_lanes<I>(static_cast<int>(count - q));
         for (int k = 0; k < near.colliders.count; ++k)
-          touches +=
-              add_contacts(a, p, block.key, v, is_used, near.colliders.local[k], near.index[k], to);
-        scatter(s, FourWords<V>{{V{}, V{}, V{}, touches}},
-                static_cast<int>(smaller<Index>(W, count - q)), tile);
+          add_contacts(a, p, storage, block.key, v, is_used, near.colliders.local[k], near.index[k],
+                       to, given);
+        scatter(s, given, static_cast<int>(smaller<Index>(W, count - q)), tile);
       }
       a.counts[b] = static_cast<Index>(to - (a.contacts + a.first[b]));
     }
   }
 
   struct Velocities {
-    Vec3<V> of_grid, own;  ///< their sum is what the particle moves with
+    Vec3<V> of_grid, own;
+    V kept;  ///< share of its own that the particle moves with beside that of the grid
   };
 
-  /// Finds the particles of a batch that would come nearer to a collider than they may.
-  /// @return 1 in their lanes
-  NEVE_INLINE static V add_contacts(const Args& a, const Batch& p, std::uint64_t key,
-                                    const Velocities& v, const I& is_used,
-                                    const LocalCollider<Real>& collider, Integer<Real> index,
-                                    Contact<Real>*& to) {
+  /// What particles remember of a collider.
+  struct Memory {
+    V impulse{}, touches;
+    Vec3<V> sliding{};
+  };
+  /// @param touches  where particles touch that remember nothing
+  NEVE_INLINE static Memory recall(const Args& a, const Index* storage, int list,
+                                   const V& touches) {
+    Memory memory;
+    memory.touches = touches;
+    if (a.kept_count == 0) return memory;
+    for (int l = 0; l < W; ++l) {
+      Index at = a.head[storage[l]];
+      if (!is_contact_of(a.kept, a.kept_count, at, storage[l])) continue;
+      for (; at != no_contact; at = a.kept[at].next) {
+        const KeptContact<Real>& k = a.kept[at];
+        if (k.collider != list) continue;
+        memory.impulse[l] = k.impulse * a.carried;
+        memory.touches[l] = smaller(k.touches, touches[l]);
+        for (int x = 0; x < 3; ++x) memory.sliding[x][l] = k.sliding[x] * a.carried;
+        break;
+      }
+    }
+    return memory;
+  }
+
+  /// Finds the particles of a batch that would come nearer to a collider than they may, and those
+  /// that it pressed or held in the last step.
+  /// @param given  gets what they begin with, and 1 in their lanes
+  NEVE_INLINE static void add_contacts(const Args& a, const Batch& p, const Index* storage,
+                                       std::uint64_t key, const Velocities& v, const I& is_used,
+                                       const LocalCollider<Real>& collider, Integer<Real> index,
+                                       Contact<Real>*& to, FourWords<V>& given) {
     const StepConstants<Real>& c = a.step.constants;
     const Vec3<V> r = places_in_block(p, key, c.h);
     Vec3<V> normal;
     const V distance = surface_distance(collider, r, normal);
-    const V gap = distance - touching_distance(a, p);
+    const V touching = touching_distance(a, p);
+    const int list = a.poses[index].index;
+    const Memory memory = recall(a, storage, list, touching);
+    const V gap = distance - memory.touches;
     const Vec3<V> surface = surface_velocity(collider, r);
     // A surface that does not let go stops what is inside where it is: there is no way out.
     const bool lets_go = collider.contact == ContactLaw::separate;
@@ -219,29 +257,86 @@ struct ContactSweepsFor {
     const V apart = -gap * a.apart;
     const V inside = lets_go ? larger_lanes(-distance * out, apart) : V{};
     const V least = gap > V{} ? -gap / c.dt : distance > V{} ? apart : inside;
-    const V v_n = dot(v.of_grid + v.own - surface, normal);
-    I is_contact = is_used & (v_n < least);
+    const Vec3<V> lost = collider.contact == ContactLaw::sticky ? v.own
+                         : lets_go                              ? Vec3<V>{}
+                                                                : normal * dot(v.own, normal);
+    const Vec3<V> own = (v.own - lost) * v.kept;
+    const V v_n = dot(v.of_grid + own - surface, normal);
+    const I is_shallow = memory.touches < touching;
+    const I is_near = gap <= all<V>(static_cast<Real>(touching_slack) * c.h);
+    // In the solve, elasticity may yet bring to it what is near.
+    const I is_likely = is_shallow | (memory.impulse > V{}) | all<I>(a.is_before_solve ? -1 : 0);
+    // There is a place for those that were found to come near, whatever forces do to the others.
+    const I is_coming = room_before(a, p, distance, normal, surface) <= touching;
+    I is_contact = is_used & is_coming & ((v_n < least) | (is_near & is_likely));
     I number = all<I>(index);
     if (!lets_go) {
-      const I is_held = gap <= all<V>(static_cast<Real>(touching_slack) * c.h);
-      is_contact = is_contact | (is_used & is_held);
-      number = is_held ? -1 - number : number;
+      is_contact = is_contact | (is_used & is_near);
+      number = is_near ? -1 - number : number;
     }
     const unsigned bits = lane_bits(is_contact);
-    if (bits == 0) return V{};
+    if (bits == 0) return;
     Lanes contact{};
     for (int x = 0; x < 3; ++x) {
       contact.offset[x] = p.offset[x];
       contact.cell[x] = p.cell[x];
       contact.normal[x] = normal[x];
       contact.surface[x] = surface[x];
-      contact.own[x] = v.own[x];
+      contact.own[x] = own[x];
+      contact.lost[x] = lost[x];
+      for (int l = 0; l < W; ++l) contact.particle[l] = static_cast<Integer<Real>>(storage[l]);
     }
     contact.least = least;
     contact.friction = all<V>(friction_of(collider));
     contact.collider = number;
+    contact.touches = memory.touches;
+    contact.is_shallow = is_shallow ? all<V>(1) : V{};
+    contact.list = all<I>(list);
+    contact.mass = p.m;
+    begin_with(memory, contact);
+    if (a.is_before_solve) guess(a, p, contact);
     store(contact, bits, to);
-    return is_contact ? all<V>(1) : V{};
+    for (int x = 0; x < 3; ++x) {
+      const V impulse = contact.normal[x] * contact.impulse + contact.sliding[x];
+      given.w[x] += is_contact ? impulse : V{};
+    }
+    given.w[3] += is_contact ? all<V>(1) : V{};
+  }
+
+  /// The impulse of the last step as this one lets it be: the normal may have turned.
+  NEVE_INLINE static void begin_with(const Memory& memory, Lanes& c) {
+    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+    const I is_held = c.collider < I{};
+    c.impulse = is_held ? memory.impulse : larger_lanes(memory.impulse, V{});
+    const Vec3<V> sliding = within_friction(memory.sliding - n * dot(memory.sliding, n), c);
+    for (int x = 0; x < 3; ++x) c.sliding[x] = sliding[x];
+  }
+
+  /// Which contacts act in the first solution: those of the last step, and of the others those that
+  /// would stop the particle as it flies. What a stiff force would do to it in the step is beside
+  /// the point: the solve does not let it.
+  NEVE_INLINE static void guess(const Args& a, const Batch& p, Lanes& c) {
+    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+    Vec3<V> v;
+    for (int x = 0; x < 3; ++x)
+      v[x] = p.v[x] + all<V>(a.step.constants.gravity[x] * a.step.constants.dt) - c.surface[x];
+    const V v_n = dot(v, n);
+    const I is_held = c.collider < I{}, was_there = c.impulse != V{};
+    const I goes = v_n > larger_lanes(c.least, V{});
+    const I acts = was_there | (v_n < c.least) | (is_held & goes);
+    const Vec3<V> along = v - n * v_n;
+    const V speed = square_root_lanes(dot(along, along));
+    const Vec3<V> sliding{c.sliding[0], c.sliding[1], c.sliding[2]};
+    const I stuck = square_root_lanes(dot(sliding, sliding)) < friction_bound(c);
+    const I stops = speed <= c.friction * (c.least - v_n);
+    const I sticks = (c.friction > V{}) & (is_held | (was_there ? stuck : acts & stops));
+    c.holds = (acts ? all<V>(holds_normal) : V{}) + (sticks ? all<V>(holds_surface) : V{});
+  }
+
+  /// An impulse along the surface, no larger than friction.
+  NEVE_INLINE static Vec3<V> within_friction(const Vec3<V>& sliding, const Lanes& c) {
+    const V size = square_root_lanes(dot(sliding, sliding)), most = friction_bound(c);
+    return select(size > most, sliding * (most / size), sliding);
   }
 
   NEVE_INLINE static Real friction_of(const LocalCollider<Real>& collider) {
@@ -277,13 +372,16 @@ struct ContactSweepsFor {
     put(4, c.own[0], c.own[1], c.own[2], c.holds);
     put(5, reinterpret_cast<V>(c.cell[0]), reinterpret_cast<V>(c.cell[1]),
         reinterpret_cast<V>(c.cell[2]), reinterpret_cast<V>(c.collider));
+    put(6, c.touches, c.is_shallow, reinterpret_cast<V>(c.particle), reinterpret_cast<V>(c.list));
+    put(7, c.lost[0], c.lost[1], c.lost[2], c.mass);
   }
 
   NEVE_INLINE static void read(Lanes& c, Contact<Real>* const* records) {
     const auto get = [&](int quad) NEVE_INLINE_BODY {
       return load_words<V>(records, 4 * quad * static_cast<int>(sizeof(Real)));
     };
-    const FourWords<V> q[contact_quads] = {get(0), get(1), get(2), get(3), get(4), get(5)};
+    const FourWords<V> q[contact_quads] = {get(0), get(1), get(2), get(3),
+                                           get(4), get(5), get(6), get(7)};
     for (int x = 0; x < 3; ++x) {
       c.offset[x] = q[0].w[x];
       c.normal[x] = q[1].w[x];
@@ -298,6 +396,12 @@ struct ContactSweepsFor {
     c.row = q[3].w[3];
     c.holds = q[4].w[3];
     c.collider = reinterpret_cast<I>(q[5].w[3]);
+    c.touches = q[6].w[0];
+    c.is_shallow = q[6].w[1];
+    c.particle = reinterpret_cast<I>(q[6].w[2]);
+    c.list = reinterpret_cast<I>(q[6].w[3]);
+    for (int x = 0; x < 3; ++x) c.lost[x] = q[7].w[x];
+    c.mass = q[7].w[3];
   }
 
   // ---- passes -----------------------------------------------------------------------------------
@@ -331,47 +435,87 @@ struct ContactSweepsFor {
     Quad<Real> v[Tile<K>::nodes];
     for (Index n = begin; n < end; ++n) {
       const Index b = a.blocks[n];
-      load_tile<Real, K, Set>(
-          a.step.blocks[b], [&](Index m) { return a.nodes[m].velocity; }, v);
+      load_v(a, b, v);
       Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
       Base::clear(a.step.blocks[b], tile);
       Account account(a);
+      Keeper keeper(a, b);
       each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
-        const Vec3<V> change = respond_to(gathered(group.s, v), group.contact);
+        const FourWords<V> v_and_row = gathered(group.s, v);
+        const Vec3<V> change =
+            a.only_closes ? close(v_and_row, group.contact) : respond_to(v_and_row, group.contact);
         write(group.contact, group.record, group.used);
         scatter(group.s, FourWords<V>{{change.x, change.y, change.z, V{}}}, group.used, tile);
-        if (is_final) account.add(group.contact, group.used);
+        if (!is_final) return;
+        account.add(group.contact, group.used);
+        keeper.add(group.contact, group.used);
       });
-      if (is_final) account.give(b);
+      if (!is_final) continue;
+      account.give(b);
+      keeper.end();
     }
+  }
+
+  NEVE_INLINE static void load_v(const Args& a, Index b, Quad<Real>* v) {
+    load_tile<Real, K, Set>(
+        a.step.blocks[b], [&](Index m) { return a.nodes[m].velocity; }, v);
+  }
+
+  /// Velocity of particles relative to the surface. @param on_grid  their part of the grid's
+  NEVE_INLINE static Vec3<V> relative(const FourWords<V>& on_grid, const Lanes& c) {
+    Vec3<V> v;
+    for (int x = 0; x < 3; ++x) v[x] = on_grid.w[x] + c.own[x] - c.surface[x];
+    return v;
   }
 
   /// A pass for a batch. @return how much its impulses changed
   NEVE_INLINE static Vec3<V> respond_to(const FourWords<V>& v_and_row, Lanes& c) {
-    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
-    Vec3<V> v_rel;
-    for (int x = 0; x < 3; ++x) v_rel[x] = v_and_row.w[x] + c.own[x] - c.surface[x];
     c.row = v_and_row.w[3];
-    const V inverse = all<V>(1) / c.row;
-    const V v_n = dot(v_rel, n);
-    const I is_held = c.collider < I{};
-    const V push = larger_lanes(c.impulse + (c.least - v_n) * inverse, V{});
+    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+    const Vec3<V> v_rel = relative(v_and_row, c);
+    const V v_n = dot(v_rel, n), inverse = all<V>(1) / c.row;
     // Nearer it may come, away it may not.
-    const V most_v_n = larger_lanes(c.least, V{});
-    const V pull = smaller_lanes(c.impulse + (most_v_n - v_n) * inverse, V{});
-    const V impulse = (is_held & (push <= V{})) ? pull : push;
+    const V push = c.impulse + (c.least - v_n) * inverse;
+    const V pull = c.impulse + (larger_lanes(c.least, V{}) - v_n) * inverse;
     const Vec3<V> before{c.sliding[0], c.sliding[1], c.sliding[2]};
-    Vec3<V> sliding = before - (v_rel - n * v_n) * inverse;
-    const V size = square_root_lanes(dot(sliding, sliding));
-    const V most = is_held ? c.friction : c.friction * impulse;
-    sliding = select(size > most, sliding * (most / size), sliding);
-    const Vec3<V> change = n * (impulse - c.impulse) + (sliding - before);
-    c.impulse = impulse;
-    const I pushes = is_held | (impulse > V{});
-    const I sticks = pushes & (c.friction > V{}) & (size <= most);
-    c.holds = sticks ? all<V>(2) : pushes ? all<V>(1) : V{};
-    for (int x = 0; x < 3; ++x) c.sliding[x] = sliding[x];
+    const Vec3<V> sliding = before - (v_rel - n * v_n) * inverse;
+    return project(push, pull, sliding, c);
+  }
+
+  /// A pass after the solve: impulses of particles that still come too near only.
+  NEVE_INLINE static Vec3<V> close(const FourWords<V>& on_grid, Lanes& c) {
+    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+    const V more = larger_lanes((c.least - dot(relative(on_grid, c), n)) / c.row, V{});
+    c.impulse += more;
+    return n * more;
+  }
+
+  /// The impulses become the nearest that contact can have, and `holds` says how. A contact that
+  /// holds on to the particle pulls where it need not push.
+  /// @param push, pull  impulse along the normal
+  /// @return how much it changed
+  NEVE_INLINE static Vec3<V> project(const V& push, const V& pull, const Vec3<V>& sliding,
+                                     Lanes& c) {
+    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+    const V before = c.impulse;
+    const I is_held = c.collider < I{};
+    c.impulse = (is_held & (push <= V{})) ? smaller_lanes(pull, V{}) : larger_lanes(push, V{});
+    const V size = square_root_lanes(dot(sliding, sliding)), most = friction_bound(c);
+    const Vec3<V> bounded = select(size > most, sliding * (most / size), sliding);
+    const I sticks = (is_held | (c.impulse > V{})) & (c.friction > V{}) & (size <= most);
+    c.holds =
+        (c.impulse != V{} ? all<V>(holds_normal) : V{}) + (sticks ? all<V>(holds_surface) : V{});
+    Vec3<V> change = n * (c.impulse - before);
+    for (int x = 0; x < 3; ++x) {
+      change[x] += bounded[x] - c.sliding[x];
+      c.sliding[x] = bounded[x];
+    }
     return change;
+  }
+
+  /// Largest impulse along the surface.
+  NEVE_INLINE static V friction_bound(const Lanes& c) {
+    return c.collider < I{} ? c.friction : c.friction * c.impulse;
   }
 
   // ---- in the semi-implicit solve ---------------------------------------------------------------
@@ -391,23 +535,100 @@ struct ContactSweepsFor {
     }
   }
 
+  static void rows(const Args& a, Index begin, Index end) {
+    Quad<Real> v[Tile<K>::nodes];
+    for (Index n = begin; n < end; ++n) {
+      const Index b = a.blocks[n];
+      load_v(a, b, v);
+      each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
+        Lanes& c = group.contact;
+        c.row = gathered(group.s, v).w[3];
+        write(c, group.record, group.used);
+      });
+    }
+  }
+
+  static void measure(const Args& a, Index begin, Index end) {
+    Quad<Real> u[Tile<K>::nodes];
+    for (Index n = begin; n < end; ++n) {
+      const Index b = a.blocks[n];
+      load_u(a, b, u);
+      double sums[contact_sums] = {};
+      each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
+        Lanes& c = group.contact;
+        const FourWords<V> on_grid = gathered(group.s, u);
+        const Vec3<V> spring = spring_of(on_grid, c, true) * all<V>(-a.hold);
+        feel(c, spring);
+        // What a pass would still change, by its mass.
+        FourWords<V> v_and_row = on_grid;
+        v_and_row.w[3] = c.row;
+        const Vec3<V> missing = respond_to(v_and_row, c);
+        const V energy = dot(missing, missing) * c.row;
+        for (int l = 0; l < group.used; ++l) {
+          sums[0] += static_cast<double>(energy[l]);
+          for (int x = 0; x < 3; ++x) sums[1 + x] += static_cast<double>(spring[x][l]);
+        }
+      });
+      for (int k = 0; k < contact_sums; ++k) a.sums[contact_sums * n + k] = sums[k];
+    }
+  }
+
+  /// The impulses of the springs are added.
+  NEVE_INLINE static void feel(Lanes& c, const Vec3<V>& spring) {
+    const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
+    const V along = dot(spring, n);
+    c.impulse += along;
+    for (int x = 0; x < 3; ++x) c.sliding[x] += spring[x] - n[x] * along;
+  }
+
+  static void renew(const Args& a, Index begin, Index end) {
+    Quad<Real> u[Tile<K>::nodes];
+    for (Index n = begin; n < end; ++n) {
+      const Index b = a.blocks[n];
+      load_u(a, b, u);
+      Quad<Real>* tile = tile_of<Real, K>(a.step, b, 0);
+      Base::clear(a.step.blocks[b], tile);
+      each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
+        Lanes& c = group.contact;
+        const Lanes before = c;
+        FourWords<V> v_and_row = gathered(group.s, u);
+        v_and_row.w[3] = c.row;
+        feel(c, spring_of(v_and_row, c, true) * all<V>(-a.hold));
+        respond_to(v_and_row, c);
+        write(c, group.record, group.used);
+        FourWords<V> change{};
+        for (int x = 0; x < 3; ++x)
+          change.w[x] =
+              c.normal[x] * (c.impulse - before.impulse) + c.sliding[x] - before.sliding[x];
+        scatter(group.s, change, group.used, tile);
+      });
+    }
+  }
+
   static void settle(const Args& a, Index begin, Index end) {
     Quad<Real> u[Tile<K>::nodes];
     for (Index n = begin; n < end; ++n) {
       const Index b = a.blocks[n];
       load_u(a, b, u);
-      Account account(a);
       each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
         Lanes& c = group.contact;
-        const Vec3<V> spring = spring_of(gathered(group.s, u), c, a.is_first);
-        const Vec3<V> normal{c.normal[0], c.normal[1], c.normal[2]};
-        const V along = dot(spring, normal);
-        c.impulse -= along * a.hold;
-        for (int x = 0; x < 3; ++x) c.sliding[x] -= (spring[x] - normal[x] * along) * a.hold;
+        feel(c, spring_of(gathered(group.s, u), c, true) * all<V>(-a.hold));
         write(c, group.record, group.used);
-        account.add(c, group.used);
+      });
+    }
+  }
+
+  static void book(const Args& a, Index begin, Index end) {
+    for (Index n = begin; n < end; ++n) {
+      const Index b = a.blocks[n];
+      Account account(a);
+      Keeper keeper(a, b);
+      each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
+        keeper.add(group.contact, group.used);
+        account.add(group.contact, group.used);
       });
       account.give(b);
+      keeper.end();
     }
   }
 
@@ -416,16 +637,17 @@ struct ContactSweepsFor {
         a.step.blocks[b], [&](Index m) { return a.u + m * a.u_stride; }, u);
   }
 
-  /// The part of u that each contact holds, over D.
+  /// The part of u that each contact holds, over D. What pulls wants the particle no further away.
   NEVE_INLINE static Vec3<V> spring_of(const FourWords<V>& on_grid, const Lanes& c, bool is_first) {
     const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
-    Vec3<V> u{on_grid.w[0], on_grid.w[1], on_grid.w[2]};
-    if (is_first)
-      for (int x = 0; x < 3; ++x) u[x] += c.own[x] - c.surface[x];
-    const V u_n = dot(u, n), wanted = is_first ? c.least : V{};
+    const Vec3<V> u =
+        is_first ? relative(on_grid, c) : Vec3<V>{on_grid.w[0], on_grid.w[1], on_grid.w[2]};
+    const V closest = c.impulse < V{} ? larger_lanes(c.least, V{}) : c.least;
+    const V u_n = dot(u, n), wanted = is_first ? closest : V{};
     const V inverse = all<V>(1) / c.row;
-    const V normal = c.holds > V{} ? (u_n - wanted) * inverse : V{};
-    const V surface = c.holds > all<V>(1) ? inverse : V{};
+    const I holds_n = (c.holds == all<V>(holds_normal)) | (c.holds > all<V>(holds_surface));
+    const V normal = holds_n ? (u_n - wanted) * inverse : V{};
+    const V surface = c.holds >= all<V>(holds_surface) ? inverse : V{};
     return n * normal + (u - n * u_n) * surface;
   }
 
@@ -446,13 +668,19 @@ struct ContactSweepsFor {
     }
 
    private:
+    /// And what contact takes from particles.
     NEVE_NOINLINE void add_loads(const Lanes& c, int count) {
       for (int l = 0; l < count; ++l) {
         const auto number = c.collider[l] < 0 ? -1 - c.collider[l] : c.collider[l];
         const ColliderPose& pose = a_.poses[number];
+        Particle<Real>& particle = a_.step.particles[c.particle[l]];
+        const Real lost = c.mass[l] * a_.step.constants.alpha;
         double impulse[3], arm[3];
         for (int x = 0; x < 3; ++x) {
-          impulse[x] = static_cast<double>(c.normal[x][l] * c.impulse[l] + c.sliding[x][l]);
+          particle.v[x] -= c.lost[x][l];
+          const Real of_contact = c.normal[x][l] * c.impulse[l] + c.sliding[x][l];
+          const Real of_solve = a_.per_impulse[x] * absolute(c.impulse[l]) + a_.per_contact[x];
+          impulse[x] = static_cast<double>(of_contact + of_solve - lost * c.lost[x][l]);
           arm[x] = (static_cast<double>(c.cell[x][l] - pose.cell[x]) +
                     (static_cast<double>(c.offset[x][l]) - pose.offset[x])) *
                    a_.step.constants.h_double;
@@ -462,9 +690,11 @@ struct ContactSweepsFor {
     }
 
     /// J, of the colliders.
-    NEVE_INLINE static double work_of(const Lanes& c, int count) {
+    NEVE_INLINE double work_of(const Lanes& c, int count) const {
       V done = c.impulse * larger_lanes(c.least, V{});
-      for (int x = 0; x < 3; ++x) done += (c.normal[x] * c.impulse + c.sliding[x]) * c.surface[x];
+      const V lost = c.mass * a_.step.constants.alpha;
+      for (int x = 0; x < 3; ++x)
+        done += (c.normal[x] * c.impulse + c.sliding[x] - lost * c.lost[x]) * c.surface[x];
       double work = 0;
       for (int l = 0; l < count; ++l) work += static_cast<double>(done[l]);
       return work;
@@ -473,6 +703,45 @@ struct ContactSweepsFor {
     const Args& a_;
     BlockLoads<Set> loads_;
     double work_ = 0;
+  };
+
+  /// Remembers the contacts of a block until the next step.
+  class Keeper {
+   public:
+    NEVE_INLINE Keeper(const Args& a, Index b)
+        : a_(a), begin_(a.first_to_keep[b]), end_(begin_), limit_(begin_ + a.counts[b]) {}
+
+    /// The first `count` lanes.
+    NEVE_INLINE void add(const Lanes& c, int count) {
+      V pressed = absolute_lanes(c.impulse) + c.is_shallow;
+      for (int x = 0; x < 3; ++x) pressed += absolute_lanes(c.sliding[x]);
+      for (int l = 0; l < count; ++l)
+        if (pressed[l] > Real(0)) add_lane(c, l);
+    }
+
+    /// Places that are left must not name particles.
+    NEVE_INLINE void end() const {
+      for (Index at = end_; at < limit_; ++at) a_.keep[at].particle = no_contact;
+    }
+
+   private:
+    NEVE_INLINE void add_lane(const Lanes& c, int l) {
+      const auto particle = static_cast<Index>(c.particle[l]);
+      Index& head = a_.head[particle];
+      const bool has_more = head >= begin_ && is_contact_of(a_.keep, end_, head, particle);
+      a_.keep[end_] = {c.impulse[l],
+                       {c.sliding[0][l], c.sliding[1][l], c.sliding[2][l]},
+                       c.touches[l],
+                       particle,
+                       static_cast<std::int32_t>(c.list[l]),
+                       has_more ? head : no_contact};
+      head = end_++;
+    }
+
+    const Args& a_;
+    const Index begin_;
+    Index end_;
+    const Index limit_;
   };
 
   // ---- nodes ------------------------------------------------------------------------------------
@@ -516,8 +785,21 @@ struct ContactSweepsFor {
       for (int n = 0; n < block_nodes; n += block_side) {
         const R free = R::load(v_free + n);
         const bool is_pressed = (rows >> (n / block_side) & 1) != 0;
-        with_fourths(free, is_pressed ? over_mass(R::load(sum + n), free) : R::zero()).store(v + n);
+        const R given = is_pressed ? over_mass(R::load(sum + n), free) : R::zero();
+        with_fourths(free + given, given).store(v + n);
+        if (a.is_before_solve) with_fourths(free + given, free).store(sum + n);
       }
+      if (a.is_before_solve) set_velocities<Set>(a.step, b, sum);
+    }
+  }
+
+  static void take(const Args& a, Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      const Index b = a.node_blocks[k];
+      const Quad<Real>* v_new = nodes_of(a.step, b, channel_v_new);
+      Quad<Real>* v = a.nodes[b].velocity;
+      for (int n = 0; n < block_nodes; n += block_side)
+        with_fourths(R::load(v_new + n), R::load(v + n)).store(v + n);
     }
   }
 
@@ -534,13 +816,15 @@ struct ContactSweepsFor {
         // The fourth of sum is 0.
         const R row =
             R::load(v + n) + (is_pressed ? over_mass(R::load(sum + n), with_mass) : R::zero());
-        (a.is_last ? with_fourths(row, with_mass) : row).store(v + n);
+        row.store(v + n);
+        if (a.is_last) with_fourths(row, with_mass).store(sum + n);
       }
-      if (a.is_last) set_velocities<Set>(a.step, b, v);
+      if (a.is_last) set_velocities<Set>(a.step, b, sum);
     }
   }
 
-  static constexpr ContactSweeps<Real> table{find, start, weigh, press, yield, hold, settle};
+  static constexpr ContactSweeps<Real> table{find, start,   weigh, press,  yield, rows,
+                                             hold, measure, renew, settle, take,  book};
 };
 
 template <class Real, class Set>

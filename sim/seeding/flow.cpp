@@ -23,7 +23,7 @@ constexpr std::uint64_t emitter_key = 0x656d6974;
 /// Candidates for one place. In a shape that fills this share of its box one of 64 is inside: it
 /// never happens that all of so many are outside.
 constexpr int max_candidates = 8192;
-constexpr double least_share = 1.0 / 64;
+constexpr double min_share = 1.0 / 64;
 
 /// For a shape that fills less, places are found once and reused in turn: a tenth of a second, a
 /// second for a mesh.
@@ -56,7 +56,7 @@ double fraction(double x) {
 }
 
 bool fills(const shapes::Bounds& box, double volume) {
-  return volume >= least_share * (box.max - box.min).prod();
+  return volume >= min_share * (box.max - box.min).prod();
 }
 
 /// The c-th point of a sequence that fills the unit cube evenly, however long it is: multiples of

@@ -17,7 +17,7 @@ constexpr double max_fine_samples = 64.0 * 64.0 * 64.0;
 constexpr std::size_t bytes_per_sample = 3 * 4 * sizeof(float);
 
 /// Counts the samples of the largest lattice.
-double most_samples(const DeformingMesh& mesh, double spacing) {
+double max_samples_of(const DeformingMesh& mesh, double spacing) {
   double most = 0;
   for (std::size_t k = 0; k < mesh.intervals(); ++k)
     most = std::max(most, sample_counts(mesh.bounds(k), spacing).prod());
@@ -29,19 +29,19 @@ double most_samples(const DeformingMesh& mesh, double spacing) {
 double field_spacing(const DeformingMesh& mesh, double cell_size) {
   const double coarse = 0.5 * cell_size;
   double fine = std::min(coarse, mesh.thickness() / 3);
-  while (fine < coarse && most_samples(mesh, fine) > max_fine_samples) fine *= 1.1;
+  while (fine < coarse && max_samples_of(mesh, fine) > max_fine_samples) fine *= 1.1;
   return std::min(fine, coarse);
 }
 
 double memory_of(const DeformingMesh& mesh, double cell_size) {
-  const double samples = most_samples(mesh, field_spacing(mesh, cell_size));
+  const double samples = max_samples_of(mesh, field_spacing(mesh, cell_size));
   return static_cast<double>(mesh.bytes()) + static_cast<double>(bytes_per_sample) * samples;
 }
 
 DeformingField::DeformingField(std::shared_ptr<const DeformingMesh> mesh, const std::string& name,
                                double cell_size)
     : mesh_(std::move(mesh)), spacing_(field_spacing(*mesh_, cell_size)) {
-  const double samples = most_samples(*mesh_, spacing_);
+  const double samples = max_samples_of(*mesh_, spacing_);
   if (!(samples <= max_samples))
     throw ShapeError(name + ": the distance field of this collider has a point every " +
                      number_text(spacing_) + " m (half a cell), in total up to " +

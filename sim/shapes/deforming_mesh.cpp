@@ -27,12 +27,12 @@ void require_files(const MeshSequence& sequence, const std::vector<std::string>&
     if (std::error_code error; !std::filesystem::is_regular_file(paths[k], error))
       missing.push_back(sequence.first + static_cast<int>(k));
   if (missing.empty()) return;
-  constexpr std::size_t most_named = 5;
+  constexpr std::size_t max_named = 5;
   std::string numbers;
-  for (std::size_t k = 0; k < std::min(missing.size(), most_named); ++k)
+  for (std::size_t k = 0; k < std::min(missing.size(), max_named); ++k)
     numbers += (k > 0 ? ", " : "") + std::to_string(missing[k]);
-  if (missing.size() > most_named)
-    numbers += " and " + std::to_string(missing.size() - most_named) + " more";
+  if (missing.size() > max_named)
+    numbers += " and " + std::to_string(missing.size() - max_named) + " more";
   throw ShapeError(numbered_file(sequence.files, missing.front()) +
                    ": no such file; missing of the numbers " + std::to_string(sequence.first) +
                    " to " + std::to_string(sequence.last) + ": " + numbers +

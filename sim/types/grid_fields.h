@@ -35,6 +35,9 @@ struct StagedStep {
   ParticleArrays after;  ///< id order, at the end of the step
   std::vector<Mat3d> grad_v, F_E_trial;
   std::vector<Vec3d> v_before_collision;
+  /// kg m/s, of velocities that particles keep beside that of the grid: taken by colliders that
+  /// hold on to them.
+  Vec3d own_taken{0, 0, 0};
   std::vector<ColliderLoad> loads;  ///< per collider, of the step
   std::uint64_t state_hash = 0;     ///< of the state at the end
   /// s that each stage took, one after the other; deformation has the gathering of velocities for

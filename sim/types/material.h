@@ -23,8 +23,9 @@ struct Material {
   double hardening = 10.0;              ///< xi
   double critical_compression = 0.025;  ///< theta_c
   double critical_stretch = 0.0075;     ///< theta_s
-  /// Range of J_P, and the largest factor of hardening. The paper bounds none of them.
-  double min_J_P = 0.1, max_J_P = 1e4, max_hardening = 1e4;
+  /// Range of J_P, and the largest factor of hardening. The paper bounds none of them. Beyond 20
+  /// snow is single particles, and their J_P only says for how long they have been alone.
+  double min_J_P = 0.1, max_J_P = 20, max_hardening = 1e4;
   Variation variation;
   /// Project neo-Hookean F_E as the snow's. For comparison with solvers that let any model yield;
   /// no scene key. Such a run takes the staged driver and has no other material.

@@ -59,7 +59,7 @@ struct SolveReport {
   /// the velocity of the centre of mass and of what gravity adds in the step
   double residual = 0;
   std::size_t cut_short = 0;         ///< solves taken as they were after solve_iterations
-  std::size_t given_up = 0;          ///< solves of no use: explicit steps in their place
+  std::size_t given_up = 0;          ///< solves of no use: shorter steps in their place
   std::uint64_t all_iterations = 0;  ///< of all solves
   /// The worst of both, all iterations, and how many of both ended early.
   void add(const SolveReport& other);
@@ -144,7 +144,7 @@ struct Warnings {
   std::size_t inverted_trials = 0;     ///< trial det F_E <= 0, repaired by the projection
   double worst_acoustic_cfl = 0;       ///< of fixed steps
   std::size_t solves_cut_short = 0;    ///< taken as they were after solve_iterations
-  std::size_t solves_given_up = 0;     ///< of no use: explicit steps in their place
+  std::size_t solves_given_up = 0;     ///< of no use: shorter steps in their place
   double least_J_P = 1;                ///< of the most packed particle so far
 };
 

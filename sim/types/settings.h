@@ -1,5 +1,6 @@
 #pragma once
-/// Parameters of the time integration. Defaults are the paper's method.
+/// Parameters of the time integration. Defaults are the paper's method where a study has not found
+/// a better one: docs/transfers.md and docs/time_step.md say which.
 
 #include <algorithm>
 #include <vector>
@@ -25,7 +26,9 @@ enum class Precision { single, real64 };  ///< written "float" and "double" in s
 struct SolverSettings {
   double cell_size = 0.02;        ///< h, m
   Kernel kernel = Kernel::cubic;  ///< B-spline of the transfers
-  Transfer transfer = Transfer::flip;
+  /// What moves the snow also strains it. The paper's `flip` moves particles by a velocity that the
+  /// grid does not see, and their places part from F.
+  Transfer transfer = Transfer::asflip;
   double flip_ratio = 0.95;         ///< the paper's alpha
   double flip_reference_dt = 5e-4;  ///< s; 0: alpha acts per step, as in the paper
   /// Move particles with v_p (paper) or the grid's velocity; AFLIP and ASFLIP know themselves.

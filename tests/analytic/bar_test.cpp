@@ -19,6 +19,7 @@ const double bar_c = std::sqrt(bar_modulus / bar_density);
 double bar_period(int cells, bool is_held, Precision precision = Precision::real64) {
   SolverSettings s;
   s.cell_size = 1.0 / cells;
+  s.transfer = Transfer::flip;
   s.flip_ratio = 1;
   s.precision = precision;
   s.gravity.setZero();

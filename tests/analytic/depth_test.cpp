@@ -53,6 +53,7 @@ constexpr int steps_between_looks = 7;
 /// A step may move colliders by more than a cell, so that there is something to push; contact is at
 /// nodes, since particles that are to follow such an edge would be crushed.
 SolverSettings with_held_nodes(SolverSettings s = {}) {
+  s.transfer = Transfer::flip;
   s.contact_at = ContactAt::nodes;
   s.cfl = 2;
   return s;
@@ -271,6 +272,7 @@ double acceleration_on(const shapes::Shape& shape, double degrees, double fricti
   SolverSettings s;
   s.cell_size = 0.05;
   s.precision = Precision::real64;
+  s.transfer = Transfer::flip;
   s.flip_reference_dt = 0;
   s.gravity = 9.81 * Vec3d(std::sin(angle), -std::cos(angle), 0);
   const ParticleArrays p = lattice({-0.1, 0, -0.1}, {0.1, 0.1, 0.1}, {8, 4, 8}, 400);

@@ -64,6 +64,7 @@ double growth(double beta, double cfl) {
   s.period = {1, 1, 1};
   s.time_step = TimeStep::fixed;
   s.gravity.setZero();
+  s.transfer = Transfer::flip;
   s.flip_ratio = 1;
   s.flip_reference_dt = 0;
   s.advect = Advect::pic;

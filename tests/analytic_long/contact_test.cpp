@@ -21,6 +21,7 @@ TEST(SlippingBallLong, SlippingBallAcceleratesByGravityLessFriction) {
   SolverSettings s;
   s.cell_size = R / 6;
   s.contact_at = ContactAt::nodes;
+  s.transfer = Transfer::flip;
   s.flip_ratio = 0.99;
   s.flip_reference_dt = 1e-3;
   s.gravity = 9.81 * Vec3d(std::sin(t), -std::cos(t), 0);

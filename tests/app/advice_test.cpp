@@ -22,7 +22,7 @@ TEST(Advice, AWordOfAnotherProgramComesBeforeASimilarOne) {
   EXPECT_EQ(advice::suggest("nonsense", keys, "read on"), "read on");
   EXPECT_EQ(advice::suggest_one_of("p2g", {"stage", {"rasterize", "volumes"}}),
             "did you mean rasterize? expected rasterize, volumes");
-  EXPECT_EQ(advice::suggest(".ABC", {"format of an export", {"ply"}}).substr(0, 26),
+  EXPECT_EQ(advice::suggest(".ABC", {"format of an export", {"ply"}}).substr(0, 27),
             "neve does not write Alembic");
 }
 

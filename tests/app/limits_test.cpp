@@ -103,7 +103,8 @@ TEST(Limits, LimitsAreThoseOfTheDiagnosis) {
 }
 
 TEST(Limits, LimitsAreThoseOfDumps) {
-  const scene::Scene scene = ball();
+  scene::Scene scene = ball();
+  scene.materials[0].max_J_P = 1e4;
   const sim::ParticleArrays state =
       setup::make_simulation(scene, setup::seed_scene(scene).particles, 1).particles();
   const health::Expected expected(scene, state, 1e-4);

@@ -136,8 +136,8 @@ class Perturb : public Walker<Perturb> {
   }
   template <scene::Choice E>
   void change(E& e, const app::scene::Valid&, const std::string& at) {
-    const E before = e;
-    e = app::scene::names(E{}).back().value;
+    const E before = e, last = app::scene::names(E{}).back().value;
+    e = before == last ? app::scene::names(E{}).front().value : last;
     EXPECT_NE(e, before) << at;
   }
   template <scene::Choice E>

@@ -131,7 +131,8 @@ TEST_F(Check, CheckNamesParametersWithoutEffect) {
             Findings{"warning solver.advect"});
   EXPECT_EQ(findings(scene("transfer = \"aflip\"\nseparation_max = 0.5", floor_plane)),
             Findings{"warning solver.separation_max"});
-  EXPECT_EQ(findings(scene("separation_min = 0.5\nseparation_J_E = 0.99", floor_plane)),
+  EXPECT_EQ(findings(scene("transfer = \"apic\"\nseparation_min = 0.5\nseparation_J_E = 0.99",
+                           floor_plane)),
             (Findings{"warning solver.separation_min", "warning solver.separation_J_E"}));
   EXPECT_EQ(findings(scene("transfer = \"asflip\"\nseparation_min = 0.5\nseparation_max = 0.9\n"
                            "separation_J_E = 0.99",
@@ -147,16 +148,29 @@ TEST_F(Check, CheckSaysThatFlipStopsSpinAndWhatKeepsIt) {
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     return result.output;
   };
-  const std::string flip = said("", "[0,0,8]");
+  const std::string flip = said("transfer = \"flip\"", "[0,0,8]");
   EXPECT_TRUE(contains(flip, "FLIP halves its spin every")) << flip;
   EXPECT_TRUE(contains(flip, "solver.transfer = \"asflip\" or \"aflip\" keeps it")) << flip;
-  EXPECT_FALSE(contains(said("", "[0,0,0]"), "spin"));
-  EXPECT_FALSE(contains(said("transfer = \"asflip\"", "[0,0,8]"), "spin"));
-  EXPECT_FALSE(contains(said("flip_ratio = 1", "[0,0,8]"), "spin"));
-  const std::string damped = said("flip_ratio = 0.9", "[0,0,0]");
+  EXPECT_FALSE(contains(said("transfer = \"flip\"", "[0,0,0]"), "spin"));
+  EXPECT_FALSE(contains(said("", "[0,0,8]"), "spin"));
+  EXPECT_FALSE(contains(said("transfer = \"flip\"\nflip_ratio = 1", "[0,0,8]"), "spin"));
+  const std::string damped = said("transfer = \"flip\"\nflip_ratio = 0.9", "[0,0,0]");
   EXPECT_TRUE(contains(damped, "pieces a few cells across stop turning")) << damped;
   EXPECT_TRUE(contains(damped, "transfer = \"asflip\" or \"aflip\" keeps them turning")) << damped;
   EXPECT_FALSE(contains(said("flip_ratio = 0.9\ntransfer = \"aflip\"", "[0,0,0]"), "stop turning"));
+}
+
+TEST_F(Check, CheckSaysThatThePapersTransferMovesSnowByWhatDoesNotStrainIt) {
+  const auto is_said = [&](const std::string& solver) {
+    folder.write("scene.toml", scene(solver, floor_plane));
+    const auto result = neve({"check", "scene.toml"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return contains(result.output, "flip moves particles by a velocity that does not strain them");
+  };
+  EXPECT_TRUE(is_said("transfer = \"flip\""));
+  EXPECT_FALSE(is_said("transfer = \"flip\"\nadvect = \"pic\""));
+  EXPECT_FALSE(is_said("transfer = \"flip\"\nflip_ratio = 0"));  // PIC
+  EXPECT_FALSE(is_said(""));
 }
 
 TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
@@ -247,7 +261,8 @@ TEST_F(Check, AFloorWhoseNormalPointsDownIsTurnedRound) {
 
 /// Under --coarsen the number that is proposed is the one to type.
 TEST_F(Check, AdviceIsInTheNumbersThatSetTakes) {
-  folder.write("scene.toml", scene("", floor_plane));
+  // With this transfer snow hardens little after the step that diverged.
+  folder.write("scene.toml", scene("transfer = \"flip\"", floor_plane));
   const std::vector<std::string> coarse{"--coarsen", "2", "--set", "solver.time_step=fixed"};
   const auto run = [&](const char* command, const std::string& dt) {
     std::vector<std::string> words{command, "scene.toml", "--set", "solver.dt=" + dt};
@@ -395,12 +410,12 @@ TEST_F(Check, CheckForeseesThatAHardImpactMayCrushAParticle) {
   };
   const app::Json hard = check_of("seed=1");
   EXPECT_NE(notes(hard).find("may crush single particles"), std::string::npos) << notes(hard);
-  EXPECT_GT(steps_of_busiest(hard), 12);
+  EXPECT_GT(steps_of_busiest(hard), 6);
   const app::Json bounded = check_of("material.snow.max_hardening=5");
   EXPECT_EQ(notes(bounded).find("may crush"), std::string::npos) << notes(bounded);
   const app::Json slow = check_of("body.ball.velocity=[0,-3,0]");
   EXPECT_EQ(notes(slow).find("may crush"), std::string::npos) << notes(slow);
-  EXPECT_LT(steps_of_busiest(slow), 10);
+  EXPECT_LT(steps_of_busiest(slow), 5);
 }
 
 TEST_F(Check, CheckRefusesTheScenesThatRenderRefuses) {

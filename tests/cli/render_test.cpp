@@ -49,11 +49,11 @@ TEST_F(Cli, RenderMakesPicturesMovieAndRunJson) {
 TEST_F(Cli, FastRunsSayWhatWasSetAndTheirPicturesMakeThemselvesAgain) {
   const auto result = neve({"render", "scene.toml", "--fast", "--frames", "2", "--out", "fast"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_TRUE(contains(result.errors, "--fast sets solver.acoustic_cfl=1.2")) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "--fast sets solver.acoustic_cfl=0.85")) << result.errors;
   const app::Json run = json_of("fast/run.json");
-  EXPECT_EQ(run["overrides"][0], "solver.acoustic_cfl=1.2");
+  EXPECT_EQ(run["overrides"][0], "solver.acoustic_cfl=0.85");
   const std::string picture = "fast/particles/0002.png";
-  EXPECT_TRUE(contains(neve({"info", picture}).output, "solver.acoustic_cfl=1.2"));
+  EXPECT_TRUE(contains(neve({"info", picture}).output, "solver.acoustic_cfl=0.85"));
   ASSERT_EQ(neve({"render", picture, "--out", "again"}).exit_code, 0);
   EXPECT_EQ(json_of("again/run.json")["frames"][0]["state_hash"], run["frames"][2]["state_hash"]);
   EXPECT_NE(run["frames"][2]["steps"],
@@ -65,7 +65,7 @@ TEST_F(Cli, FastRunsSayWhatWasSetAndTheirPicturesMakeThemselvesAgain) {
             0);
   const app::Json check = app::parse_json(neve({"check", "scene.toml", "--json"}).output);
   EXPECT_EQ(check["fast"]["is_set"], false);
-  EXPECT_EQ(check["fast"]["overrides"][0], "solver.acoustic_cfl=1.2");
+  EXPECT_EQ(check["fast"]["overrides"][0], "solver.acoustic_cfl=0.85");
   EXPECT_LT(check["fast"]["work"], 1);
 }
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "app/output/checkpoint.h"
-#include "sim/engine/progress.h"
+#include "sim/state/progress.h"
 #include "tests/support/resume.h"
 
 namespace neve::test {

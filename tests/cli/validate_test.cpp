@@ -10,14 +10,14 @@ TEST_F(Cli, ARightRunIsValidatedInSilenceAndWithTheSameBits) {
       neve({"render", "scene.toml", "--validate", "--frames", "2", "--out", "watched"});
   EXPECT_EQ(watched.exit_code, 0) << watched.errors;
   EXPECT_FALSE(contains(watched.errors, "warning")) << watched.errors;
-  EXPECT_TRUE(contains(watched.errors, "validation: 18 checks at ")) << watched.errors;
+  EXPECT_TRUE(contains(watched.errors, "validation: 19 checks at ")) << watched.errors;
   EXPECT_TRUE(contains(watched.errors, " steps, all held")) << watched.errors;
   ASSERT_EQ(neve({"render", "scene.toml", "--frames", "2", "--out", "alone"}).exit_code, 0);
   const app::Json with = json_of("watched/run.json"), without = json_of("alone/run.json");
   for (int frame = 0; frame <= 2; ++frame)
     EXPECT_EQ(with["frames"][frame]["state_hash"], without["frames"][frame]["state_hash"]);
   EXPECT_FALSE(without.contains("validation"));
-  ASSERT_EQ(with["validation"].size(), 18u);
+  ASSERT_EQ(with["validation"].size(), 19u);
   for (const app::Json& check : with["validation"]) {
     EXPECT_TRUE(check["worst"].is_number()) << check;
     EXPECT_TRUE(check["threshold"].is_number()) << check;

@@ -7,7 +7,7 @@ namespace neve::test {
 std::vector<Mistake> run_mistakes() {
   constexpr const char* constitutive = "sim/kernels/constitutive.h";
   constexpr const char* sweeps = "sim/kernels/sweeps.h";
-  constexpr const char* method = "sim/engine/method.cpp";
+  constexpr const char* method = "sim/state/method.cpp";
   return {
       {"sound_without_hardening",
        "sound speed without hardening",

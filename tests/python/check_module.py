@@ -12,7 +12,9 @@ sys.path.insert(0, sys.argv[1])
 import neve
 
 # A run: its frames as arrays.
-run = neve.render("scene.toml", set={"body.ball.velocity": [0, -3, 0]}, flags=["--no-movie"])
+# Of flip: other transfers count the energy of affine velocities as well.
+run = neve.render("scene.toml", set={"body.ball.velocity": [0, -3, 0], "solver.transfer": "flip"},
+                  flags=["--no-movie"])
 assert run.status == "ok" and list(run.frames) == [0, 1, 2, 3, 4], run.status
 assert run["max_speed"][0] == 3 and run["momentum"].shape == (5, 3)
 assert np.isnan(run["dt_min"][0]) and run["dt_min"][1] > 0

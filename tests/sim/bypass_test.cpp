@@ -88,6 +88,7 @@ TEST(Bypass, SkippedRasterizingLeavesTheGridEmpty) {
   BypassCase c;
   c.colliders.clear();
   SolverSettings s = skipping({Stage::rasterize});
+  s.transfer = Transfer::flip;
   s.flip_ratio = 1;
   const Simulation simulation = c.run(s);
   // An empty grid has no velocity to hand on; FLIP adds its change, which is nothing.

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "sim/engine/kernel_pose.h"
 #include "sim/simulation.h"
 #include "sim/staged.h"
+#include "sim/state/kernel_pose.h"
 #include "tests/support/snow.h"
 #include "tests/support/temporary_folder.h"
 

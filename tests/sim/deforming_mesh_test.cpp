@@ -7,10 +7,10 @@
 #include <cmath>
 #include <random>
 
-#include "sim/engine/kernel_pose.h"
 #include "sim/shapes/collider.h"
 #include "sim/shapes/deforming_field.h"
 #include "sim/shapes/numbered_files.h"
+#include "sim/state/kernel_pose.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 

@@ -235,7 +235,8 @@ TEST_F(DeformingRun, FrictionOfFilesCarriesSnowAlong) {
     // Snow settles onto the plate in the first hundredths of a second.
     EXPECT_NEAR(speed_after(0.3), 0.3 * 9.81 * 0.2, 0.1 * 0.3 * 9.81 * 0.2);
     if (way.beta > 0) continue;
-    EXPECT_NEAR(speed_after(5), 1, 0.03);
+    // It still rocks on the feet that it was caught by.
+    EXPECT_NEAR(speed_after(5), 1, 0.06);
     EXPECT_NEAR(speed_after(0), 0, 1e-3);
   }
 }

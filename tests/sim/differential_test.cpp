@@ -82,7 +82,7 @@ TEST(StressChange, StressChangeIsTheDerivativeAtTheBoundsOfHardening) {
       };
       const Mat3d dP = (8 * (P(e) - P(-e)) - (P(2 * e) - P(-2 * e))) / (12 * e);
       const Mat3d expected = dP * F_E.transpose();
-      const double factor = J_P < 1 ? 50 : kernels::least_hardening;
+      const double factor = J_P < 1 ? 50 : kernels::min_hardening;
       const double scale = factor * material.youngs_modulus + expected.norm();
       EXPECT_LE((stress_change_of<double>(material, F_E, J_P, G) - expected).norm() / scale, 2e-8);
       EXPECT_LE((stress_change_of<float>(material, F_E, J_P, G) - expected).norm() / scale, 2e-5);

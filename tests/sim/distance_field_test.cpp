@@ -7,9 +7,9 @@
 #include <cstring>
 #include <random>
 
-#include "sim/engine/kernel_pose.h"
 #include "sim/shapes/collider.h"
 #include "sim/shapes/solid.h"
+#include "sim/state/kernel_pose.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 

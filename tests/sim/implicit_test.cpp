@@ -194,15 +194,15 @@ TEST(ImplicitSolve, SnowThatFliesIsSolvedAsWellAsSnowAtRest) {
 }
 
 TEST(ImplicitSolve, ImplicitSolveThatFailsIsReplacedByExplicitSteps) {
-  // One iteration at fifty times the explicit step is worse than no motion at all. c dt/h may be
-  // 0.5.
+  // One iteration at fifty times the explicit step is worse than no motion at all, and so it is at
+  // half and at a quarter of that. c dt/h may be 0.5.
   const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
   SolverSettings s = implicit_settings(test, 1);
   s.solve_iterations = 1;
   Simulation failing(s, three_models(), {}, strained(150), 1);
   constexpr double dt = 0.02;
   failing.step(dt);
-  EXPECT_EQ(failing.warnings().solves_given_up, 1u);
+  EXPECT_EQ(failing.warnings().solves_given_up, 1u + 2u + 4u);
   EXPECT_GT(failing.steps(), 20u);
   EXPECT_NEAR(failing.time(), dt, 1e-12);
   s.beta = 0;
@@ -217,6 +217,27 @@ TEST(ImplicitSolve, ImplicitSolveThatFailsIsReplacedByExplicitSteps) {
   ASSERT_TRUE(report.solve);
   EXPECT_GT(report.solve->given_up, 0u);
   EXPECT_EQ(report.limit(), DtLimit::acoustic);  // of the steps that were taken
+}
+
+/// A step that is too long for the iterations is taken in two halves.
+TEST(ImplicitSolve, ASolveThatIsCutShortHalvesItsStep) {
+  const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
+  SolverSettings s = implicit_settings(test, 1);
+  constexpr double dt = 4e-3;
+  const auto steps_with = [&](int iterations) {
+    s.solve_iterations = iterations;
+    s.solve_tolerance = 1e-2;
+    Simulation simulation(s, three_models(), {}, strained(150), 1);
+    simulation.step(dt);
+    EXPECT_NEAR(simulation.time(), dt, 1e-12);
+    EXPECT_LE(simulation.last_solve().residual, 0.1) << "of what was used";
+    return simulation.steps();
+  };
+  EXPECT_EQ(steps_with(100), 1u);
+  std::size_t steps = 1;
+  for (int iterations = 12; steps == 1 && iterations > 1; --iterations)
+    steps = steps_with(iterations);
+  EXPECT_EQ(steps, 2u);
 }
 
 TEST(ImplicitSolve, ImplicitSolveOfCrushedBodiesLeavesNumbers) {
@@ -278,7 +299,7 @@ TEST(ImplicitStep, ImplicitStepHoldsAtTenTimesTheExplicitStep) {
     EXPECT_LE(report.solve->residual, settings.solve_tolerance);
     const Summary s = held.summary();
     EXPECT_LT(s.kinetic_energy, 0.2 * start);
-    EXPECT_GT(s.min_J_P, 0.8);
+    EXPECT_GT(s.min_J_P, 0.75);
     EXPECT_GT(s.centre_of_mass[1], 0.04) << "it lies on the floor";
     Simulation lost = impact(impact_settings(0, dt), 2);
     lost.advance_to(0.1);

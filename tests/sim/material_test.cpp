@@ -263,10 +263,10 @@ void expect_bounded_hardening() {
   const double at_rest = stress_at<Real>(m, 1);
   EXPECT_NEAR(stress_at<Real>(m, 0.1) / at_rest, 50, 1e-4);
   EXPECT_NEAR(stress_at<Real>(m, 0.99) / at_rest, std::exp(1), 1e-4);
-  EXPECT_NEAR(stress_at<Real>(m, 9) / at_rest / kernels::least_hardening, 1, 1e-4);
+  EXPECT_NEAR(stress_at<Real>(m, 9) / at_rest / kernels::min_hardening, 1, 1e-4);
   m.max_hardening = 1e12;
   EXPECT_TRUE(std::isfinite(stress_at<Real>(m, 0.1)));
-  EXPECT_NEAR(health::hardening_factor(m, 9), kernels::least_hardening, 0);
+  EXPECT_NEAR(health::hardening_factor(m, 9), kernels::min_hardening, 0);
 }
 
 TEST(Snow, HardeningEndsAtItsBounds) {

@@ -1,6 +1,6 @@
 /// Particles in block order and the blocks of nodes around them, against what the definition says.
 
-#include "sim/engine/partition.h"
+#include "sim/state/partition.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Records in a new order, without a second copy.
 
-#include "sim/engine/reorder.h"
+#include "sim/state/reorder.h"
 
 #include <gtest/gtest.h>
 

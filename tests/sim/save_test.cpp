@@ -7,9 +7,9 @@
 #include <cstring>
 #include <limits>
 
-#include "sim/engine/progress.h"
 #include "sim/kernels/particles.h"
 #include "sim/simulation.h"
+#include "sim/state/progress.h"
 #include "tests/support/snow.h"
 
 namespace {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/checks/places.h"
+#include "tests/support/elastic.h"
 #include "tests/support/snow.h"
 
 namespace {
@@ -160,6 +162,65 @@ TEST(Watch, WatchIsSilentInAnEmptyScene) {
   Drop drop;
   drop.particles = {};
   EXPECT_TRUE(look_at(drop).empty());
+}
+
+struct Move {
+  Transfer transfer;
+  Advect advect;
+};
+
+/// A ball of five cells in radius that breaks on a floor, 0.3 s after its start.
+double believed_volume_after_impact(const Move& move, bool& is_said) {
+  SolverSettings s;
+  s.cell_size = 0.03;
+  s.transfer = move.transfer;
+  s.advect = move.advect;
+  Material dry;
+  dry.youngs_modulus = 2e5;
+  dry.critical_compression = 0.03;
+  dry.critical_stretch = 0.005;
+  Simulation simulation(s, {dry}, {plane({0, 0, 0}, {0, 1, 0}, 0.5)},
+                        ball_of_snow({0, 0.16, 0}, 0.15, 0.015, {0.4, -4, 0}), 1);
+  simulation.advance_to(0.3);
+  EXPECT_FALSE(simulation.divergence());
+  checks::Watch watch(s, {dry});
+  is_said = has(watch.look(simulation), "volume that F believes in");
+  return checks::believed_volume(simulation.particles(), {dry}, 1u << 30);
+}
+
+/// The paper's line parts F from the places; whatever moves by the grid's velocity, and ASFLIP in
+/// compressed snow, does not.
+TEST(Places, SnowIsWhereFSaysUnlessItMovesByWhatDoesNotStrainIt) {
+  bool is_said = false;
+  for (const Move& move :
+       {Move{Transfer::flip, Advect::pic}, Move{Transfer::apic, Advect::particle},
+        Move{Transfer::mls, Advect::particle}, Move{Transfer::aflip, Advect::particle},
+        Move{Transfer::asflip, Advect::particle}}) {
+    EXPECT_NEAR(believed_volume_after_impact(move, is_said), 1, 0.1) << name(move.transfer);
+    EXPECT_FALSE(is_said) << name(move.transfer);
+  }
+  EXPECT_GT(believed_volume_after_impact({Transfer::flip, Advect::particle}, is_said), 1.25);
+  EXPECT_TRUE(is_said);
+}
+
+/// Packed, loose and thin snow on a lattice: 1 to a percent, and in pieces too few to tell 1.
+TEST(Places, BelievedVolumeIsOneWhereSnowIsWhereFSays) {
+  for (const double stretch : {0.5, 1.0, 1.3}) {
+    ParticleArrays p = lattice({0, 0, 0}, Vec3d::Constant(0.2), {16, 16, 16}, 400);
+    const Simulation simulation(SolverSettings{}, {Material{}}, {}, p, 1);
+    p = simulation.particles();
+    for (std::size_t q = 0; q < p.x.size(); ++q) {
+      p.x[q][1] *= stretch;
+      p.J_P[q] = stretch;
+    }
+    EXPECT_NEAR(checks::believed_volume(p, {Material{}}, 1u << 30), 1, 0.02) << stretch;
+    for (double& J_P : p.J_P) J_P *= 1.5;
+    EXPECT_NEAR(checks::believed_volume(p, {Material{}}, 1u << 30), 1.5, 0.03) << stretch;
+    EXPECT_EQ(checks::believed_volume(p, {Material{}}, 0), 1) << "all were born";
+  }
+  const ParticleArrays few = lattice({0, 0, 0}, Vec3d::Constant(0.02), {2, 2, 2}, 400);
+  const Simulation simulation(SolverSettings{}, {Material{}}, {}, few, 1);
+  EXPECT_EQ(checks::believed_volume(simulation.particles(), {Material{}}, 1u << 30), 1);
 }
 
 }  // namespace

@@ -110,8 +110,8 @@ TEST(Structure, TheIndexOfTheDocumentationHasEveryPage) {
     }
 }
 
-/// What was before, and who wanted it, is for reports and the changelog. The page of verification is
-/// made by a script, which names the commit of its run.
+/// What was before, and who wanted it, is for reports and the changelog. The page of verification
+/// is made by a script, which names the commit of its run.
 TEST(Structure, PagesTellWhatIsTrueNow) {
   for (const SourceLine& line : lines_of_pages()) {
     if (line.file.starts_with("docs/reports/") || line.file == "CHANGELOG.md" ||

@@ -155,10 +155,10 @@ TEST(Words, TheDocumentationHasNoneThatTheGlossaryAvoids) {
   expect_no_avoided(words_to_avoid(lines_of("docs/glossary.md")), texts);
 }
 
-TEST(Words, NamesInAppAndRenderSayMaxAndMin) {
+TEST(Words, NamesSayMaxAndMin) {
   const std::regex banned{std::string(banned_in_names)}, name("[A-Za-z_][A-Za-z0-9_]*");
   std::size_t names = 0;
-  for (const std::string& file : sources_below({"app", "render"}))
+  for (const std::string& file : sources_below({"app", "render", "sim"}))
     for (const SourceLine& line : lines_of(file))
       for (std::sregex_iterator at(line.text.begin(), line.text.end(), name), end; at != end;
            ++at) {

@@ -137,7 +137,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   const Wide xi = static_cast<Wide>(k.xi), most = sizeof(Real) == 4 ? 80 : 700;
   const Wide exponent = std::clamp(xi * (1 - out.J_P), -most, most);
   const Wide factor =
-      std::clamp(std::exp(exponent), static_cast<Wide>(Real(sim::kernels::least_hardening)),
+      std::clamp(std::exp(exponent), static_cast<Wide>(Real(sim::kernels::min_hardening)),
                  static_cast<Wide>(k.max_hardening));
   const Wide H = factor * static_cast<Wide>(p.stiffness);
   const Wide mu = H * static_cast<Wide>(k.mu0), lambda = H * static_cast<Wide>(k.lambda0);

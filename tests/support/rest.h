@@ -75,7 +75,7 @@ struct Rest {
   double spread = 0;  ///< of the gaps along the surface: their standard deviation
   double rise = 0;    ///< of the centre of mass, likewise
   double lowest = 0;  ///< height of the lowest particle
-  double torn = 0;    ///< density of the lowest cell over that of the next, less 1
+  double torn = 0;    ///< density of the first cell above the surface over that of the next, less 1
 };
 
 inline Rest rest_of(const RestingPlace& place, const ParticleArrays& now) {
@@ -106,8 +106,8 @@ inline Rest rest_of(const RestingPlace& place, const ParticleArrays& now) {
   rest.lowest = *std::min_element(heights.begin(), heights.end());
   double first = 0, second = 0;
   for (const double y : heights) {
-    first += y < rest.lowest + 1;
-    second += y >= rest.lowest + 1 && y < rest.lowest + 2;
+    first += y < 1;
+    second += y >= 1 && y < 2;
   }
   rest.torn = first / second - 1;
   return rest;

@@ -47,6 +47,7 @@ Scene drop(double dt, Transfer transfer) {
   constexpr int count = 300;
   Scene scene;
   scene.settings = settings(dt, transfer);
+  scene.material.max_J_P = 1e4;  // snow that a mistake tears shows
   scene.steps = 400;
   shapes::Collider floor;
   floor.shape.form = shapes::Plane{{0, 0, 0}, {0, 1, 0}};

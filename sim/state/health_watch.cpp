@@ -1,4 +1,4 @@
-#include "sim/engine/health_watch.h"
+#include "sim/state/health_watch.h"
 
 #include <algorithm>
 #include <string_view>
@@ -122,8 +122,8 @@ std::optional<BrokenRule> HealthWatch::check_sums(const SolverSettings& settings
       account.explained + (health::limits_of(Law::energy).stop - 1) * account.scale;
   if (!(account.found <= allowed))
     return broken("energy", "particle_velocities", account.found, allowed);
-  const double most_packed = health::limits_of(Law::packed).stop;
-  if (now.packed > most_packed) return broken("packed", "deformation", now.packed, most_packed);
+  const double max_packed = health::limits_of(Law::packed).stop;
+  if (now.packed > max_packed) return broken("packed", "deformation", now.packed, max_packed);
   return std::nullopt;
 }
 

@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "sim/base/thread_pool.h"
-#include "sim/engine/grid_storage.h"
-#include "sim/engine/method.h"
-#include "sim/engine/moving_colliders.h"
-#include "sim/engine/particle_storage.h"
-#include "sim/engine/progress.h"
+#include "sim/state/grid_storage.h"
+#include "sim/state/method.h"
+#include "sim/state/moving_colliders.h"
+#include "sim/state/particle_storage.h"
+#include "sim/state/progress.h"
 
 namespace neve::sim::engine {
 
@@ -44,6 +44,11 @@ struct State {
   void advance_time(double dt);
   /// Makes the speed of colliders that snow may meet a limit of the next step.
   void note_near_colliders();
+  /// Lets new particles [begin, end) touch colliders where they are: those that lie nearer than
+  /// snow rests are not pushed away.
+  void note_touching(std::size_t begin, std::size_t end);
+  /// Distance from a surface at which snow rests, m.
+  double touching_distance(const kernels::Particle<Real>& p) const;
   /// Brings particles out of colliders, if the settings ask for it.
   void push_out(kernels::SweepArgs<Real> a) const;
 

@@ -1,4 +1,4 @@
-#include "sim/engine/spray.h"
+#include "sim/state/spray.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,7 +10,7 @@ namespace neve::sim::engine {
 namespace {
 
 /// More make good use of a block on the grid. They are taken to their nodes together, as there.
-constexpr std::uint32_t most_particles = kernels::scatter_group;
+constexpr std::uint32_t max_particles = kernels::scatter_group;
 
 /// Three small numbers, a byte each; also of differences, whose sum with `bias` is positive.
 constexpr std::uint32_t packed(int x, int y, int z) {
@@ -59,7 +59,7 @@ void Spray::find_boxes(const Blocks& blocks, const std::vector<std::uint16_t>& l
     const kernels::BlockRange& block = blocks[b];
     neighbour_[b] = not_spray;
     boxes_[b] = {packed(0, 0, 0), packed(3, 3, 3)};
-    if (count_of(block) > most_particles) continue;
+    if (count_of(block) > max_particles) continue;
     Box& box = boxes_[b] = {cell_of(locals[block.begin]), cell_of(locals[block.begin])};
     for (std::uint32_t p = block.begin + 1; p < block.end; ++p)
       for (std::uint32_t byte = 0xff; byte <= 0xff0000; byte <<= 8) {
@@ -142,7 +142,7 @@ bool Spray::add_pair(const Blocks& blocks, const std::vector<std::uint16_t>& loc
   const kernels::BlockRange pair[2] = {blocks[b], blocks[other]};
   const Box boxes[2] = {boxes_[b], boxes_[other]};
   if (neighbour_[other] != static_cast<std::int32_t>(b) || boxes[0].low != boxes[0].high ||
-      boxes[1].low != boxes[1].high || count_of(pair[0]) + count_of(pair[1]) > most_particles ||
+      boxes[1].low != boxes[1].high || count_of(pair[0]) + count_of(pair[1]) > max_particles ||
       model_of(locals[pair[0].begin]) != model_of(locals[pair[1].begin]))
     return false;
   kernels::SprayCluster cluster{};

@@ -1,4 +1,4 @@
-#include "sim/engine/method.h"
+#include "sim/state/method.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,13 +71,13 @@ void Method<Real>::change(const SolverSettings& given,
   settings = given;
   materials = materials_given;
   half_spacing.clear();
-  double most_dense = 0;
+  double max_density = 0;
   for (const Material& m : materials) {
     half_spacing.push_back(static_cast<Real>(0.5 * std::cbrt(1 / m.density)));
-    most_dense = std::max(most_dense, m.density);
+    max_density = std::max(max_density, m.density);
   }
   // 2^-30 of a full cell at 1 m/s: 2^63 of them stop 10^8 cells at 80 m/s within a step.
-  load_unit = std::ldexp(1.0, std::ilogb(most_dense * std::pow(settings.cell_size, 3)) - 30);
+  load_unit = std::ldexp(1.0, std::ilogb(max_density * std::pow(settings.cell_size, 3)) - 30);
   kernel_nodes = settings.kernel == Kernel::cubic ? kernels::cubic_nodes : kernels::quadratic_nodes;
   sweeps = &kernels::sweeps_for(simd, kernel_nodes, transfer_kind(settings.transfer), Real());
   solve_sweeps =

@@ -1,10 +1,10 @@
-#include "sim/engine/kernel_pose.h"
+#include "sim/state/kernel_pose.h"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/engine/records.h"
 #include "sim/kernels/blocks.h"
+#include "sim/state/records.h"
 
 namespace neve::sim::engine {
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "sim/engine/records.h"
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/particles.h"
+#include "sim/state/records.h"
 #include "sim/types/math.h"
 
 namespace neve::sim::engine {

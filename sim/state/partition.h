@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "sim/base/thread_pool.h"
-#include "sim/engine/reorder.h"
-#include "sim/engine/spray.h"
 #include "sim/kernels/blocks.h"
+#include "sim/state/reorder.h"
+#include "sim/state/spray.h"
 #include "sim/types/math.h"
 
 namespace neve::sim::engine {
@@ -29,7 +29,7 @@ class Partition {
   void wrap(std::vector<std::uint64_t>& keys, ThreadPool& pool, int threads) const;
 
   /// Particles may have been added at the end since the last call; if there are fewer, all are
-  /// sorted again. After any other change of the storage forget() has to be called.
+  /// sorted again. After any other change of the storage invalidate() has to be called.
   /// @param keys, locals  per storage index, see SweepArgs
   void build(const std::vector<std::uint64_t>& keys, const std::vector<std::uint16_t>& locals,
              ThreadPool& pool, int threads);
@@ -47,8 +47,8 @@ class Partition {
   /// Forgets the grid and gives its memory back.
   void release_grid();
 
-  /// Says that the storage is another one: the next build sorts all particles.
-  void forget();
+  /// The next build sorts all particles: the storage has changed in another way.
+  void invalidate();
 
   /// Brings storage into the order found; keys and locals follow.
   template <class Record>

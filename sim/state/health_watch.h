@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/engine/progress.h"
+#include "sim/state/progress.h"
 #include "sim/types/energy_account.h"
 #include "sim/types/particle_arrays.h"
 #include "sim/types/reports.h"

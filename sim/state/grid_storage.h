@@ -8,8 +8,8 @@
 #include <new>
 #include <vector>
 
-#include "sim/engine/health_watch.h"
 #include "sim/kernels/kernels.h"
+#include "sim/state/health_watch.h"
 
 namespace neve::sim::engine {
 

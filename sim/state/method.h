@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
-#include "sim/engine/lattice.h"
 #include "sim/kernels/implicit.h"
 #include "sim/kernels/kernels.h"
 #include "sim/kernels/particle_contact.h"
+#include "sim/state/lattice.h"
 #include "sim/types/material.h"
 #include "sim/types/settings.h"
 #include "sim/types/time_step.h"

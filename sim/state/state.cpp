@@ -1,6 +1,7 @@
-#include "sim/engine/state.h"
+#include "sim/state/state.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace neve::sim::engine {
 
@@ -52,6 +53,7 @@ template <class Real>
 void State<Real>::sort_storage() {
   if (progress.steps % steps_between_sorts != 0) return;
   ParticleStorage<Real>& p = particles;
+  p.contacts.reorder(p.partition.order());
   p.partition.sort_storage(p.records, p.reordering, p.keys, p.locals, *pool, active_threads());
 }
 
@@ -127,6 +129,45 @@ void State<Real>::note_near_colliders() {
   progress.limits.max_collider_speed = colliders.fastest_near(
       particles.partition.all_blocks(), method.lattice, progress.colliders_time,
       method.settings.max_dt, progress.limits.max_speed);
+}
+
+/// In double, as the kernels see it: four particles at a time.
+template <class Real>
+void State<Real>::note_touching(std::size_t begin, std::size_t end) {
+  using V = Quad<double>;
+  if (!method.settings.is_contact_at_particles() || colliders.poses().empty()) return;
+  const double h = method.settings.cell_size;
+  const Vec3i origin = kernels::block_side * method.lattice.origin;
+  particles.contacts.resize(particles.size());
+  for (const kernels::ColliderPose& pose : colliders.poses()) {
+    const auto collider = kernels::localize<double>(pose, origin.data(), h);
+    for (std::size_t q = begin; q < end; q += 4) {
+      Vec3<V> r, normal;
+      for (std::size_t l = 0; l < 4; ++l) {
+        const kernels::Particle<Real>& p = particles.records[std::min(q + l, end - 1)];
+        for (int a = 0; a < 3; ++a)
+          r[a][l] =
+              (static_cast<double>(p.cell[a] - origin[a]) + static_cast<double>(p.offset[a])) * h;
+      }
+      const V distance = kernels::surface_distance(collider, r, normal);
+      for (std::size_t l = 0; l < 4 && q + l < end; ++l)
+        if (distance[l] < touching_distance(particles.records[q + l]))
+          particles.contacts.add({0,
+                                  {0, 0, 0},
+                                  static_cast<Real>(std::max(distance[l], 0.0)),
+                                  static_cast<std::uint32_t>(q + l),
+                                  collider.index,
+                                  kernels::no_contact});
+    }
+  }
+}
+
+template <class Real>
+double State<Real>::touching_distance(const kernels::Particle<Real>& p) const {
+  const Real half = method.half_spacing[static_cast<std::size_t>(p.material())];
+  return std::min(
+      kernels::touching_share * static_cast<double>(half) * std::cbrt(static_cast<double>(p.m)),
+      kernels::max_touching * method.settings.cell_size);
 }
 
 template <class Real>

@@ -1,4 +1,4 @@
-#include "sim/engine/partition.h"
+#include "sim/state/partition.h"
 
 #include <algorithm>
 #include <numeric>
@@ -68,7 +68,7 @@ std::size_t bytes_of(const std::vector<T>& v) {
 
 }  // namespace
 
-void Partition::forget() {
+void Partition::invalidate() {
   order_.clear();
   locals_.clear();
   all_.clear();
@@ -76,7 +76,7 @@ void Partition::forget() {
 
 void Partition::build(const std::vector<std::uint64_t>& keys,
                       const std::vector<std::uint16_t>& locals, ThreadPool& pool, int threads) {
-  if (keys.size() < order_.size()) forget();
+  if (keys.size() < order_.size()) invalidate();
   const std::size_t known = order_.size();
   order_.resize(keys.size());
   locals_.resize(keys.size());

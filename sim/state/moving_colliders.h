@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "sim/base/thread_pool.h"
-#include "sim/engine/lattice.h"
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
 #include "sim/shapes/collider.h"
 #include "sim/shapes/deforming_field.h"
+#include "sim/state/lattice.h"
 
 namespace neve::sim::engine {
 

@@ -1,11 +1,11 @@
-#include "sim/engine/moving_colliders.h"
+#include "sim/state/moving_colliders.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "sim/engine/kernel_pose.h"
+#include "sim/state/kernel_pose.h"
 #include "sim/types/errors.h"
 
 namespace neve::sim::engine {
