@@ -178,9 +178,10 @@ double FrameBench::first_picture() {
   return seconds;
 }
 
-/// Simulation time of the default scene in cells twice as large, over that of the scene itself.
+/// Simulation time of a scene in cells twice as large, over that of the scene itself.
 void FrameBench::coarsen_2() {
-  const scene::Scene full = scene::read_scene_file(default_scene().string());
+  const scene::Scene full =
+      scene::read_scene_file((default_scene().parent_path() / "snowball_drop.toml").string());
   scene::Scene coarse = full;
   scene::coarsen(coarse, 2);
   const int frames = options_.is_quick ? std::min(full.frames, 2) : full.frames;

@@ -40,7 +40,7 @@ struct FilmSamples {
 
 std::vector<fs::path> chosen_scenes(const BenchOptions& options) {
   const fs::path folder = default_scene().parent_path();
-  if (options.is_quick && options.only.empty()) return {default_scene()};
+  if (options.is_quick && options.only.empty()) return {folder / "snowball_drop.toml"};
   std::vector<fs::path> scenes;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".toml" &&

@@ -136,7 +136,7 @@ fs::path this_program() {
 }
 
 fs::path default_scene() {
-  const char* const name = "snowball_drop.toml";
+  const char* const name = "snowball.toml";
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   // Next to the sources first by where the program is now, then by where it was built.
