@@ -24,7 +24,7 @@ struct CompareOptions {
   compare::PairOptions pictures;  ///< its a and b are those above; without out: none
 };
 
-/// Of neve export: the run, and what all formats have in common.
+/// `neve export` takes a run, and what all formats have in common.
 struct ExportCommand {
   run::RenderOptions run;
   std::vector<double> at;
@@ -37,7 +37,7 @@ struct PickCommand {
   view::ScreenOptions screen;
 };
 
-/// Of commands that take little: new, info, verify, doctor, schema, manual, version, help.
+/// Some commands take little: new, info, verify, doctor, schema, manual, version, help.
 struct PlainOptions {
   std::string name;                ///< of a file or folder, or a kind
   std::vector<std::string> names;  ///< of commands

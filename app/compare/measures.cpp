@@ -18,7 +18,7 @@ struct BlockOrder {
   }
 };
 
-/// Where a run keeps the nodes of a block; null if it has no snow there.
+/// A block of nodes has a place in the memory of each run; null where a run has no snow there.
 using Places = std::map<Vec3i, std::pair<const float*, const float*>, BlockOrder>;
 
 Places places_of(const picture::FieldSamples& a, const picture::FieldSamples& b) {

@@ -8,7 +8,6 @@
 #include "app/scene/names.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
-#include "app/support/lower_text.h"
 #include "app/support/text.h"
 
 namespace neve::app::dump {

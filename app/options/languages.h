@@ -52,10 +52,10 @@ Language<scene::PictureSize> size();
 Language<double> time();
 /// "0.1,0.2s": such times, each later than the one before.
 Language<std::vector<double>> times();
-/// How many times as large cells are; coarsen() says what can be used.
+/// A number of at least 1: cells are so many times as large.
 Language<double> coarsening();
 
-/// What one function reads and another writes.
+/// One function reads the value, and another writes it.
 template <class Read, class Write>
 auto language(const std::string& type, const std::string& example, Read read, Write write) {
   using T = decltype(read(std::string()));

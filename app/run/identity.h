@@ -1,5 +1,5 @@
 #pragma once
-/// What must be equal for two runs to be one: to resume, or to take states that were kept.
+/// These texts must be equal for two runs to be one: to resume, or to take states that were kept.
 
 #include <string>
 
@@ -14,10 +14,10 @@ std::string simulation_text(const scene::Scene& scene);
 /// Version, sources, and the files that a scene names.
 std::string surroundings_of(const scene::Scene& scene);
 
-/// Of all that bits of states depend on. @param simd  of the simulation
+/// Names all that bits of states depend on. @param simd  of the simulation
 std::string identity_of_states(const RenderJob& job, const std::string& simd);
 
-/// Of all that bits of states and pictures depend on, but the machine.
+/// Names all that bits of states and pictures depend on, but the machine.
 std::string identity_of(record::PictureRecord picture);
 
 /// Bytes of a particle on disk in single precision, about.

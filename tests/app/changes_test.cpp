@@ -9,32 +9,10 @@
 #include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/timeline/changes.h"
+#include "tests/support/changed_run.h"
 
 namespace neve::app {
 namespace {
-
-constexpr const char* changed_scene = R"(
-frames = 4
-[solver]
-cell_size = 0.04
-[[body]]
-name = "ball"
-shape = { sphere = { center = [0, 0.12, 0], radius = 0.08 } }
-velocity = [0, -2, 0]
-[[collider]]
-name = "floor"
-shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
-[[collider]]
-name = "ball"
-shape = { sphere = { center = [0.2, 0, 0], radius = 0.08 } }
-velocity = [-1, 0, 0]
-)";
-
-app::scene::Scene start(const std::string& more = {}) {
-  std::vector<app::scene::Override> overrides;
-  if (!more.empty()) overrides.push_back(app::scene::parse_override(more));
-  return app::scene::read_scene_text(changed_scene, "s.toml", "", overrides);
-}
 
 TEST(LiveChanges, ChangesSurviveJson) {
   const std::vector<app::scene::LiveChange> changes{{0, "solver.cfl", "0.2"},
@@ -75,7 +53,7 @@ TEST(LiveChanges, OnlyTheFirstAndLastChangeOfAStepAndAddressAreKept) {
 }
 
 TEST(LiveChanges, ChangesUpToAStepMakeItsScene) {
-  const app::scene::Scene source = start("solver.cfl=0.1");
+  const app::scene::Scene source = test::changed_scene("solver.cfl=0.1");
   const std::vector<app::scene::LiveChange> changes{{3, "solver.cfl", "0.2"},
                                                     {5, "solver.cfl", "0.3"},
                                                     {5, "camera.fov", "20"},
@@ -95,8 +73,8 @@ TEST(LiveChanges, ChangesUpToAStepMakeItsScene) {
 }
 
 TEST(LiveChanges, ARecordedSceneStartsAsTheRunAndLooksAsItDoesNow) {
-  const app::scene::Scene from = start();
-  app::scene::Scene now = start("view.particles.particles.color_by=speed");
+  const app::scene::Scene from = test::changed_scene();
+  app::scene::Scene now = test::changed_scene("view.particles.particles.color_by=speed");
   now.solver.cfl = 0.1;
   now.colliders[0].friction = 0.9;
   now.colliders[0].style = app::scene::ColliderStyle::wire;

@@ -13,6 +13,7 @@
 #include "app/timeline/origin.h"
 #include "app/timeline/timeline.h"
 #include "app/timeline/times.h"
+#include "tests/support/changed_run.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -21,29 +22,6 @@ namespace {
 using timeline::Moment;
 using timeline::Moments;
 using timeline::Timeline;
-
-constexpr const char* played_scene = R"(
-frames = 4
-[solver]
-cell_size = 0.04
-[[body]]
-name = "ball"
-shape = { sphere = { center = [0, 0.12, 0], radius = 0.08 } }
-velocity = [0, -2, 0]
-[[collider]]
-name = "floor"
-shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
-[[collider]]
-name = "ball"
-shape = { sphere = { center = [0.2, 0, 0], radius = 0.08 } }
-velocity = [-1, 0, 0]
-)";
-
-scene::Scene played(const std::string& more = {}) {
-  std::vector<scene::Override> overrides;
-  if (!more.empty()) overrides.push_back(scene::parse_override(more));
-  return scene::read_scene_text(played_scene, "s.toml", "", overrides);
-}
 
 sim::Simulation simulate(const scene::Scene& scene) {
   return sim::Simulation(scene.solver, scene.materials, scene::sim_colliders(scene),
@@ -54,7 +32,7 @@ sim::Simulation simulate(const scene::Scene& scene) {
 class Session {
  public:
   explicit Session(const std::string& more = {})
-      : scene_(played(more)), simulation(simulate(scene_)) {}
+      : scene_(test::changed_scene(more)), simulation(simulate(scene_)) {}
 
   void set(const std::string& address, const std::string& value) {
     scene::note_change(changes, {simulation.steps(), address, value});
@@ -139,7 +117,7 @@ TEST(Timeline, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
   Session session;
   play(session);
   ASSERT_FALSE(session.simulation.divergence());
-  const scene::Scene scene = played();
+  const scene::Scene scene = test::changed_scene();
   Counted again(scene, session.changes);
   int told = 0;
   again.timeline.watch({.after_change = [&](const scene::Scene&) { ++told; }});
@@ -166,7 +144,7 @@ TEST(Timeline, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
 }
 
 TEST(Timeline, PlaysAgainTheChangesThatItMadeBetweenSteps) {
-  const scene::Scene scene = played();
+  const scene::Scene scene = test::changed_scene();
   Counted live(scene);
   Timeline& timeline = live.timeline;
   const auto set = [&](const std::string& address, const std::string& value) {
@@ -201,7 +179,7 @@ TEST(Timeline, PlaysAgainTheChangesThatItMadeBetweenSteps) {
 TEST(Timeline, ContinuesFromAMomentAtAnyStep) {
   Session session;
   play(session);
-  const scene::Scene scene = played();
+  const scene::Scene scene = test::changed_scene();
   Counted whole(scene, session.changes);
   whole.timeline.go_to(3 / 24.0);
   for (const std::size_t length : {1u, 3u, 4u, 7u}) {
@@ -225,7 +203,7 @@ TEST(Timeline, ContinuesFromAMomentAtAnyStep) {
 TEST(Timeline, RetriesDoNotAffectAHealthyFrame) {
   Session session("solver.on_divergence=retry");
   play(session);
-  Counted again(played("solver.on_divergence=retry"), session.changes);
+  Counted again(test::changed_scene("solver.on_divergence=retry"), session.changes);
   again.timeline.go_to(3 / 24.0);
   EXPECT_TRUE(again.timeline.here().retries.empty());
   EXPECT_EQ(again.simulation().state_hash(), session.simulation.state_hash());
@@ -234,7 +212,7 @@ TEST(Timeline, RetriesDoNotAffectAHealthyFrame) {
 /// With retries, the steps of a frame are final at its end: changes inside it wait until then, in
 /// the same way however the run got there.
 TEST(Timeline, ChangesInsideARetriedFrameWaitForItsEnd) {
-  scene::Scene scene = played("solver.on_divergence=retry");
+  scene::Scene scene = test::changed_scene("solver.on_divergence=retry");
   scene.solver.time_step = sim::TimeStep::fixed;
   scene.solver.dt = 1 / 240.0;
   scene.materials[0].model = sim::Model::corotated;
@@ -263,15 +241,15 @@ TEST(Timeline, ChangesInsideARetriedFrameWaitForItsEnd) {
 }
 
 TEST(Timeline, PassesOverChangesOfViewsThatAreNotDrawn) {
-  const Counted run(played(), {{0, "view.smoke.smoke.density_scale", "2"},
-                               {0, "mosaic.all.columns", "2"},
-                               {0, "solver.cfl", "0.2"}});
+  const Counted run(test::changed_scene(), {{0, "view.smoke.smoke.density_scale", "2"},
+                                            {0, "mosaic.all.columns", "2"},
+                                            {0, "solver.cfl", "0.2"}});
   EXPECT_EQ(run.timeline.here().scene->views.size(), 1u);
   EXPECT_EQ(run.timeline.here().scene->solver.cfl, 0.2);
 }
 
 TEST(Timeline, GoesToAnyTimeByTheStepsOfTheRun) {
-  const scene::Scene scene = played();
+  const scene::Scene scene = test::changed_scene();
   Counted straight(scene);
   ASSERT_TRUE(straight.timeline.go_to(2 / 24.0));
   Counted wandering(scene);
@@ -287,7 +265,7 @@ TEST(Timeline, GoesToAnyTimeByTheStepsOfTheRun) {
 }
 
 TEST(Timeline, TakesNoStepToAMomentThatIsKept) {
-  const scene::Scene scene = played();
+  const scene::Scene scene = test::changed_scene();
   Counted run(scene, {{4, "solver.gravity", "[0, -20, 0]"}}, Moments(1u << 30));
   std::vector<std::uint64_t> hashes;
   for (int frame = 0; frame <= 4; ++frame) {
@@ -313,7 +291,7 @@ TEST(Timeline, TakesNoStepToAMomentThatIsKept) {
 }
 
 TEST(Timeline, TakesNoStepToAMomentInAFolder) {
-  const scene::Scene scene = played();
+  const scene::Scene scene = test::changed_scene();
   Counted run(scene);
   ASSERT_TRUE(run.timeline.go_to(2.5 / 24));
   ASSERT_FALSE(run.timeline.here().is_frame_end());
@@ -347,7 +325,7 @@ TEST(Timeline, TakesNoStepToAMomentInAFolder) {
 }
 
 TEST(Timeline, AMomentAfterADivergenceIsLeft) {
-  scene::Scene scene = played();
+  scene::Scene scene = test::changed_scene();
   scene.solver.time_step = sim::TimeStep::fixed;
   scene.solver.dt = 1 / 240.0;
   scene.materials[0].model = sim::Model::corotated;

@@ -31,11 +31,11 @@ struct SweepProgress {
 
   RunCounts counts() const;
   bool have_all_ended() const { return !runs.empty() && counts().finished == counts().all; }
-  /// Of the frames of all runs, 0 to 1.
+  /// @return share of the frames of all runs that are done, 0 to 1
   double share() const;
 };
 
-/// How far the runs are that the folder of a sweep has now. @throws Error where it has none
+/// Reads how far the runs in the folder of a sweep are. @throws Error where it has none
 SweepProgress progress_of(const std::filesystem::path& folder);
 
 /// The process ends with this object. One thread starts it, asks for it and ends it.
@@ -51,7 +51,8 @@ class BackgroundSweep {
   /// Asks it to end: the same command continues with the runs that are not finished.
   void stop() { child_.stop(); }
 
-  /// How far it is; nothing before the folder has the runs of these options. @throws Error
+  /// Reads how far it is. @return empty before the folder has the runs of these options @throws
+  /// Error
   std::optional<SweepProgress> progress() const;
   /// The error that it ended with; "" without one.
   std::string error() const;
