@@ -4,6 +4,8 @@
 
 #include "app/cli/commands.h"
 #include "app/health/check.h"
+#include "app/output/atomic_file.h"
+#include "app/picture/collider_looks.h"
 #include "app/run/render_job.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/override.h"
@@ -12,6 +14,9 @@
 #include "app/support/interrupt.h"
 #include "app/support/json.h"
 #include "app/support/text.h"
+#include "render/gl/context.h"
+#include "render/image/image.h"
+#include "render/renderer.h"
 
 namespace neve::app::cli {
 
@@ -157,6 +162,18 @@ forecast::FastLook possible_look(const run::RenderOptions& options, const run::R
                              scene::addresses_of(scene::parse_overrides(options.overrides)));
 }
 
+/// Says where there is none to write.
+void write_open_edges(const run::RenderOptions& options, const scene::Scene& scene) {
+  const std::optional<render::Frame> frame = picture::open_edges_frame(scene);
+  if (!frame) {
+    std::cerr << "no mesh is open: there is no picture " << options.open_edges << "\n";
+    return;
+  }
+  const auto context = render::gl::open_context(options.backend);
+  render::Renderer renderer(*context, options.shader_dir, nullptr);
+  output::write_file(options.open_edges, render::encode_png(renderer.draw(*frame)));
+}
+
 }  // namespace
 
 int run_check(const run::RenderOptions& options) {
@@ -174,6 +191,7 @@ int run_check(const run::RenderOptions& options) {
     print_check(check, job, look);
   if (!options.is_json) print_findings(check, !is_quiet);
   std::cout.flush();
+  if (!options.open_edges.empty()) write_open_edges(options, job.scene);
   setup::check_limits(job.scene, check.plan, job.coarsening);
   const bool has_error =
       std::any_of(check.findings.begin(), check.findings.end(),

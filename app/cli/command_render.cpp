@@ -7,6 +7,7 @@
 
 #include "app/cli/commands.h"
 #include "app/health/findings.h"
+#include "app/health/mesh_findings.h"
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
 #include "app/output/movie.h"
@@ -172,11 +173,15 @@ void print_result(const run::RenderJob& job, const run::RenderRun& run,
 void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Progress& progress) {
   std::vector<health::Finding> findings;
   health::check_units(job.scene, findings, job.coarsening);
+  health::check_meshes(job.scene, findings);
   health::check_collider_overlaps(job.scene, seeded, findings);
   health::check_meetings(job.scene, seeded, findings);
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
-    progress.warning(health::sentence(finding));
+    if (finding.severity == health::Severity::note)
+      progress.note(health::sentence(finding));
+    else
+      progress.warning(health::sentence(finding));
   }
 }
 

@@ -119,6 +119,9 @@ void describe_check(Command& visit, run::RenderOptions& o) {
               "Forecast the cost of a scene and the limits of its steps, and warn of likely "
               "mistakes; takes a few steps and runs a coarse copy");
   describe_scene(visit, o, run::origin_help);
+  visit("--open-edges", o.open_edges, options::text("PNG", "holes.png"),
+        "Write a picture of the meshes that are open, with the edges of their holes in red");
+  options::describe_backend(visit, o.backend);
   visit("--json", o.is_json, "Print JSON");
   options::describe_verbosity(visit, o.verbosity);
 }

@@ -7,6 +7,7 @@
 
 #include "app/forecast/step_cost.h"
 #include "app/health/findings.h"
+#include "app/health/mesh_findings.h"
 #include "app/setup/auto_ranges.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
@@ -116,6 +117,7 @@ Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, d
   forecast::Spread spread;
   check_units(scene, check.findings, coarsening);
   check_gravity(scene, check.findings);
+  check_meshes(scene, check.findings);
   check_resolution(scene, check.findings, coarsening);
   check_emitters(scene, check.findings, coarsening);
   check_sinks(scene, check.impact_speed, check.findings);

@@ -1,7 +1,14 @@
 #include "app/picture/collider_looks.h"
 
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "app/picture/to_float.h"
@@ -14,15 +21,6 @@ namespace neve::app::picture {
 namespace {
 
 constexpr Vec3f wire_color{0.62f, 0.70f, 0.80f};
-
-render::shapes::Rotation to_rotation(const sim::Mat3d& matrix) {
-  render::shapes::Rotation rotation;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      rotation[static_cast<std::size_t>(3 * row + column)] =
-          static_cast<float>(matrix(row, column));
-  return rotation;
-}
 
 void add_plane(const sim::shapes::Plane& plane, const sim::shapes::Pose& pose,
                scene::ColliderStyle style, float line_spacing, render::Frame& frame) {
@@ -92,7 +90,7 @@ struct MeshLook {
   render::Lines lines;
 };
 
-std::shared_ptr<const MeshLook> make_look(const sim::shapes::ClosedMesh& mesh) {
+std::shared_ptr<const MeshLook> make_look(const sim::shapes::SolidMesh& mesh) {
   std::vector<Vec3f> position;
   std::vector<std::uint32_t> index;
   for (const sim::Vec3d& x : mesh.vertices) position.push_back(to_float(x));
@@ -104,7 +102,7 @@ std::shared_ptr<const MeshLook> make_look(const sim::shapes::ClosedMesh& mesh) {
 /// Made once for all frames.
 std::shared_ptr<const MeshLook> look_of(const sim::shapes::Mesh& mesh) {
   static sim::shapes::Recent<MeshLook> recent;
-  return recent.get(sim::shapes::file_stamp(mesh.file) + "|" + scene::toml::number_text(mesh.scale),
+  return recent.get(sim::shapes::reading_key(mesh),
                     [&] { return make_look(sim::shapes::mesh_surface(mesh)->mesh()); });
 }
 
@@ -164,6 +162,62 @@ void add_colliders(const scene::Scene& scene, const scene::View& view, double ti
       add_other(collider.shape, pose, sim::shapes::shape_time(collider, time), collider.style,
                 frame);
   }
+}
+
+namespace {
+
+class OpenEdges {
+ public:
+  void add(const sim::shapes::Shape& shape, const std::string& name) {
+    const auto* mesh = std::get_if<sim::shapes::Mesh>(&shape.form);
+    if (!mesh) return;
+    const auto solid = sim::shapes::read_solid_mesh(*mesh);
+    if (solid->open_edges.empty()) return;
+    const sim::Mat3d turn = sim::rotation_from_degrees(shape.rotation);
+    for (const auto& edge : solid->open_edges)
+      for (const std::uint32_t corner : edge)
+        lines_.ends.push_back(to_float(mesh->center + turn * solid->vertices[corner]));
+    const sim::shapes::Bounds box = bounds_of(*solid, turn);
+    bounds_.extend(mesh->center + box.min);
+    bounds_.extend(mesh->center + box.max);
+    frame_.ghosts.push_back(
+        render::shapes::moved_mesh(local_mesh(shape), to_float(mesh->center), to_rotation(turn)));
+    frame_.caption.push_back(fmt::format("{}: {} open {}", name, solid->open_edges.size(),
+                                         solid->open_edges.size() == 1 ? "edge" : "edges"));
+  }
+
+  std::optional<render::Frame> finish(scene::PictureSize size) {
+    if (lines_.ends.empty()) return {};
+    lines_.color = {0.95f, 0.15f, 0.1f};
+    lines_.width = 3;
+    frame_.lines.push_back(lines_);
+    frame_.width = size.width;
+    frame_.height = size.height;
+    // All of it in the smaller angle of the picture, with a little around it.
+    const double tangent = std::tan(frame_.camera.fov / 2 * std::numbers::pi / 180) *
+                           std::min(1.0, static_cast<double>(size.width) / size.height);
+    const sim::Vec3d middle = bounds_.center();
+    const double away = 1.1 * 0.5 * bounds_.diagonal().norm() / std::sin(std::atan(tangent));
+    frame_.camera.target = to_float(middle);
+    frame_.camera.eye = to_float(middle + away * sim::Vec3d(0.6, 0.45, 1).normalized());
+    return std::move(frame_);
+  }
+
+ private:
+  render::Frame frame_;
+  render::Lines lines_;
+  Eigen::AlignedBox3d bounds_;
+};
+
+}  // namespace
+
+std::optional<render::Frame> open_edges_frame(const scene::Scene& scene) {
+  OpenEdges edges;
+  for (const auto& body : scene.bodies) edges.add(body.shape, body.name);
+  for (const auto& emitter : scene.emitters) edges.add(emitter.shape, emitter.name);
+  for (const auto& sink : scene.sinks) edges.add(sink.shape, sink.name);
+  for (const auto& collider : scene.colliders) edges.add(collider.shape, collider.name);
+  return edges.finish(scene.size);
 }
 
 }  // namespace neve::app::picture

@@ -1,5 +1,7 @@
 #pragma once
-/// Colliders as meshes, grounds and lines of the renderer.
+/// Colliders, and meshes that are open, as meshes, grounds and lines of the renderer.
+
+#include <optional>
 
 #include "app/scene/scene.h"
 #include "render/frame/frame.h"
@@ -14,5 +16,9 @@ void add_colliders(const scene::Scene& scene, const scene::View& view, double ti
 /// A collider that is no plane and keeps its shape, as triangles about its own point:
 /// pose_at(...).point is where it goes, and pose_at(...).rotation turns it.
 render::TriangleMesh local_mesh(const sim::shapes::Shape& shape);
+
+/// All open meshes of bodies, emitters, sinks and colliders, see-through, with their open edges in
+/// red, framed by the camera. Nothing where every mesh is closed.
+std::optional<render::Frame> open_edges_frame(const scene::Scene& scene);
 
 }  // namespace neve::app::picture

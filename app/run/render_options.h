@@ -27,6 +27,7 @@ struct RenderOptions {
   setup::CapTexts caps;
   std::string backend = "auto";
   std::optional<setup::Quality> quality;
+  std::string lut;                  ///< a .cube file; empty: none
   std::string plate;                ///< see plate.h; empty: none
   std::optional<double> shutter;    ///< degrees; absent: by quality
   std::vector<std::string> passes;  ///< see passes.h
@@ -35,6 +36,7 @@ struct RenderOptions {
   /// Threshold for the mean over any 8x8 block: a small local change hardly affects the mean of the
   /// picture. Rounding of other drivers stays far below it.
   double reference_local_threshold = 8;
+  std::string open_edges;  ///< file of the picture of neve check; empty: none
   std::string shader_dir;
   bool validate = false;
   bool resume = false;

@@ -239,16 +239,21 @@ void describe(V& visit, sim::shapes::Plane& p, Change change) {
 template <class V>
 void describe(V& visit, sim::shapes::Mesh& m, Change change) {
   visit("file", m.file, unit::none, file_path, change,
-        "Closed mesh, OBJ, PLY or STL; path relative to the scene file.");
+        "Mesh, OBJ, PLY or STL; path relative to the scene file.");
   visit("scale", m.scale, unit::none, length, change, "Metres per unit of the file.");
   visit("center", m.center, unit::metre, position, change, "Place of the file's origin.");
+  visit(
+      "fill", m.fill, unit::none, anything, change,
+      "Inside: closed: of all parts; even_odd: shells are hollow; winding: for open meshes; auto: "
+      "as the mesh is.");
 }
 
 template <class V>
 void describe(V& visit, sim::shapes::MeshSequence& m, Change change) {
-  visit("files", m.files, unit::none, file_pattern, change,
-        "Closed meshes of one topology: path relative to the scene file, with %d or %04d for the "
-        "number.");
+  visit(
+      "files", m.files, unit::none, file_pattern, change,
+      "Closed meshes of one topology: path relative to the scene file, with %d, %04d, #### or $F4 "
+      "for the number.");
   visit("first", m.first, unit::none, file_number, change, "Number of the first file.");
   visit("last", m.last, unit::none, file_number.required(), change, "Number of the last file.");
   visit("rate", m.rate, unit::per_second, between(1e-3, 1e6), change,

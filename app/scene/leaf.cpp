@@ -73,7 +73,7 @@ std::string existing_file(const Leaf& leaf, const std::string& name) {
 /// Which numbers have to exist is known when all of the shape is read.
 std::string numbered_files(const Leaf& leaf, const std::string& name) {
   if (!sim::shapes::is_file_pattern(name))
-    leaf.fail("one %d or %04d in the name of the files, where their number goes",
+    leaf.fail("one %d, %04d, #### or $F4 in the name of the files, where their number goes",
               "for plate_0001.obj and so on give files = \"plate_%04d.obj\"");
   return absolute_path(leaf, name);
 }
@@ -93,9 +93,21 @@ std::optional<double> bytes_of(std::string_view text) {
     std::string_view name;
     double factor;
   };
-  constexpr Suffix suffixes[] = {{"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}, {"TiB", 0x1p40},
-                                 {"kB", 1e3},     {"KB", 1e3},     {"MB", 1e6},     {"GB", 1e9},
-                                 {"TB", 1e12},    {"B", 1}};
+  constexpr Suffix suffixes[] = {{"KiB", 0x1p10},
+                                 {"MiB", 0x1p20},
+                                 {"GiB", 0x1p30},
+                                 {"TiB", 0x1p40},
+                                 {"kB", 1e3},
+                                 {"KB", 1e3},
+                                 {"MB", 1e6},
+                                 {"GB", 1e9},
+                                 {"TB", 1e12},
+                                 {"B", 1},
+                                 // Alone as for Slurm, Docker and systemd: powers of 1024.
+                                 {"K", 0x1p10},
+                                 {"M", 0x1p20},
+                                 {"G", 0x1p30},
+                                 {"T", 0x1p40}};
   double count = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (error != std::errc{}) return std::nullopt;

@@ -81,6 +81,11 @@ constexpr auto names(sim::seeding::Volumes) {
   using enum sim::seeding::Volumes;
   return std::array{Name{estimated, "estimated"}, Name{given, "given"}};
 }
+constexpr auto names(sim::shapes::Fill) {
+  using enum sim::shapes::Fill;
+  return std::array{Name{automatic, "auto"}, Name{closed, "closed"}, Name{even_odd, "even_odd"},
+                    Name{winding, "winding"}};
+}
 constexpr auto names(sim::shapes::Contact) {
   using enum sim::shapes::Contact;
   return std::array{Name{separate, "separate"}, Name{slip, "slip"}, Name{sticky, "sticky"}};

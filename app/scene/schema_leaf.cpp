@@ -8,7 +8,7 @@ namespace neve::app::scene {
 namespace {
 
 constexpr const char* bytes_pattern =
-    "^[0-9.]+([eE][+-]?[0-9]+)? *(KiB|MiB|GiB|TiB|kB|KB|MB|GB|TB|B)$";
+    "^[0-9.]+([eE][+-]?[0-9]+)? *(KiB|MiB|GiB|TiB|kB|KB|MB|GB|TB|B|K|M|G|T)$";
 
 struct ToJson {
   Json operator()(bool b) const { return b; }
@@ -74,7 +74,7 @@ Json schema_of(const std::string&, const Valid& valid, const char*) {
   Json schema = {{"type", "string"}};
   if (valid.text == Valid::Text::name) schema["pattern"] = whole_name_pattern();
   if (valid.text == Valid::Text::file) schema["minLength"] = 1;
-  if (valid.text == Valid::Text::numbered_files) schema["pattern"] = "%(0[1-9])?d";
+  if (valid.text == Valid::Text::numbered_files) schema["pattern"] = "%(0[1-9])?d|#+|\\$F[1-9]?";
   return schema;
 }
 Json schema_of(const sim::Vec3d&, const Valid& valid, const char*) {

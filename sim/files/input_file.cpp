@@ -5,6 +5,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "sim/base/byte_order_mark.h"
 #include "sim/types/errors.h"
 
 namespace neve::sim::files {
@@ -29,6 +30,13 @@ std::string read_input_file(const std::string& path, std::uintmax_t max_mebibyte
   file.read(bytes.data(), static_cast<std::streamsize>(size));
   if (!file) refuse_input(path, "cannot be read");
   return bytes;
+}
+
+std::string_view plain_text(std::string_view text, const std::string& name) {
+  text = without_mark(text);
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    refuse_input(name, "the text is UTF-16; save it as UTF-8");
+  return text;
 }
 
 std::string quoted_input(std::string_view word) {

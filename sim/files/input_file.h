@@ -15,6 +15,9 @@ namespace neve::sim::files {
 std::string read_input_file(const std::string& path, std::uintmax_t max_mebibytes,
                             const std::string& whats);
 
+/// A text without a byte order mark. @throws ShapeError for a text of UTF-16
+std::string_view plain_text(std::string_view text, const std::string& name);
+
 /// @throws ShapeError WHERE: WHAT
 [[noreturn]] void refuse_input(const std::string& where, const std::string& what);
 

@@ -153,17 +153,37 @@ class MeshPly {
     const double count = numbers.next(*property.count);
     if (!(count >= 0 && count <= static_cast<double>(numbers.left())))
       refuse_input(name_, "truncated: a list is longer than the file");
-    const bool is_face = element.name == "face" &&
-                         (property.name == "vertex_indices" || property.name == "vertex_index");
+    const bool has_corners = property.name == "vertex_indices" || property.name == "vertex_index";
+    const bool is_face = has_corners && element.name == "face";
+    const bool is_strip = has_corners && element.name == "tristrips";
     if (is_face) mesh_.polygons.push_back({mesh_.corners.size(), 0});
+    strip_.clear();
     for (double k = 0; k < count; ++k) {
       const double corner = numbers.next(property.type);
-      if (!is_face) continue;
-      if (!(corner >= 0 && corner < 4294967295.0 && corner == std::floor(corner)))
-        refuse_input(name_, "face " + std::to_string(mesh_.polygons.size()) +
-                                " names a vertex that is not a number from 0");
-      mesh_.corners.push_back(static_cast<std::uint32_t>(corner));
+      if (is_face) mesh_.corners.push_back(vertex_in(corner));
+      if (is_strip) add_to_strip(corner);
     }
+  }
+
+  std::uint32_t vertex_in(double corner) const {
+    if (!(corner >= 0 && corner < 4294967295.0 && corner == std::floor(corner)))
+      refuse_input(name_, "face " + std::to_string(mesh_.polygons.size()) +
+                              " names a vertex that is not a number from 0");
+    return static_cast<std::uint32_t>(corner);
+  }
+
+  /// Every corner makes a triangle with the two before it, every second one wound the other way; -1
+  /// begins a new strip.
+  void add_to_strip(double corner) {
+    if (corner == -1) return strip_.clear();
+    strip_.push_back(vertex_in(corner));
+    const std::size_t n = strip_.size();
+    if (n < 3) return;
+    const std::size_t turn = n % 2 == 0 ? 1 : 0;
+    const std::uint32_t a = strip_[n - 3 + turn], b = strip_[n - 2 - turn], c = strip_[n - 1];
+    if (a == b || b == c || a == c) return;  // a strip turns by repeating a corner
+    mesh_.polygons.push_back({mesh_.corners.size(), 0});
+    mesh_.corners.insert(mesh_.corners.end(), {a, b, c});
   }
 
   void check() const {
@@ -191,6 +211,7 @@ class MeshPly {
   const std::string& name_;
   PlyNumbers::Form form_ = PlyNumbers::Form::none;
   std::vector<MeshElement> elements_;
+  std::vector<std::uint32_t> strip_;  ///< corners of the present one
   PolygonMesh mesh_;
 };
 

@@ -14,32 +14,58 @@ namespace {
 
 constexpr std::size_t stl_header = 84, stl_triangle = 50;
 
-/// A binary STL says its length; many begin with "solid" all the same.
-bool is_binary_stl(std::string_view bytes) {
-  if (bytes.size() < stl_header) return false;
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + 80, sizeof count);
-  return bytes.size() == stl_header + stl_triangle * std::size_t{count};
+/// Words of an STL have either case.
+bool is_word(std::string_view word, std::string_view small) {
+  return std::ranges::equal(word, small, [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+  });
 }
 
 bool is_ascii_stl(std::string_view bytes) {
-  const std::string_view start = trimmed(bytes.substr(0, 4096));
-  const bool has_lines = start.find("facet") != std::string_view::npos ||
-                         start.find("endsolid") != std::string_view::npos;
-  return start.starts_with("solid") && has_lines;
+  constexpr std::string_view spaces = " \t\r\n\f\v";
+  std::string_view start = bytes.substr(0, 4096);
+  start.remove_prefix(std::min(start.find_first_not_of(spaces), start.size()));
+  if (!is_word(start.substr(0, 5), "solid")) return false;
+  while (!start.empty()) {
+    const std::string_view word = start.substr(0, start.find_first_of(spaces));
+    if (is_word(word, "facet") || is_word(word, "endsolid")) return true;
+    start.remove_prefix(word.size());
+    start.remove_prefix(std::min(start.find_first_not_of(spaces), start.size()));
+  }
+  return false;
+}
+
+/// Triangles of a binary STL; 0: it is none. Some programs write a count of 0 and triangles all the
+/// same, others something behind the triangles.
+/// @param is_certain  that it is no other format: a count that leaves bytes is believed
+std::size_t binary_stl_count(std::string_view bytes, bool is_certain) {
+  if (bytes.size() < stl_header) return 0;
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof count);
+  const std::size_t size = bytes.size() - stl_header, room = size / stl_triangle;
+  if (count > 0 && size == stl_triangle * std::size_t{count}) return count;
+  if (!is_certain || is_ascii_stl(bytes)) return 0;
+  if (count == 0) return size == stl_triangle * room ? room : 0;
+  return count <= room ? count : 0;
+}
+
+bool is_binary_stl(std::string_view bytes) {
+  return binary_stl_count(bytes, false) > 0;
+}
+
+bool has_suffix(std::string_view name, std::string_view suffix) {
+  return name.size() >= suffix.size() && is_word(name.substr(name.size() - suffix.size()), suffix);
 }
 
 /// Formats of other programs: no text of theirs is an OBJ.
 void refuse_other_formats(const std::string& name) {
   static constexpr std::array others{".fbx",  ".glb",  ".gltf", ".dae",   ".abc", ".usd", ".usda",
                                      ".usdc", ".usdz", ".3ds",  ".blend", ".3mf", ".step"};
-  std::string end = name.substr(std::min(name.rfind('.'), name.size()));
-  for (char& c : end)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  for (const char* other : others)
-    if (end == other)
+  for (const std::string_view other : others)
+    if (has_suffix(name, other))
       refuse_input(name, "neve reads meshes as OBJ, PLY and STL; in Blender, File > Import reads " +
-                             end.substr(1) + " and File > Export > Wavefront writes OBJ");
+                             std::string(other.substr(1)) +
+                             " and File > Export > Wavefront writes OBJ");
 }
 
 class AsciiStl {
@@ -59,10 +85,10 @@ class AsciiStl {
 
   void read_line(std::string_view line) {
     const std::string_view keyword = next_ply_word(line);
-    if (keyword == "endfacet" && corners_ != 3)
+    if (is_word(keyword, "endfacet") && corners_ != 3)
       fail("a triangle of " + std::to_string(corners_) + " corners");
-    if (keyword == "endfacet") corners_ = 0;
-    if (keyword != "vertex") return;
+    if (is_word(keyword, "endfacet")) corners_ = 0;
+    if (!is_word(keyword, "vertex")) return;
     if (corners_ == 0) mesh_.polygons.push_back({mesh_.corners.size(), lines_.number()});
     if (++corners_ > 3) fail("a triangle of more than 3 corners");
     Vec3d x;
@@ -83,9 +109,8 @@ class AsciiStl {
   int corners_ = 0;  ///< of the triangle so far
 };
 
-PolygonMesh parse_binary_stl(std::string_view bytes, const std::string& name) {
+PolygonMesh parse_binary_stl(std::string_view bytes, std::size_t count, const std::string& name) {
   PolygonMesh mesh;
-  const std::size_t count = (bytes.size() - stl_header) / stl_triangle;
   for (std::size_t t = 0; t < count; ++t) {
     std::array<float, 9> numbers;
     // Behind the normal.
@@ -107,22 +132,24 @@ PolygonMesh parse_binary_stl(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 PolygonMesh parse_stl(std::string_view bytes, const std::string& name) {
-  const bool is_binary = is_binary_stl(bytes);
-  if (!is_binary && !is_ascii_stl(bytes))
+  const std::size_t count = binary_stl_count(bytes, true);
+  if (count == 0 && !is_ascii_stl(bytes))
     refuse_input(name,
                  "neither an ascii STL, which begins with \"solid\", nor a binary one, of 84 "
                  "bytes and 50 for each triangle");
-  PolygonMesh mesh = is_binary ? parse_binary_stl(bytes, name) : AsciiStl(bytes, name).read();
+  PolygonMesh mesh =
+      count > 0 ? parse_binary_stl(bytes, count, name) : AsciiStl(bytes, name).read();
   if (mesh.polygons.empty()) refuse_input(name, "no triangles");
   return mesh;
 }
 
 PolygonMesh parse_mesh(std::string_view bytes, const std::string& name) {
+  if (!is_binary_stl(bytes)) bytes = plain_text(bytes, name);
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n"))
     return parse_ply_mesh(bytes, name);
-  if (name.ends_with(".ply"))
+  if (has_suffix(name, ".ply"))
     refuse_input(name, "it does not begin with a line \"ply\"; expected a PLY file");
-  if (is_binary_stl(bytes) || is_ascii_stl(bytes) || name.ends_with(".stl"))
+  if (is_binary_stl(bytes) || is_ascii_stl(bytes) || has_suffix(name, ".stl"))
     return parse_stl(bytes, name);
   refuse_other_formats(name);
   return parse_obj(bytes, name);

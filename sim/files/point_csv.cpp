@@ -8,6 +8,9 @@
 namespace neve::sim::files {
 namespace {
 
+/// Blanks, any number of them.
+constexpr char blanks = ' ';
+
 /// The length of a field, up to its separator or the end of the line. Separators between quotes are
 /// part of it; two quotes there are one.
 std::size_t field_length(std::string_view line, char separator) {
@@ -20,10 +23,20 @@ std::size_t field_length(std::string_view line, char separator) {
   return std::min(line.find(separator, at), line.size());
 }
 
+/// Words between blanks.
+void split_words(std::string_view line, std::size_t most, std::vector<std::string_view>& fields) {
+  for (line = trimmed(line); !line.empty() && fields.size() <= most; line = trimmed(line)) {
+    const auto end = std::find_if(line.begin(), line.end(), is_blank);
+    fields.push_back(line.substr(0, static_cast<std::size_t>(end - line.begin())));
+    line.remove_prefix(fields.back().size());
+  }
+}
+
 /// The fields of a line; those beyond `most` are counted only up to one more.
 void split_fields(std::string_view line, char separator, std::size_t most,
                   std::vector<std::string_view>& fields) {
   fields.clear();
+  if (separator == blanks) return split_words(line, most, fields);
   while (fields.size() <= most) {
     const std::size_t length = field_length(line, separator);
     std::string_view field = trimmed(line.substr(0, length));
@@ -40,14 +53,23 @@ bool says_nothing(std::string_view line) {
   return line.empty() || line.front() == '#';
 }
 
-/// The most frequent; a comma where there are as many of others, or none.
+/// The most frequent; a comma where there are as many of others. Blanks where there is none.
 char separator_of(std::string_view header) {
+  header = trimmed(header);
+  const auto count = [&](char c) { return std::count(header.begin(), header.end(), c); };
   char found = ',';
   for (const char c : {';', '\t'})
-    if (std::count(header.begin(), header.end(), c) >
-        std::count(header.begin(), header.end(), found))
-      found = c;
-  return found;
+    if (count(c) > count(found)) found = c;
+  return count(found) == 0 && count(' ') > 0 ? blanks : found;
+}
+
+/// A number with a decimal comma, which fields that commas do not separate may have.
+std::optional<double> number_with_comma(std::string_view field) {
+  if (std::count(field.begin(), field.end(), ',') != 1 || field.find('.') != std::string_view::npos)
+    return std::nullopt;
+  std::string number(field.substr(0, 400));
+  std::replace(number.begin(), number.end(), ',', '.');
+  return number_in(number);
 }
 
 class PointCsv {
@@ -75,17 +97,35 @@ class PointCsv {
  private:
   std::string here() const { return name_ + ":" + std::to_string(lines_.number()); }
 
+  /// The first line that is no comment; where it has numbers, as files of numpy's savetxt, the
+  /// comment before it.
   PointTable read_header() {
-    std::string_view header;
-    while (!lines_.at_end() && says_nothing(header)) header = lines_.next();
+    std::string_view header, comment;
+    TableLines before = lines_;
+    while (!lines_.at_end() && says_nothing(header)) {
+      if (!trimmed(header).empty()) comment = header;
+      before = lines_;
+      header = lines_.next();
+    }
+    if (!trimmed(header).empty() && says_nothing(header)) comment = header;
     if (says_nothing(header)) refuse_input(name_, "it has no header line; expected x, y, z");
-    separator_ = separator_of(header);
-    split_fields(header, separator_, max_columns, fields_);
-    if (fields_.size() > max_columns) refuse_input(here(), "more than 256 columns");
+    split_header(header);
+    comment.remove_prefix(std::min(comment.find_first_not_of("# \t"), comment.size()));
+    if (number_in(fields_.front()) && !comment.empty()) {
+      split_header(comment);
+      lines_ = before;
+    }
     if (number_in(fields_.front()))
       refuse_input(here(), "the first line has numbers; expected names of columns, as in x,y,z");
     columns_.assign(fields_.begin(), fields_.end());
     return PointTable(columns_, here());
+  }
+
+  void split_header(std::string_view header) {
+    separator_ = separator_of(header);
+    split_fields(header, separator_, max_columns, fields_);
+    if (fields_.size() > max_columns) refuse_input(here(), "more than 256 columns");
+    if (fields_.empty()) fields_.push_back(header);
   }
 
   void read_row(std::string_view line, const PointTable& points, std::vector<double>& row) {
@@ -97,7 +137,8 @@ class PointCsv {
                                std::to_string(columns_.size()));
     for (std::size_t k = 0; k < fields_.size(); ++k) {
       if (!points.uses(k)) continue;
-      const std::optional<double> value = number_in(fields_[k]);
+      std::optional<double> value = number_in(fields_[k]);
+      if (!value && separator_ != ',') value = number_with_comma(fields_[k]);
       if (!value)
         refuse_input(here(), quoted_input(fields_[k]) + " is not a number, in column " +
                                  quoted_input(columns_[k]));
@@ -112,21 +153,15 @@ class PointCsv {
   std::vector<std::string_view> fields_;  ///< of the present line
 };
 
-/// Spreadsheets put a mark in front.
-std::string_view without_mark(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  return text;
-}
-
 }  // namespace
 
 PointCloud parse_csv_points(std::string_view text, const std::string& name,
                             const std::vector<std::string>& further) {
-  return PointCsv(without_mark(text), name).read(further);
+  return PointCsv(plain_text(text, name), name).read(further);
 }
 
 std::vector<std::string> further_csv_columns(std::string_view text, const std::string& name) {
-  return PointCsv(without_mark(text), name).further();
+  return PointCsv(plain_text(text, name), name).further();
 }
 
 }  // namespace neve::sim::files

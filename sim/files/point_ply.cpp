@@ -1,6 +1,6 @@
 // An own reader rather than RPly (Debian's librply), which reads numbers of ascii files by the
 // locale, tells neither the line nor the file of an error, and takes values that are missing
-// from the next line; happly and miniply are no packages. Only a table of single numbers is read.
+// from the next line; happly and miniply are no packages. Lists are passed over.
 #include <algorithm>
 #include <charconv>
 #include <system_error>
@@ -17,13 +17,20 @@ struct PlyElement {
   std::string name;
   std::uint64_t count = 0;  ///< as the header claims
   std::string where;        ///< of its line in the header
-  std::string list;         ///< place of a list among its properties, ""
-  std::vector<PlyType> types;
-  std::vector<std::string> columns;  ///< names of the properties
+  /// A single number, or a list of numbers behind their count.
+  struct Property {
+    PlyType type;
+    std::optional<PlyType> count;
+  };
+  std::vector<Property> properties;
+  std::vector<PlyType> types;        ///< of the single numbers
+  std::vector<std::string> columns;  ///< their names
 
-  std::size_t row_size() const {
+  /// Bytes of a row whose lists are empty.
+  std::size_t min_row_size() const {
     std::size_t bytes = 0;
-    for (const PlyType& type : types) bytes += type.size;
+    for (const Property& property : properties)
+      bytes += property.count ? property.count->size : property.type.size;
     return bytes;
   }
 };
@@ -99,16 +106,24 @@ class PlyHeaderReader {
   void read_property(std::string_view line) {
     if (header_.elements.empty()) refuse_input(here(), "a property before the first element");
     PlyElement& element = header_.elements.back();
-    const std::string_view type_name = next_ply_word(line);
-    if (type_name == "list") {
-      element.list = here();
-      return;
-    }
-    const std::optional<PlyType> type = type_called(type_name);
-    if (!type) refuse_input(here(), quoted_input(type_name) + " is not a type of PLY");
-    if (element.types.size() == max_columns) refuse_input(here(), "more than 256 properties");
-    element.types.push_back(*type);
+    if (element.properties.size() == max_columns) refuse_input(here(), "more than 256 properties");
+    std::string_view rest = line;
+    const bool is_list = next_ply_word(rest) == "list";
+    if (is_list) line = rest;
+    std::optional<PlyType> count;
+    if (is_list) count = type_in(line);
+    const PlyType type = type_in(line);
+    element.properties.push_back({type, count});
+    if (is_list) return;
+    element.types.push_back(type);
     element.columns.emplace_back(next_ply_word(line));
+  }
+
+  PlyType type_in(std::string_view& line) const {
+    const std::string_view word = next_ply_word(line);
+    const std::optional<PlyType> type = type_called(word);
+    if (!type) refuse_input(here(), quoted_input(word) + " is not a type of PLY");
+    return *type;
   }
 
   /// Elements after the points are ignored.
@@ -119,11 +134,6 @@ class PlyHeaderReader {
                      [](const PlyElement& element) { return element.name == "vertex"; });
     if (points == elements.end()) refuse_input(name_, "the PLY has no element vertex");
     elements.erase(points + 1, elements.end());
-    for (const PlyElement& element : elements)
-      if (!element.list.empty())
-        refuse_input(element.list,
-                     "a list in element " + quoted_input(element.name) +
-                         "; the points, and what comes before them, must have single numbers");
   }
 
   TableLines& lines_;
@@ -180,7 +190,7 @@ class PointPly {
     std::vector<double> row;
     for (const PlyElement& element : header_.elements) {
       // A digit and what ends it for every number; the last may end with the file.
-      check_count(element, 2 * element.types.size(), lines_.rest().size() + 1);
+      check_count(element, 2 * element.properties.size(), lines_.rest().size() + 1);
       const bool is_points = &element == &header_.elements.back();
       if (is_points) points.reserve(element.count);
       for (std::uint64_t k = 0; k < element.count; ++k) {
@@ -190,47 +200,71 @@ class PointPly {
                                   quoted_input(element.name));
         const std::string_view line = lines_.next();
         if (!is_points) continue;
-        read_text_row(line, element.columns, row);
+        read_text_row(line, element, row);
         points.add(row, [&] { return here(); });
       }
     }
   }
 
-  void read_text_row(std::string_view line, const std::vector<std::string>& columns,
+  void read_text_row(std::string_view line, const PlyElement& element,
                      std::vector<double>& row) const {
     row.clear();
-    for (std::string_view word = next_ply_word(line); !word.empty(); word = next_ply_word(line)) {
-      if (row.size() == columns.size())
-        refuse_input(
-            here(), "more numbers than the header's " + std::to_string(row.size()) + " properties");
+    const auto next = [&] {
+      const std::string_view word = next_ply_word(line);
+      if (word.empty())
+        refuse_input(here(), std::to_string(row.size()) + " numbers; the header has " +
+                                 std::to_string(element.properties.size()) + " properties");
+      return word;
+    };
+    for (const PlyElement::Property& property : element.properties) {
+      const std::string_view word = next();
       const std::optional<double> value = number_in(word);
       if (!value)
-        refuse_input(here(), quoted_input(word) + " is not a number, in property " +
-                                 quoted_input(columns[row.size()]));
-      row.push_back(*value);
+        refuse_input(
+            here(), quoted_input(word) + " is not a number, in " +
+                        (property.count ? "a list"
+                                        : "property " + quoted_input(element.columns[row.size()])));
+      if (!property.count) row.push_back(*value);
+      // Every number of a list has a character at least.
+      const double length = property.count ? *value : 0;
+      if (!(length >= 0 && length <= static_cast<double>(line.size())))
+        refuse_input(here(), "a list is longer than its line");
+      for (double k = 0; k < length; ++k) next();
     }
-    if (row.size() < columns.size())
-      refuse_input(here(), std::to_string(row.size()) + " numbers; the header has " +
-                               std::to_string(columns.size()) + " properties");
+    if (!next_ply_word(line).empty())
+      refuse_input(here(), "more numbers than the header's " +
+                               std::to_string(element.properties.size()) + " properties");
   }
 
   void read_binary(PointTable& points) {
     std::string_view bytes = lines_.rest();
+    std::vector<double> row;
     for (const PlyElement& element : header_.elements) {
-      check_count(element, element.row_size(), bytes.size());
-      if (&element != &header_.elements.back())
-        bytes.remove_prefix(element.row_size() * element.count);
-    }
-    const PlyElement& element = header_.elements.back();
-    points.reserve(element.count);
-    std::vector<double> row(element.types.size());
-    for (std::uint64_t p = 0; p < element.count; ++p) {
-      for (std::size_t k = 0; k < element.types.size(); ++k) {
-        row[k] = number_of(bits(bytes, element.types[k].size), element.types[k]);
-        bytes.remove_prefix(element.types[k].size);
+      check_count(element, element.min_row_size(), bytes.size());
+      const bool is_points = &element == &header_.elements.back();
+      if (is_points) points.reserve(element.count);
+      for (std::uint64_t p = 0; p < element.count && !element.properties.empty(); ++p) {
+        row.clear();
+        for (const PlyElement::Property& property : element.properties)
+          read_binary_property(property, bytes, row);
+        if (is_points) points.add(row, [&] { return name_ + ": point " + std::to_string(p + 1); });
       }
-      points.add(row, [&] { return name_ + ": point " + std::to_string(p + 1); });
     }
+  }
+
+  void read_binary_property(const PlyElement::Property& property, std::string_view& bytes,
+                            std::vector<double>& row) const {
+    const auto take = [&](PlyType type) {
+      if (bytes.size() < type.size) refuse_input(name_, "truncated: the points are incomplete");
+      const double value = number_of(bits(bytes, type.size), type);
+      bytes.remove_prefix(type.size);
+      return value;
+    };
+    if (!property.count) return row.push_back(take(property.type));
+    const double count = take(*property.count), left = static_cast<double>(bytes.size());
+    if (!(count >= 0 && count * static_cast<double>(property.type.size) <= left))
+      refuse_input(name_, "truncated: a list is longer than the file");
+    bytes.remove_prefix(static_cast<std::size_t>(count) * property.type.size);
   }
 
   std::uint64_t bits(std::string_view bytes, std::size_t size) const {

@@ -30,6 +30,7 @@ std::string bytes_of_points(const std::string& path) {
 
 PointCloud parse_points(std::string_view bytes, const std::string& name,
                         const std::vector<std::string>& further) {
+  bytes = plain_text(bytes, name);
   return is_ply_file(bytes, name) ? parse_ply_points(bytes, name, further)
                                   : parse_csv_points(bytes, name, further);
 }
@@ -39,7 +40,8 @@ PointCloud read_points(const std::string& path, const std::vector<std::string>& 
 }
 
 std::vector<std::string> further_columns(const std::string& path) {
-  const std::string bytes = bytes_of_points(path);
+  const std::string file = bytes_of_points(path);
+  const std::string_view bytes = plain_text(file, path);
   return is_ply_file(bytes, path) ? further_ply_columns(bytes, path)
                                   : further_csv_columns(bytes, path);
 }

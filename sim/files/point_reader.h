@@ -46,12 +46,15 @@ struct PointCloud {
 PointCloud parse_points(std::string_view bytes, const std::string& name,
                         const std::vector<std::string>& further = {});
 
-/// Reads the element vertex, whose properties, and those of elements before it, are single numbers.
+/// Reads the single numbers of the element vertex; lists, and other elements, are passed over.
 PointCloud parse_ply_points(std::string_view bytes, const std::string& name,
                             const std::vector<std::string>& further = {});
 
-/// Fields are separated by commas, semicolons or tabs, the most frequent in the header, and may be
-/// between double quotes; lines that are empty or start with # are passed over.
+/// Fields are separated by commas, semicolons or tabs, the most frequent in the header, or by
+/// blanks where it has none of them, and may be between double quotes. Where commas do not
+/// separate, numbers may have one for a point. Lines that are empty or start with # are passed
+/// over; the last of these is the header where the first other line has numbers, as numpy writes
+/// it.
 PointCloud parse_csv_points(std::string_view text, const std::string& name,
                             const std::vector<std::string>& further = {});
 

@@ -131,10 +131,9 @@ DeformingMesh::DeformingMesh(const MeshSequence& sequence)
   const std::vector<std::string> paths = files_of(sequence);
   require_files(sequence, paths);
   const files::PolygonMesh first = files::read_mesh(paths.front());
-  ClosedMesh closed = close_mesh(first, paths.front());
-  if (const std::size_t face = closed.crossed_face; face > 0)
-    throw ShapeError(place_of(first, face - 1, paths.front()) + ": face " + std::to_string(face) +
-                     " crosses itself: it has no triangles. Triangulate the mesh");
+  const SolidMesh closed = solid_mesh(first, paths.front(), Fill::closed);
+  require_faces(closed, paths.front());
+  reading_ = closed.reading;
   triangles_ = scaled(closed, sequence.scale, paths.front()).triangles;
   const std::vector<std::uint32_t> kept = keep_used(first.vertices.size(), triangles_);
   if (kept.size() > max_vertices / paths.size())
@@ -189,20 +188,23 @@ DeformingMesh::Moment DeformingMesh::moment(double time) const {
   return {static_cast<std::size_t>(interval), files - interval, true};
 }
 
-ClosedMesh DeformingMesh::mesh(std::size_t interval, double part) const {
-  ClosedMesh mesh{vertices_[interval], triangles_, 0, 0};
+SolidMesh DeformingMesh::mesh(std::size_t interval, double part) const {
+  SolidMesh mesh;
+  mesh.vertices = vertices_[interval];
+  mesh.triangles = triangles_;
+  mesh.reading = reading_;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     mesh.vertices[v] += part * (vertices_[interval + 1][v] - vertices_[interval][v]);
   mesh.volume = measures(mesh.vertices, triangles_, mesh.vertices.front()).first;
   return mesh;
 }
 
-ClosedMesh DeformingMesh::mesh_at(double time) const {
+SolidMesh DeformingMesh::mesh_at(double time) const {
   const Moment now = moment(time);
   return mesh(now.interval, now.part);
 }
 
-Vec3d DeformingMesh::velocity(std::size_t interval, const ClosedMesh& mesh, std::uint32_t triangle,
+Vec3d DeformingMesh::velocity(std::size_t interval, const SolidMesh& mesh, std::uint32_t triangle,
                               const Vec3d& point) const {
   const Triangle& t = triangles_[triangle];
   const Vec3d shares =

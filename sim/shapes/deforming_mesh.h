@@ -27,13 +27,13 @@ class DeformingMesh {
   Moment moment(double time) const;
 
   std::size_t intervals() const { return vertices_.size() - 1; }
-  ClosedMesh mesh(std::size_t interval, double part) const;
-  ClosedMesh mesh_at(double time) const;
+  SolidMesh mesh(std::size_t interval, double part) const;
+  SolidMesh mesh_at(double time) const;
 
   /// Velocity of a place of the surface between two files, m/s.
   /// @param triangle  that the place is on
   /// @param point     in the mesh of that moment
-  Vec3d velocity(std::size_t interval, const ClosedMesh& mesh, std::uint32_t triangle,
+  Vec3d velocity(std::size_t interval, const SolidMesh& mesh, std::uint32_t triangle,
                  const Vec3d& point) const;
 
   /// Speed of the fastest vertex at any time from one to another, or ever, m/s.
@@ -51,12 +51,14 @@ class DeformingMesh {
   double thickness() const { return thickness_; }
   const std::string& thinnest_file() const { return thinnest_; }
   std::size_t bytes() const;
+  const MeshReading& reading() const { return reading_; }  ///< of the first file
 
  private:
   void add(std::vector<Vec3d> vertices, const std::string& file);
   void measure_speeds();
 
   double rate_, start_;
+  MeshReading reading_;  ///< of the first file
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::vector<Vec3d>> vertices_;  ///< m, of each file
   std::vector<double> volume_;                ///< m3, of each file

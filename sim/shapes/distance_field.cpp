@@ -90,10 +90,7 @@ std::shared_ptr<const DistanceField> distance_field(const Mesh& mesh, double cel
   static Recent<DistanceField> recent;
   const std::shared_ptr<const MeshSurface> surface = mesh_surface(mesh);
   const double spacing = field_spacing(*surface, cell_size);
-  std::ostringstream name;
-  name.precision(17);
-  name << file_stamp(mesh.file) << "|" << mesh.scale << "|" << spacing;
-  return recent.get(name.str(), [&] {
+  return recent.get(reading_key(mesh) + "|" + number_text(spacing, 17), [&] {
     return std::make_shared<const DistanceField>(*surface, mesh.file, spacing, pool);
   });
 }

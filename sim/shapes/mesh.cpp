@@ -3,14 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <sstream>
-#include <tuple>
 #include <utility>
 
 #include "sim/files/mesh_reader.h"
+#include "sim/shapes/mesh_edges.h"
+#include "sim/shapes/mesh_parts.h"
 #include "sim/shapes/mesh_surface.h"
 #include "sim/shapes/triangulate.h"
+#include "sim/shapes/winding_number.h"
 #include "sim/types/number_text.h"
 
 namespace neve::sim::shapes {
@@ -21,105 +21,8 @@ using Corner = std::uint32_t;
 /// m, across a mesh: cells are no smaller.
 constexpr double min_extent = 1e-9;
 
-/// For every vertex the first one at the same position.
-std::vector<Corner> weld(const std::vector<Vec3d>& vertices) {
-  std::vector<Corner> order(vertices.size()), representative(vertices.size());
-  std::iota(order.begin(), order.end(), Corner{0});
-  const auto key = [&](Corner c) {
-    return std::tuple(vertices[c].x(), vertices[c].y(), vertices[c].z(), c);
-  };
-  std::sort(order.begin(), order.end(), [&](Corner a, Corner b) { return key(a) < key(b); });
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool is_same = k > 0 && vertices[order[k]] == vertices[order[k - 1]];
-    representative[order[k]] = is_same ? representative[order[k - 1]] : order[k];
-  }
-  return representative;
-}
-
-/// The corners of a polygon, welded, without those that repeat their neighbour.
-void welded_corners(const files::PolygonMesh& mesh, const std::vector<Corner>& representative,
-                    std::size_t polygon, std::vector<Corner>& corners) {
-  corners.clear();
-  for (std::size_t c = mesh.polygons[polygon].first; c < mesh.corner_end(polygon); ++c) {
-    const Corner corner = representative[mesh.corners[c]];
-    if (corners.empty() || corners.back() != corner) corners.push_back(corner);
-  }
-  while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
-}
-
-/// Side of a polygon, from the vertex of the lower number to the higher or the other way round.
-struct Edge {
-  Corner low, high;
-  std::uint32_t polygon;
-  bool is_upward;
-};
-
-std::vector<Edge> sorted_edges(const files::PolygonMesh& mesh,
-                               const std::vector<Corner>& representative) {
-  std::vector<Edge> edges;
-  edges.reserve(mesh.corners.size());
-  std::vector<Corner> corners;
-  for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
-    welded_corners(mesh, representative, p, corners);
-    if (corners.size() < 3) continue;  // no area; its neighbours meet along the one edge it has
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Corner a = corners[k], b = corners[(k + 1) % corners.size()];
-      edges.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(p), a < b});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.polygon) < std::tie(b.low, b.high, b.polygon);
-  });
-  return edges;
-}
-
-/// Defect of edges, and its count.
-struct Defect {
-  std::string what, advice;
-  std::size_t count = 0;
-  Edge first{};  ///< of the earliest face in the file
-
-  void add(const Edge& edge) {
-    if (count++ == 0 || edge.polygon < first.polygon) first = edge;
-  }
-};
-
-[[noreturn]] void report(const Defect& defect, const files::PolygonMesh& mesh,
-                         const std::string& name) {
-  const Vec3d a = mesh.vertices[defect.first.low], b = mesh.vertices[defect.first.high];
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  const std::size_t line = mesh.polygons[defect.first.polygon].line;
-  text << name << (line > 0 ? ":" + std::to_string(line) : "") << ": " << defect.what << ": "
-       << defect.count << (defect.count == 1 ? " edge" : " edges") << ", the first of face "
-       << defect.first.polygon + 1 << " between (" << a.x() << ", " << a.y() << ", " << a.z()
-       << ") and (" << b.x() << ", " << b.y() << ", " << b.z() << "). " << defect.advice;
-  throw ShapeError(text.str());
-}
-
-void check_edges(const files::PolygonMesh& mesh, const std::vector<Edge>& edges,
-                 const std::string& name) {
-  Defect open{"the mesh is open, these edges have a face on one side only",
-              "Close the holes and merge vertices that nearly coincide"};
-  Defect turned{"neighbouring faces disagree about which side is outside",
-                "Recalculate the normals so that all faces are wound the same way"};
-  Defect crowded{"the mesh is not manifold, more than two faces meet at an edge",
-                 "Remove inner and duplicate faces, or move touching parts apart"};
-  for (std::size_t k = 0; k < edges.size();) {
-    std::size_t end = k;
-    while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high)
-      ++end;
-    if (end - k == 1) open.add(edges[k]);
-    if (end - k == 2 && edges[k].is_upward == edges[k + 1].is_upward) turned.add(edges[k]);
-    if (end - k > 2) crowded.add(edges[k]);
-    k = end;
-  }
-  for (const Defect* defect : {&crowded, &open, &turned})
-    if (defect->count > 0) report(*defect, mesh, name);
-}
-
 /// @return whether the triangles cover the polygon and nothing else
-bool add_triangles(const std::vector<Corner>& corners, ClosedMesh& closed) {
+bool add_triangles(const std::vector<Corner>& corners, SolidMesh& closed) {
   std::vector<Vec3d> polygon;
   for (const Corner corner : corners) polygon.push_back(closed.vertices[corner]);
   if (corners.size() > 3 && !is_convex(polygon))
@@ -137,7 +40,7 @@ bool add_triangles(const std::vector<Corner>& corners, ClosedMesh& closed) {
 
 }  // namespace
 
-Bounds bounds_of(const ClosedMesh& mesh, const Mat3d& rotation) {
+Bounds bounds_of(const SolidMesh& mesh, const Mat3d& rotation) {
   Bounds b{Vec3d::Constant(INFINITY), Vec3d::Constant(-INFINITY)};
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle) {
@@ -148,38 +51,51 @@ Bounds bounds_of(const ClosedMesh& mesh, const Mat3d& rotation) {
   return b;
 }
 
-ClosedMesh close_mesh(const files::PolygonMesh& mesh, const std::string& name) {
-  const std::vector<Corner> representative = weld(mesh.vertices);
-  check_edges(mesh, sorted_edges(mesh, representative), name);
+SolidMesh solid_mesh(const files::PolygonMesh& mesh, const std::string& name, Fill fill) {
+  MeshEdges edges = find_edges(mesh, name);
+  const bool is_open = !edges.defect.empty();
+  if (is_open && (fill == Fill::closed || fill == Fill::even_odd))
+    throw ShapeError(edges.defect + ", or fill what it nearly encloses: fill = \"winding\"");
 
-  ClosedMesh closed{mesh.vertices, {}, 0, 0};
+  SolidMesh solid;
+  solid.vertices = mesh.vertices;
+  if (is_open || fill == Fill::winding) solid.inside = Inside::above_half;
+  if (fill == Fill::even_odd) solid.inside = Inside::odd;
   std::vector<Corner> corners;
+  std::vector<std::uint32_t> part;  // of each triangle
   for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
-    welded_corners(mesh, representative, p, corners);
-    if (!add_triangles(corners, closed) && closed.crossed_face == 0) closed.crossed_face = p + 1;
+    merged_corners(mesh, edges.vertex, p, corners);
+    if (edges.is_turned[p]) std::reverse(corners.begin(), corners.end());
+    solid.reading.turned_faces += edges.is_turned[p];
+    if (!add_triangles(corners, solid) && solid.crossed_face == 0) {
+      solid.crossed_face = p + 1;
+      solid.crossed_line = mesh.polygons[p].line;
+    }
+    part.resize(solid.triangles.size(), edges.part[p]);
   }
-
-  if (closed.triangles.empty())
+  if (solid.triangles.empty())
     throw ShapeError(name + ": no face has an area: the corners of each face coincide");
-  const Bounds b = bounds_of(closed);
-  const Vec3d origin = 0.5 * (b.min + b.max);  // keeps digits of meshes far from their origin
-  for (const auto& [i, j, k] : closed.triangles) {
-    const Vec3d u = closed.vertices[i] - origin, v = closed.vertices[j] - origin;
-    closed.volume += u.dot(v.cross(closed.vertices[k] - origin)) / 6;
-  }
+  solid.reading.parts = edges.part_count;
+  solid.reading.near_welds = edges.near_welds;
+  solid.reading.open_edges = edges.open_edges.size();
+  solid.open_edges = std::move(edges.open_edges);
+
+  const Bounds b = bounds_of(solid);
   const double box = std::pow((b.max - b.min).maxCoeff(), 3);
-  if (!std::isfinite(closed.volume) || !std::isfinite(box))
+  if (!std::isfinite(box) || !std::isfinite(enclosed_by_faces(solid)))
     throw ShapeError(name + ": the mesh is too large: its volume overflows. Scale it down");
-  if (std::abs(closed.volume) <= 1e-14 * box)
-    throw ShapeError(name + ": the mesh is flat: it encloses no volume. Give it thickness");
-  if (closed.volume < 0) {
-    for (auto& t : closed.triangles) std::swap(t[1], t[2]);
-    closed.volume = -closed.volume;
-  }
-  return closed;
+  if (solid.inside == Inside::above_half)
+    measure_winding(solid);
+  else
+    read_parts(solid, part, edges.part_count);
+  if (!(solid.volume > 1e-14 * box))
+    throw ShapeError(is_open
+                         ? edges.defect
+                         : name + ": the mesh is flat: it encloses no volume. Give it thickness");
+  return solid;
 }
 
-ClosedMesh scaled(ClosedMesh mesh, double scale, const std::string& name) {
+SolidMesh scaled(SolidMesh mesh, double scale, const std::string& name) {
   if (!(scale > 0) || !std::isfinite(scale))
     throw ShapeError(name + ": the scale of a mesh must be a finite number above 0");
   for (Vec3d& x : mesh.vertices) x *= scale;
@@ -196,11 +112,22 @@ ClosedMesh scaled(ClosedMesh mesh, double scale, const std::string& name) {
   return mesh;
 }
 
-std::shared_ptr<const Form> read_mesh_solid(const std::string& path, double scale) {
-  static Recent<Form> recent;
-  return recent.get(file_stamp(path) + "|" + number_text(scale, 17), [&] {
-    return make_mesh_solid(scaled(close_mesh(files::read_mesh(path), path), scale, path));
+std::string reading_key(const Mesh& mesh) {
+  return file_stamp(mesh.file) + "|" + number_text(mesh.scale, 17) + "|" +
+         std::to_string(static_cast<int>(mesh.fill));
+}
+
+std::shared_ptr<const SolidMesh> read_solid_mesh(const Mesh& mesh) {
+  static Recent<SolidMesh> recent;
+  return recent.get(reading_key(mesh), [&] {
+    return std::make_shared<const SolidMesh>(scaled(
+        solid_mesh(files::read_mesh(mesh.file), mesh.file, mesh.fill), mesh.scale, mesh.file));
   });
+}
+
+std::shared_ptr<const Form> read_mesh_solid(const Mesh& mesh) {
+  static Recent<Form> recent;
+  return recent.get(reading_key(mesh), [&] { return make_mesh_solid(*read_solid_mesh(mesh)); });
 }
 
 }  // namespace neve::sim::shapes

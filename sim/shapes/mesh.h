@@ -1,5 +1,5 @@
 #pragma once
-/// Closed polyhedra: the conditions for a mesh to be a solid, and its volume.
+/// Polyhedra: the conditions for a mesh to be a solid, what is inside it, and its volume.
 
 #include <array>
 #include <cstdint>
@@ -12,34 +12,63 @@
 
 namespace neve::sim::shapes {
 
+/// How a mesh was read, where that is not plain.
+struct MeshReading {
+  std::size_t parts = 1;         ///< closed surfaces without a common edge
+  std::size_t turned_parts = 0;  ///< wound inward, and read outward
+  std::size_t turned_faces = 0;  ///< wound against their neighbours
+  std::size_t nested = 0;        ///< parts in another that make no difference: it is filled
+  std::size_t cavities = 0;      ///< parts in another that are empty
+  double crossed = 0;            ///< share of the volume that parts which cross have in common
+  double inside_out = 0;         ///< volume wound inward, which is left out, as a share of the rest
+  std::size_t near_welds = 0;    ///< vertices that nearly coincided with another
+  std::size_t open_edges = 0;
+  double in_doubt = 0;  ///< of an open mesh: share of the volume with winding numbers near 1/2
+};
+
+/// Which places are inside triangles, by the winding number about them.
+enum class Inside { positive, odd, above_half };
+
 /// Triangles that enclose a volume, oriented outward.
-struct ClosedMesh {
+struct SolidMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  double volume = 0;  ///< m3, divergence theorem; where parts of the mesh overlap they count twice
+  double volume = 0;             ///< m3, of what is inside
   std::size_t crossed_face = 0;  ///< number, from 1, of the first face whose sides cross; 0: none
+  std::size_t crossed_line = 0;  ///< of the file; 0: it has no lines
+  Inside inside = Inside::positive;
+  MeshReading reading{};
+  std::vector<std::array<std::uint32_t, 2>> open_edges{};
 };
 
 /// Tight bounds of the rotated mesh.
-Bounds bounds_of(const ClosedMesh& mesh, const Mat3d& rotation = Mat3d::Identity());
+Bounds bounds_of(const SolidMesh& mesh, const Mat3d& rotation = Mat3d::Identity());
 
-/// Welds vertices at the very same position, checks that every edge lies between exactly two faces
-/// that agree about the outside, splits the polygons into triangles, and turns the mesh inside out
-/// if its volume is negative. The mesh may intersect itself.
+/// Finds the edges (mesh_edges.h), splits the polygons into triangles, and turns each closed part
+/// outward (mesh_parts.h). The mesh may intersect itself.
 /// @param name of the mesh in messages
-/// @throws ShapeError naming the defect, how often, where first (coordinates, face, line) and
-///         what to do; also for a volume that is not finite, or 0 within rounding
-ClosedMesh close_mesh(const files::PolygonMesh& mesh, const std::string& name);
+/// @throws ShapeError for an open mesh that is to be closed, naming the defect, how often, where
+///         first (coordinates, face, line) and what to do; also for a volume that is not finite, or
+///         0 within rounding
+SolidMesh solid_mesh(const files::PolygonMesh& mesh, const std::string& name,
+                     Fill fill = Fill::automatic);
 
 /// The mesh in metres. @param scale metres per unit of the file
 /// @throws ShapeError for a scale that is no number above 0, or makes the mesh larger than numbers
 ///         can tell or smaller than a nanometre
-ClosedMesh scaled(ClosedMesh mesh, double scale, const std::string& name);
+SolidMesh scaled(SolidMesh mesh, double scale, const std::string& name);
 
-/// A mesh from a file as a solid: inside is where the winding number is above 0. Read once:
-/// later calls return the same one, unless the file was written since.
+/// Tells one reading of a file from another: its stamp, scale and fill.
+std::string reading_key(const Mesh& mesh);
+
+/// A mesh from a file, in metres. Read once, as what follows.
 /// @throws ShapeError
-std::shared_ptr<const Form> read_mesh_solid(const std::string& path, double scale);
-std::unique_ptr<const Form> make_mesh_solid(ClosedMesh mesh);
+std::shared_ptr<const SolidMesh> read_solid_mesh(const Mesh& mesh);
+
+/// A mesh from a file as a solid. Read once: later calls return the same one, unless the file was
+/// written since.
+/// @throws ShapeError
+std::shared_ptr<const Form> read_mesh_solid(const Mesh& mesh);
+std::unique_ptr<const Form> make_mesh_solid(SolidMesh mesh);
 
 }  // namespace neve::sim::shapes

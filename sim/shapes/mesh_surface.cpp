@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <sstream>
 #include <system_error>
 #include <unsupported/Eigen/BVH>
-
-#include "sim/files/mesh_reader.h"
 
 namespace neve::sim::shapes {
 namespace {
@@ -36,6 +33,98 @@ Vec3d nearest_on_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const 
   return sum > 0 ? Vec3d(a + (vb / sum) * ab + (vc / sum) * ac) : a;
 }
 
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// Whether faces may have the inside, or the outside, on both of their sides.
+bool has_inner_faces(const SolidMesh& mesh) {
+  const MeshReading& reading = mesh.reading;
+  return mesh.inside != Inside::above_half &&
+         (reading.parts > 1 || reading.crossed > 0 || reading.inside_out > 0);
+}
+
+/// The pieces of triangles that have the inside on one side only. A triangle that others cross is
+/// halved until its pieces are small: they end at the crossing to about this share of the mesh.
+class Border {
+ public:
+  Border(const SolidMesh& mesh, const Form& solid)
+      : mesh_(mesh), solid_(solid), size_((bounds_of(mesh).max - bounds_of(mesh).min).maxCoeff()) {}
+
+  bool all_same(std::uint32_t t) {
+    const auto [a, b, c] = corners(t);
+    const Vec3d middle = (a + b + c) / 3;
+    is_border_ = is_border(middle, a, b, c);
+    for (const auto& [of_a, of_b] : places) {
+      const Vec3d q = a + of_a * (b - a) + of_b * (c - a);
+      if (is_border(q, a, b, c) != is_border_) return false;
+    }
+    return true;
+  }
+  bool is_border() const { return is_border_; }
+
+  /// visit(a, b, c) for the pieces of a triangle on the border.
+  template <class Visit>
+  void cut(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Visit& visit) const {
+    const std::array sides{(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()};
+    const auto longest = std::max_element(sides.begin(), sides.end());
+    if (*longest <= std::pow(share * size_, 2)) {
+      if (is_border((a + b + c) / 3, a, b, c)) visit(a, b, c);
+      return;
+    }
+    const auto halve = [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
+      const Vec3d middle = 0.5 * (p + q);
+      cut(p, middle, r, visit);
+      cut(middle, q, r, visit);
+    };
+    if (longest == sides.begin()) return halve(a, b, c);
+    longest == sides.begin() + 1 ? halve(b, c, a) : halve(c, a, b);
+  }
+
+  std::array<Vec3d, 3> corners(std::uint32_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return {mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]};
+  }
+
+ private:
+  static constexpr double share = 1.0 / 128;
+  /// Inside a triangle, near its corners and sides.
+  static constexpr std::array<std::pair<double, double>, 6> places{
+      {{0.02, 0.02}, {0.96, 0.02}, {0.02, 0.96}, {0.49, 0.02}, {0.02, 0.49}, {0.49, 0.49}}};
+
+  bool is_border(const Vec3d& q, const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+    const Vec3d off = 1e-7 * size_ * (b - a).cross(c - a).normalized();
+    return solid_.contains(q + off) != solid_.contains(q - off);
+  }
+
+  const SolidMesh& mesh_;
+  const Form& solid_;
+  double size_;
+  bool is_border_ = false;
+};
+
+/// @param origin  becomes the triangle of each piece; stays empty where every triangle is kept
+SolidMesh border_of(const SolidMesh& mesh, const Form& solid, std::vector<std::uint32_t>& origin) {
+  Border border(mesh, solid);
+  SolidMesh pieces;
+  bool is_all = true;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = border.corners(t);
+    const auto keep = [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
+      const auto first = static_cast<std::uint32_t>(pieces.vertices.size());
+      pieces.vertices.insert(pieces.vertices.end(), {p, q, r});
+      pieces.triangles.push_back({first, first + 1, first + 2});
+      origin.push_back(t);
+    };
+    const bool is_same = border.all_same(t);
+    is_all = is_all && is_same && border.is_border();
+    if (!is_same)
+      border.cut(a, b, c, keep);
+    else if (border.is_border())
+      keep(a, b, c);
+  }
+  if (is_all) origin.clear();
+  return pieces;
+}
+
 }  // namespace
 
 using Box3 = Eigen::AlignedBox<double, 3>;
@@ -47,11 +136,11 @@ struct MeshSurface::Tree {
 /// The search for the nearest triangle, as BVMinimize wants it.
 struct MeshSurface::Nearest {
   using Scalar = double;
-  const ClosedMesh& mesh;
+  const SolidMesh& mesh;
   Vec3d p;
   double squared;  ///< m2, to the nearest so far
   Vec3d place{0, 0, 0};
-  std::uint32_t triangle = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t triangle = none;
 
   double minimumOnVolume(const Box3& box) const {
     const double away = box.squaredExteriorDistance(p);
@@ -68,13 +157,16 @@ struct MeshSurface::Nearest {
   }
 };
 
-MeshSurface::MeshSurface(ClosedMesh mesh)
+MeshSurface::MeshSurface(SolidMesh mesh)
     : mesh_(std::move(mesh)), bounds_(bounds_of(mesh_)), solid_(make_mesh_solid(mesh_)) {
-  std::vector<std::uint32_t> index(mesh_.triangles.size());
+  if (has_inner_faces(mesh_)) border_ = border_of(mesh_, *solid_, origin_);
+  const SolidMesh& surface = origin_.empty() ? mesh_ : border_;
+  std::vector<std::uint32_t> index(surface.triangles.size());
   std::vector<Box3> boxes(index.size());
   for (std::size_t t = 0; t < index.size(); ++t) {
     index[t] = static_cast<std::uint32_t>(t);
-    for (const std::uint32_t corner : mesh_.triangles[t]) boxes[t].extend(mesh_.vertices[corner]);
+    for (const std::uint32_t corner : surface.triangles[t])
+      boxes[t].extend(surface.vertices[corner]);
   }
   auto tree = std::make_unique<Tree>();
   tree->boxes.init(index.begin(), index.end(), boxes.begin(), boxes.end());
@@ -84,7 +176,7 @@ MeshSurface::MeshSurface(ClosedMesh mesh)
 MeshSurface::~MeshSurface() = default;
 
 MeshSurface::Nearest MeshSurface::nearest(const Vec3d& y, double most) const {
-  Nearest search{mesh_, y, most * most};
+  Nearest search{origin_.empty() ? mesh_ : border_, y, most * most};
   Eigen::BVMinimize(tree_->boxes, search);
   return search;
 }
@@ -92,8 +184,8 @@ MeshSurface::Nearest MeshSurface::nearest(const Vec3d& y, double most) const {
 MeshSurface::Place MeshSurface::nearest_place(const Vec3d& y, double most) const {
   const Nearest found = nearest(y, most);
   // Nothing is that near.
-  if (found.triangle >= mesh_.triangles.size()) return nearest_place(y);
-  return {std::sqrt(found.squared), found.triangle, found.place};
+  if (found.triangle == none) return nearest_place(y);
+  return {std::sqrt(found.squared), origin(found.triangle), found.place};
 }
 
 double MeshSurface::distance(const Vec3d& y, double most) const {
@@ -110,7 +202,7 @@ Vec3d MeshSurface::normal(const Vec3d& y) const {
   const double away = std::sqrt(found.squared);
   const double size = (bounds_.max - bounds_.min).norm();
   if (away > 1e-9 * size) return (contains(y) ? -1 : 1) * (y - found.place) / away;
-  const auto& [a, b, c] = mesh_.triangles[found.triangle];
+  const auto& [a, b, c] = mesh_.triangles[origin(found.triangle)];
   return (mesh_.vertices[b] - mesh_.vertices[a])
       .cross(mesh_.vertices[c] - mesh_.vertices[a])
       .normalized();
@@ -126,20 +218,18 @@ std::string file_stamp(const std::string& path) {
 
 std::shared_ptr<const MeshSurface> mesh_surface(const Mesh& mesh) {
   static Recent<MeshSurface> recent;
-  std::ostringstream name;
-  name.precision(17);
-  name << file_stamp(mesh.file) << "|" << mesh.scale;
-  return recent.get(name.str(), [&] {
-    const files::PolygonMesh polygons = files::read_mesh(mesh.file);
-    ClosedMesh closed = close_mesh(polygons, mesh.file);
-    if (const std::size_t face = closed.crossed_face; face > 0) {
-      const std::size_t line = polygons.polygons[face - 1].line;
-      throw ShapeError(mesh.file + (line > 0 ? ":" + std::to_string(line) : "") + ": face " +
-                       std::to_string(face) +
-                       " crosses itself: it has no triangles. Triangulate the mesh");
-    }
-    return std::make_shared<const MeshSurface>(scaled(std::move(closed), mesh.scale, mesh.file));
+  return recent.get(reading_key(mesh), [&] {
+    const std::shared_ptr<const SolidMesh> solid = read_solid_mesh(mesh);
+    require_faces(*solid, mesh.file);
+    return std::make_shared<const MeshSurface>(*solid);
   });
+}
+
+void require_faces(const SolidMesh& mesh, const std::string& file) {
+  if (mesh.crossed_face == 0) return;
+  const std::string line = mesh.crossed_line > 0 ? ":" + std::to_string(mesh.crossed_line) : "";
+  throw ShapeError(file + line + ": face " + std::to_string(mesh.crossed_face) +
+                   " crosses itself: it has no triangles. Triangulate the mesh");
 }
 
 }  // namespace neve::sim::shapes

@@ -14,23 +14,23 @@ namespace neve::sim::shapes {
 
 class MeshSurface {
  public:
-  /// @param mesh with an inside, faces of its own that overlap nowhere
-  explicit MeshSurface(ClosedMesh mesh);
+  /// Of parts that overlap, only the faces between inside and outside are its surface.
+  explicit MeshSurface(SolidMesh mesh);
   ~MeshSurface();
 
-  const ClosedMesh& mesh() const { return mesh_; }
+  const SolidMesh& mesh() const { return mesh_; }
   const Bounds& bounds() const { return bounds_; }  ///< tight
 
   /// Exact, m; at most `most` if given: larger distances are `most`.
   double distance(const Vec3d& y, double most = INFINITY) const;
-  /// By the winding number, as bodies are filled.
+  /// As bodies are filled.
   bool contains(const Vec3d& y) const { return solid_->contains(y); }
   double signed_distance(const Vec3d& y) const;
   /// The place of the surface that is nearest to y; of several as near that of the first triangle.
   /// @param most  m, the search is quicker where it is known that something is as near
   struct Place {
-    double distance;  ///< m
-    std::uint32_t triangle;
+    double distance;         ///< m
+    std::uint32_t triangle;  ///< of mesh()
     Vec3d point;
   };
   Place nearest_place(const Vec3d& y, double most = INFINITY) const;
@@ -41,10 +41,16 @@ class MeshSurface {
   struct Tree;
   struct Nearest;
   Nearest nearest(const Vec3d& y, double most) const;
+  /// Of the triangle of mesh() that it belongs to.
+  std::uint32_t origin(std::uint32_t triangle) const {
+    return origin_.empty() ? triangle : origin_[triangle];
+  }
 
-  ClosedMesh mesh_;
+  SolidMesh mesh_;
   Bounds bounds_;
   std::unique_ptr<const Form> solid_;
+  SolidMesh border_;                   ///< where not all faces are between inside and outside
+  std::vector<std::uint32_t> origin_;  ///< of the triangles of border_; empty: there is none
   std::unique_ptr<const Tree> tree_;
 };
 
@@ -53,6 +59,9 @@ class MeshSurface {
 /// is read again. Threads may call at the same time.
 /// @throws ShapeError when the file cannot be read, the mesh is open, or a face crosses itself
 std::shared_ptr<const MeshSurface> mesh_surface(const Mesh& mesh);
+
+/// @throws ShapeError where a face crosses itself: it has no surface
+void require_faces(const SolidMesh& mesh, const std::string& file);
 
 /// Tells one content of a file from another: path, size and time of the last change.
 std::string file_stamp(const std::string& path);

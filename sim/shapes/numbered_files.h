@@ -9,8 +9,8 @@ namespace neve::sim::shapes {
 inline constexpr int max_file_number = 999999;
 inline constexpr int max_numbered_files = 10000;  ///< in one sequence
 
-/// True if the name of the file, not its folder, says once where the number goes: %d, or %04d for
-/// at least four digits (1 to 9), and has no other %.
+/// True if the name of the file, not its folder, says once where the number goes: %d or $F; %04d,
+/// $F4 or #### for at least four digits (1 to 9; as many # as wanted). It has no other %, # or $.
 bool is_file_pattern(const std::string& pattern);
 
 /// The path with that number. @param pattern  see is_file_pattern

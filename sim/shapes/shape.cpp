@@ -32,7 +32,7 @@ struct MakeForm {
   Result operator()(const Plane&) const {
     throw std::invalid_argument("a plane has no volume: it can only be a collider");
   }
-  Result operator()(const Mesh& s) const { return read_mesh_solid(s.file, s.scale); }
+  Result operator()(const Mesh& s) const { return read_mesh_solid(s); }
   /// As it is in the first file.
   Result operator()(const MeshSequence& s) const {
     return make_mesh_solid(deforming_mesh(s)->mesh(0, 0));

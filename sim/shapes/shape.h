@@ -41,11 +41,19 @@ struct Plane {
   Vec3d point{0, 0, 0};
   Vec3d normal{0, 1, 0};
 };
-/// A closed mesh in an OBJ file, scaled about the file's origin, which goes to center.
+/// What is inside a mesh.
+enum class Fill {
+  automatic,  ///< closed where the mesh is closed, else winding
+  closed,     ///< what closed parts enclose together; a part wound inward in another is a cavity
+  even_odd,   ///< the same, but parts in one another are snow and cavity in turns
+  winding     ///< where the generalized winding number is above 1/2: for open meshes
+};
+/// A mesh in a file, scaled about the file's origin, which goes to center.
 struct Mesh {
   std::string file;  ///< resolved path
   double scale = 1.0;
   Vec3d center{0, 0, 0};
+  Fill fill = Fill::automatic;
 };
 /// A closed mesh that deforms: numbered files of one topology, see sim/shapes/deforming_mesh.h.
 struct MeshSequence {

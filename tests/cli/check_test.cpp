@@ -1,5 +1,7 @@
 /// `neve check`: what a scene will cost, and what looks wrong in it.
 
+#include "app/output/atomic_file.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -38,6 +40,57 @@ class Check : public Cli {
 
 TEST_F(Check, AHealthySceneHasNoWarning) {
   EXPECT_EQ(findings(scene("", floor_plane)), Findings{});
+}
+
+/// A cube from `low` of edge 0.1 in an OBJ of several.
+std::string cube_text(double low, double edge = 0.1, bool is_inward = false) {
+  std::string text;
+  for (int k = 0; k < 8; ++k) {
+    text += "v";
+    for (const int side : {k % 4 == 1 || k % 4 == 2, k % 4 > 1, k > 3})
+      text += " " + std::to_string(low + edge * side);
+    text += "\n";
+  }
+  return text + (is_inward ? "f -8 -7 -6 -5\nf -1 -2 -3 -4\nf -4 -3 -7 -8\nf -3 -2 -6 -7\n"
+                             "f -2 -1 -5 -6\nf -1 -4 -8 -5\n"
+                           : "f -8 -5 -6 -7\nf -4 -3 -2 -1\nf -8 -7 -3 -4\nf -7 -6 -2 -3\n"
+                             "f -6 -5 -1 -2\nf -5 -8 -4 -1\n");
+}
+
+TEST_F(Check, MeshesThatAreNotPlainAreSaidByCheckAndByTheRun) {
+  const auto said = [&](const std::string& mesh, const std::string& more = {}) {
+    folder.write("m.obj", mesh);
+    folder.write("mesh.toml",
+                 "frames = 1\n[solver]\ncell_size = 0.02\n[[body]]\nname = \"rock\"\n"
+                 "shape = { mesh = { file = \"m.obj\"" +
+                     more + " } }\n" + floor_plane);
+    const auto check = neve({"check", "mesh.toml"});
+    EXPECT_EQ(check.exit_code, 0) << check.errors;
+    const auto run = neve({"render", "mesh.toml", "--frames", "0-0", "--size", "160x90",
+                           "--no-movie", "--out", "run"});
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    const std::string warnings = json_of("run/run.json")["warnings"].dump();
+    EXPECT_TRUE(contains(check.output + check.errors, "body.rock.shape.mesh")) << check.output;
+    return warnings;
+  };
+  const auto expect = [&](const std::string& warnings, const std::string& part) {
+    EXPECT_TRUE(contains(warnings, part)) << warnings;
+  };
+  expect(said(cube_text(0) + cube_text(0.05)), "parts of rock cross: 6.7 % of its volume");
+  EXPECT_NEAR(json_of("run/run.json")["frames"][0]["mass"].get<double>(), 400 * (2e-3 - 0.125e-3),
+              1e-3);
+  expect(said(cube_text(0) + cube_text(0.2, 0.1, true)),
+         "1 of the 2 parts of rock is wound inward and read outward");
+  expect(said(cube_text(0) + cube_text(0.02, 0.05)), "1 part of rock is in another one");
+  expect(said(cube_text(0) + cube_text(0.02, 0.05), ", fill = \"even_odd\""), "1 cavity");
+  const std::string open = cube_text(0);
+  expect(said(open.substr(0, open.rfind("f "))), "filled by winding numbers, with 4 open edges");
+  EXPECT_EQ(neve({"check", "mesh.toml", "--open-edges", "holes.png"}).exit_code, 0);
+  const render::Image holes = render::decode_png(app::output::read_file(folder / "holes.png"));
+  int red = 0;
+  for (std::size_t i = 0; i + 2 < holes.pixels.size(); i += 3)
+    red += holes.pixels[i] > 150 && holes.pixels[i + 1] < 100;
+  EXPECT_GT(red, 500) << "four edges of a cube that fills the picture, 3 pixels wide";
 }
 
 TEST_F(Check, CheckNamesEachMistake) {

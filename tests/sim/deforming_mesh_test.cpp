@@ -42,6 +42,12 @@ TEST(NumberedFiles, PatternsNameOneNumber) {
   EXPECT_EQ(numbered_file("a/b_%04d.obj", 7), "a/b_0007.obj");
   EXPECT_EQ(numbered_file("b%02d.obj", 123), "b123.obj");
   EXPECT_EQ(numbered_file("b%d.obj", 123), "b123.obj");
+  for (const char* four : {"s.%04d.exr", "s.####.exr", "s.$F4.exr"}) {
+    EXPECT_EQ(numbered_file(four, 1001), "s.1001.exr");
+    EXPECT_EQ(numbered_file(four, -8), "s.-008.exr") << "the sign is a digit, as for printf";
+    EXPECT_EQ(numbered_file(four, 12345), "s.12345.exr");
+  }
+  EXPECT_EQ(numbered_file("$F.obj", 12), "12.obj");
   EXPECT_EQ(numbered_file("100%/b%d.obj", 1), "100%/b1.obj") << "folders may have any name";
   for (const char* wrong : {"", "b.obj", "%d/b.obj", "b%d_%d.obj", "b%s.obj", "b%4d.obj",
                             "b%00d.obj", "b%012d.obj", "b%", "b%0", "b%%d.obj", "b%n.obj"})
@@ -111,7 +117,7 @@ TEST(DeformingMesh, WhatIsWrongWithNumberedFilesIsNamedWithFileAndLine) {
   has("expected 2 to 10000 files");
   sequence.last = 1;
   sequence.files = (folder / "box.obj").string();
-  has("expected one %d or %04d");
+  has("expected one %d, %04d, #### or $F4");
 }
 
 /// One place as kernels see it.

@@ -199,12 +199,28 @@ TEST(DistanceField, FacesWithADentAreExact) {
   EXPECT_NEAR(surface->signed_distance({0.05, 0.05, 0.5}), -0.05, 1e-15);
 }
 
+TEST(DistanceField, FacesInsideAreNoSurface) {
+  const TemporaryFolder folder;
+  const auto surface = sim::shapes::mesh_surface(written_mesh(
+      folder,
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+      "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+      "v 0.5 0.1 0.1\nv 1.5 0.1 0.1\nv 1.5 0.9 0.1\nv 0.5 0.9 0.1\n"
+      "v 0.5 0.1 0.9\nv 1.5 0.1 0.9\nv 1.5 0.9 0.9\nv 0.5 0.9 0.9\n"
+      "f 9 12 11 10\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n"));
+  // On the wall of the second box that is in the first.
+  EXPECT_NEAR(surface->signed_distance({0.5, 0.5, 0.5}), -0.5, 1e-12);
+  // In the mouth of the first box under the second: pieces end within 1/128 of the mesh.
+  EXPECT_NEAR(surface->signed_distance({1, 0.5, 0.5}), -0.4, 1.5 / 128);
+  EXPECT_NEAR(surface->signed_distance({2, 0.5, 0.5}), 0.5, 1e-12);
+}
+
 TEST(DistanceField, DistanceFieldNamesTheDefectOfAMesh) {
   const TemporaryFolder folder;
   const std::string box = box_obj({0.4, 0.4, 0.4});
-  EXPECT_NE(
-      mesh_complaint(written_mesh(folder, box.substr(0, box.rfind("f 2"))), 0.05).find("is open"),
-      std::string::npos);
+  sim::shapes::Mesh open = written_mesh(folder, box.substr(0, box.rfind("f 2")));
+  open.fill = sim::shapes::Fill::closed;
+  EXPECT_NE(mesh_complaint(open, 0.05).find("is open"), std::string::npos);
   EXPECT_NE(mesh_complaint(written_mesh(folder, box, 100), 0.05).find("at most 256^3"),
             std::string::npos);
   // A prism over a quadrilateral whose sides cross.

@@ -110,12 +110,52 @@ std::string mesh_message(const std::string& bytes, const std::string& name = "m"
 TEST(MeshReader, EveryFormatGivesTheSameSolid) {
   for (const std::string& bytes : {ascii_stl(), binary_stl(), ply("ascii"),
                                    ply("binary_little_endian"), ply("binary_big_endian")}) {
-    const shapes::ClosedMesh mesh =
-        shapes::close_mesh(files::parse_mesh(bytes, "m"), bytes.substr(0, 40));
+    const shapes::SolidMesh mesh =
+        shapes::solid_mesh(files::parse_mesh(bytes, "m"), bytes.substr(0, 40));
     EXPECT_DOUBLE_EQ(mesh.volume, 6);
     EXPECT_EQ(mesh.triangles.size(), 12u);
     EXPECT_EQ(shapes::bounds_of(mesh).max, Vec3d(0.5, 1, 1.5));
   }
+}
+
+TEST(MeshReader, StlOfOtherProgramsIsRead) {
+  const auto triangles = [](const std::string& bytes, const std::string& name) {
+    return files::parse_mesh(bytes, name).polygons.size();
+  };
+  std::string upper = ascii_stl();
+  for (char& c : upper) c = static_cast<char>(std::toupper(c));
+  EXPECT_EQ(triangles(upper, "m.stl"), 12u);
+  EXPECT_EQ(triangles("\r\n  \t" + upper, "m"), 12u);
+  EXPECT_EQ(triangles(binary_stl() + "a trailer", "M.STL"), 12u);
+  std::string no_count = binary_stl();
+  no_count.replace(80, 4, std::string(4, '\0'));
+  EXPECT_EQ(triangles(no_count, "m.stl"), 12u);
+  // Only the name says that such bytes are an STL.
+  EXPECT_NE(mesh_message(no_count, "m.obj"), "no error");
+}
+
+TEST(MeshReader, StripsOfAPlyAreTriangles) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0 1 0 0 0 1 0 0 0 1\n";
+  // A tetrahedron as one strip that turns round its corners, and as two.
+  for (const char* strip : {"6 0 2 1 3 0 2\n", "10 0 2 1 3 -1 1 3 0 2 -1\n"}) {
+    const shapes::SolidMesh mesh = shapes::solid_mesh(files::parse_mesh(head + strip, "m"), "m");
+    EXPECT_EQ(mesh.triangles.size(), 4u) << strip;
+    EXPECT_DOUBLE_EQ(mesh.volume, 1.0 / 6) << strip;
+    EXPECT_EQ(mesh.reading.turned_faces, 0u) << strip;
+  }
+}
+
+TEST(MeshReader, AByteOrderMarkShiftsNoIndex) {
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 9 9 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n"
+      "f 1 4 3\n";
+  EXPECT_EQ(files::parse_mesh("\xEF\xBB\xBF" + text, "m.obj").vertices.size(), 5u);
+  EXPECT_EQ(files::parse_mesh("\xEF\xBB\xBF" + ply("ascii"), "m.ply").polygons.size(), 6u);
+  EXPECT_EQ(files::parse_mesh("\xEF\xBB\xBF" + ascii_stl(), "m.stl").polygons.size(), 12u);
+  EXPECT_NE(mesh_message("\xFF\xFEv", "m.obj").find("UTF-16"), std::string::npos);
 }
 
 TEST(MeshReader, MistakesAreNamed) {

@@ -135,7 +135,7 @@ TEST(ObjReader, MutatedFilesAreReadOrRefused) {
   for (int k = 0; k < 20000; ++k) {
     try {
       const auto solid = sim::shapes::make_mesh_solid(
-          sim::shapes::close_mesh(sim::files::parse_obj(mutated(tetrahedron, state), "m"), "m"));
+          sim::shapes::solid_mesh(sim::files::parse_obj(mutated(tetrahedron, state), "m"), "m"));
       EXPECT_GT(solid->volume(), 0);
       const Vec3d inner = solid->inner_point();
       EXPECT_TRUE(solid->contains(inner));

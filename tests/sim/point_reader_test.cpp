@@ -134,7 +134,7 @@ TEST(PointReader, PointReaderNamesThePlaceAndKindOfAnError) {
   expect("x,y,z,X\n1,2,3,4\n", "p:1: two columns are the point's x");
   expect("x,y,z\n1,2\n", "p:2: 2 fields; the header has 3");
   expect("x,y,z\n1,2,3\n1,2,3,4\n", "p:3: more fields than the header's 3");
-  expect("x y z\n1 2 3\n", "no column x among \"x y z\"");
+  expect("a b c\n1 2 3\n", "no column x among \"a\", \"b\", \"c\"");
   EXPECT_THROW(sim::files::parse_points("x,y,z\n1,2,3\n", "cloud.ply"), ShapeError);
   expect("1,2,3\n4,5,6\n", "p:1: the first line has numbers");
   expect("x,y,z\n1,\"2,3\n", "p:2: 2 fields");
@@ -161,12 +161,54 @@ TEST(PointReader, PointReaderNamesThePlaceAndKindOfAnError) {
   expect(ply + "1\n" + xyz + "end_header\n1 2 3 4\n", "p:8: more numbers than the header's 3");
   expect(ply + "1\n" + xyz + "end_header\n1 2 snow\n",
          "p:8: \"snow\" is not a number, in property \"z\"");
-  expect(ply + "1\n" + xyz + "property list uchar int a\nend_header\n1 2 3\n",
-         "p:7: a list in element");
+  expect(ply + "1\n" + xyz + "property list uchar int a\nend_header\n1 2 3   \n",
+         "p:9: 3 numbers; the header has 4");
+  expect(ply + "1\n" + xyz + "property list uchar int a\nend_header\n1 2 3 9 1\n",
+         "p:9: a list is longer than its line");
   expect(ply + "1\nproperty float x\nproperty float y\nend_header\n1 2\n", "p:3: no column z");
   // A second one of the same name would leave its columns without values.
   expect(ply + "1\nproperty float x\nproperty float y\nelement vertex 1\nproperty float z\n",
          "p:6: a second element \"vertex\"");
+}
+
+TEST(PointReader, TablesOfNumpyAndOfSpreadsheetsAreRead) {
+  const auto positions = [](const std::string& text) {
+    return sim::files::parse_points(text, "p").x;
+  };
+  const std::vector<Vec3d> expected{{0.5, 1, 2}, {-3, 0.25, 4}};
+  for (const char* text :
+       {"x,y,z\n0.5,1,2\n-3,0.25,4\n", "\xEF\xBB\xBFx,y,z\n0.5,1,2\n-3,0.25,4\n",
+        "# x y z\n5.0e-01 1.0e+00 2.0e+00\n-3 0.25 4\n",  // savetxt(header="x y z")
+        "#x,y,z\n0.5,1,2\n-3,0.25,4\n",                   // the same with delimiter=","
+        "x y z\n 0.5  1 2\n-3 0.25   4\n", "x;y;z\n0,5;1;2\n-3;0,25;4\n",
+        "x\ty\tz\n0,5\t1\t2\n-3\t0,25\t4\n"})
+    EXPECT_EQ(positions(text), expected) << text;
+  EXPECT_NE(point_error("# \n1 2 3\n").find("names of columns"), std::string::npos);
+  EXPECT_NE(point_error("#\n#\n").find("no header line"), std::string::npos);
+  EXPECT_NE(point_error("x,y,z\n0,5,1,2\n").find("more fields"), std::string::npos);
+}
+
+TEST(PointReader, ListsBetweenTheNumbersOfAPlyArePassedOver) {
+  const std::string head =
+      " 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 2\n"
+      "property list uchar float weights\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n";
+  std::string bytes = "ply\nformat binary_little_endian" + head;
+  const auto put = [&](auto value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  put(std::uint8_t{3});
+  for (const int corner : {0, 1, 0}) put(corner);
+  for (const int k : {0, 1}) {
+    put(static_cast<std::uint8_t>(k));
+    if (k == 1) put(9.0f);
+    for (const float x : {1.0f, 2.0f, 3.0f}) put(x + static_cast<float>(k));
+  }
+  const std::vector<Vec3d> expected{{1, 2, 3}, {2, 3, 4}};
+  EXPECT_EQ(sim::files::parse_points(bytes, "p").x, expected);
+  EXPECT_EQ(
+      sim::files::parse_points("ply\nformat ascii" + head + "3 0 1 0\n0 1 2 3\n1 9 2 3 4\n", "p").x,
+      expected);
 }
 
 TEST(PointReader, PointReaderComparesWhatAFileClaimsWithItsLengthBeforeAllocating) {

@@ -47,7 +47,7 @@ inline constexpr Folder folders[] = {
      "render/snow render/passes render/channels",
      "neve::render"},
     {"app/support", "", "neve::app"},
-    {"app/scene/toml", "app/support"},
+    {"app/scene/toml", "sim/base app/support"},
     {"app/advice", "app/support app/scene/toml"},
     {"app/scene",
      "sim/base sim/types sim/shapes sim/seeding sim/kernels render/frame app/support "
@@ -115,7 +115,8 @@ inline constexpr Folder folders[] = {
      "render/frame render/overlay render app/support app/scene/toml app/scene app/record "
      "app/health app/picture app/view/session app/view/frontend"},
     {"app/view/replay",
-     "render/image render/frame render app/support app/scene/toml app/advice app/scene app/output "
+     "sim/base render/image render/frame render app/support app/scene/toml app/advice app/scene "
+     "app/output "
      "app/view/frontend app/view/panels"},
     {"app/view/picker",
      "render/image render/frame render/overlay render app/support app/scene app/output app/setup "
@@ -131,8 +132,9 @@ inline constexpr Folder folders[] = {
      "render/gl app/support app/scene/toml app/scene app/view/frontend app/view/web "
      "app/view/replay app/view"},
     {"app/cli",
-     "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render app/support "
-     "app/scene/toml app/advice app/scene app/output app/record app/setup app/options app/forecast "
+     "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render/overlay render "
+     "app/support app/scene/toml app/advice app/scene app/output app/record app/setup app/options "
+     "app/forecast "
      "app/health app/picture app/exports app/timeline app/run app/compare app/dump app/sweep/read "
      "app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet app/pick/search app/pick "
      "app/view/picker app/view app/bench app/cli/devices"},

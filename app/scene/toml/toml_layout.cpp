@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/base/byte_order_mark.h"
+
 namespace neve::app::scene::toml {
 
 namespace {
@@ -15,7 +17,7 @@ class LayoutReader {
 
   TomlLayout run() {
     out_.root.section = 0;
-    out_.sections.emplace_back().begin = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    out_.sections.emplace_back().begin = text_.size() - without_mark(text_).size();
     at_ = out_.sections[0].begin;
     table_ = &out_.root;
     for (skip_blank(); at_ < text_.size(); skip_blank()) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/scene/toml/error.h"
+#include "sim/base/byte_order_mark.h"
 
 namespace neve::app::scene::toml {
 namespace {
@@ -249,7 +250,7 @@ Location AsciiToml::original(int line, int column) const {
 
 AsciiToml to_ascii_toml(std::string_view text, const std::string& file) {
   if (text.size() > max_toml_bytes) throw SceneError(file, 0, 0, "larger than 1 MiB");
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = without_mark(text);
   return Rewriter(text, file).run();
 }
 

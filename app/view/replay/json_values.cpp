@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/scene/toml/error.h"
+#include "sim/base/byte_order_mark.h"
 
 namespace neve::app::view::replay {
 
@@ -28,7 +29,7 @@ bool is_between_tokens(char c) {
 class Tokens {
  public:
   explicit Tokens(std::string_view text) : text_(text) {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+    text_ = without_mark(text_);
   }
 
   /// @return where the next token begins

@@ -1,0 +1,230 @@
+#include "sim/shapes/mesh_parts.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "sim/shapes/mesh_columns.h"
+
+namespace neve::sim::shapes {
+namespace {
+
+/// Triangles that are looked at for one question, before the answer is taken from what was seen:
+/// meshes of other people may have all triangles in one another's way.
+constexpr std::size_t max_tests = 40'000'000;
+
+/// Lines that find out whether anything overlaps, and those that measure how much.
+constexpr int first_lines = 4096, all_lines = 65536;
+
+/// Overlaps below this share of a volume are rounding, of parts that touch.
+constexpr double min_overlap = 1e-7;
+
+/// Winding numbers by part.
+using PartCounts = std::vector<std::pair<std::uint32_t, int>>;
+
+void add(PartCounts& counts, std::uint32_t part, int w) {
+  const auto known = std::ranges::find(counts, part, &PartCounts::value_type::first);
+  if (known == counts.end())
+    counts.emplace_back(part, w);
+  else if ((known->second += w) == 0)
+    counts.erase(known);
+}
+
+class Parts {
+ public:
+  Parts(SolidMesh& mesh, const std::vector<std::uint32_t>& part, std::size_t count)
+      : mesh_(mesh),
+        part_(part),
+        bounds_(bounds_of(mesh)),
+        columns_(mesh.vertices, mesh.triangles, bounds_),
+        containers_(count),
+        volume_(count, 0.0) {}
+
+  void turn_outward();
+  void measure();
+
+ private:
+  std::array<Vec3d, 3> corners(std::uint32_t t) const {
+    const Triangle& c = mesh_.triangles[t];
+    return {mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]};
+  }
+  void find_volumes();
+  void find_containers();
+  PartCounts parts_around(const Vec3d& p, std::uint32_t but);
+  bool contains(std::uint32_t outer, std::uint32_t inner) const {
+    return std::ranges::find(containers_[inner], outer) != containers_[inner].end();
+  }
+  bool do_cross(const PartCounts& around) const;
+  void measure_line(const Vec3d& p);
+
+  SolidMesh& mesh_;
+  const std::vector<std::uint32_t>& part_;
+  Bounds bounds_;
+  Columns columns_;
+  std::vector<std::vector<std::uint32_t>> containers_;  ///< of each part
+  std::vector<double> volume_;                          ///< m3, of each part, as it is wound
+  std::size_t tests_ = 0;
+  // Sums of lengths over lines, m.
+  double wrong_ = 0;  ///< that the faces together count wrong
+  double crossed_ = 0, inside_out_ = 0;
+  std::vector<std::tuple<double, int, std::uint32_t>> meetings_;
+};
+
+void Parts::find_volumes() {
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> origin(volume_.size(), none);
+  for (std::uint32_t t = 0; t < part_.size(); ++t) {
+    if (origin[part_[t]] == none) origin[part_[t]] = mesh_.triangles[t][0];
+    const Vec3d& o = mesh_.vertices[origin[part_[t]]];
+    const auto [a, b, c] = corners(t);
+    volume_[part_[t]] += (a - o).dot((b - o).cross(c - o)) / 6;
+  }
+}
+
+/// Other parts that have p inside.
+PartCounts Parts::parts_around(const Vec3d& p, std::uint32_t but) {
+  PartCounts around;
+  const auto [begin, end] = columns_.at(p);
+  tests_ += static_cast<std::size_t>(end - begin);
+  for (const std::uint32_t* t = begin; t != end; ++t) {
+    if (part_[*t] == but) continue;
+    const auto [a, b, c] = corners(*t);
+    const int w = winding(a, b, c, p);
+    if (w != 0 && meeting_x(a, b, c, p) > p.x()) add(around, part_[*t], w);
+  }
+  return around;
+}
+
+/// Those around the middle of every triangle of a part.
+void Parts::find_containers() {
+  std::vector<bool> is_begun(volume_.size(), false);
+  for (std::uint32_t t = 0; t < part_.size(); ++t) {
+    std::vector<std::uint32_t>& containers = containers_[part_[t]];
+    if (is_begun[part_[t]] && containers.empty()) continue;
+    if (tests_ > max_tests) {
+      containers.clear();
+      continue;
+    }
+    const auto [a, b, c] = corners(t);
+    const PartCounts around = parts_around((a + b + c) / 3, part_[t]);
+    if (!is_begun[part_[t]])
+      for (const auto& [other, w] : around) containers.push_back(other);
+    is_begun[part_[t]] = true;
+    std::erase_if(containers, [&](std::uint32_t other) {
+      return std::ranges::find(around, other, &PartCounts::value_type::first) == around.end();
+    });
+  }
+  tests_ = 0;
+}
+
+void Parts::turn_outward() {
+  find_volumes();
+  if (volume_.size() > 1) find_containers();
+  std::vector<std::uint32_t> order(volume_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto is_larger = [&](std::uint32_t a, std::uint32_t b) {
+    const double va = std::abs(volume_[a]), vb = std::abs(volume_[b]);
+    return va != vb ? va > vb : a < b;
+  };
+  std::sort(order.begin(), order.end(), is_larger);
+  std::vector<bool> is_inward(volume_.size()), is_solid(volume_.size(), true);
+  for (const std::uint32_t p : order) {
+    is_inward[p] = volume_[p] < 0;
+    const auto around = std::ranges::max_element(containers_[p], is_larger, {});
+    // max_element by is_larger: the smallest, which is the nearest around it.
+    if (around != containers_[p].end() && mesh_.inside == Inside::positive)
+      is_solid[p] = is_solid[*around] == (is_inward[p] == is_inward[*around]);
+    if (around != containers_[p].end() && mesh_.inside == Inside::odd)
+      is_solid[p] = containers_[p].size() % 2 == 0;
+    const bool is_nested = !containers_[p].empty();
+    mesh_.reading.cavities += is_nested && !is_solid[p];
+    mesh_.reading.nested += is_nested && is_solid[p] && is_solid[*around];
+    mesh_.reading.turned_parts += is_inward[p] && !is_nested;
+  }
+  const bool is_even_odd = mesh_.inside == Inside::odd;
+  for (std::size_t t = 0; t < part_.size(); ++t)
+    if (is_inward[part_[t]] == (is_solid[part_[t]] || is_even_odd))
+      std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+}
+
+/// Whether two of the parts around a place are not in one another, or one is there twice.
+bool Parts::do_cross(const PartCounts& around) const {
+  for (std::size_t a = 0; a < around.size(); ++a) {
+    if (around[a].second > 1) return true;
+    for (std::size_t b = a + 1; b < around.size(); ++b)
+      if (!contains(around[a].first, around[b].first) &&
+          !contains(around[b].first, around[a].first))
+        return true;
+  }
+  return false;
+}
+
+void Parts::measure_line(const Vec3d& p) {
+  meetings_.clear();
+  const auto [begin, end] = columns_.at(p);
+  tests_ += static_cast<std::size_t>(end - begin);
+  for (const std::uint32_t* t = begin; t != end; ++t) {
+    const auto [a, b, c] = corners(*t);
+    if (const int w = winding(a, b, c, p))
+      meetings_.emplace_back(meeting_x(a, b, c, p), w, part_[*t]);
+  }
+  std::sort(meetings_.begin(), meetings_.end());
+  PartCounts around;
+  int depth = 0;
+  for (std::size_t k = 0; k + 1 < meetings_.size(); ++k) {
+    const auto& [from, w, part] = meetings_[k];
+    depth -= w;
+    add(around, part, -w);
+    const double length = std::get<0>(meetings_[k + 1]) - from;
+    if (length <= 0 || depth == 0 || depth == 1) continue;
+    const bool is_inside = mesh_.inside == Inside::odd ? depth % 2 != 0 : depth > 0;
+    wrong_ += length * ((is_inside ? 1 : 0) - depth);
+    if (depth < 0 && mesh_.inside == Inside::positive) inside_out_ += length;
+    if (depth > 1 && do_cross(around)) crossed_ += length;
+  }
+}
+
+/// Lines at the points of a sequence that fills a square evenly, however many are taken.
+/// Source: Roberts, The Unreasonable Effectiveness of Quasirandom Sequences (R2), 2018.
+void Parts::measure() {
+  mesh_.volume = enclosed_by_faces(mesh_);
+  constexpr double golden = 1.32471795724474602596;
+  const Vec3d size = bounds_.max - bounds_.min;
+  int n = 0;
+  for (; n < all_lines && tests_ < max_tests; ++n) {
+    if (n == first_lines && wrong_ == 0) break;
+    const double u = std::fmod(0.5 + n / golden, 1), v = std::fmod(0.5 + n / (golden * golden), 1);
+    measure_line(bounds_.min + Vec3d(0, u * size.y(), v * size.z()));
+  }
+  const double area = size.y() * size.z() / n;
+  if (std::abs(wrong_) * area <= min_overlap * std::abs(mesh_.volume)) return;
+  mesh_.volume += wrong_ * area;
+  mesh_.reading.crossed = crossed_ * area / mesh_.volume;
+  mesh_.reading.inside_out = inside_out_ * area / mesh_.volume;
+}
+
+}  // namespace
+
+double enclosed_by_faces(const SolidMesh& mesh) {
+  const Bounds b = bounds_of(mesh);
+  const Vec3d origin = 0.5 * (b.min + b.max);  // keeps digits of meshes far from their origin
+  double volume = 0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3d u = mesh.vertices[i] - origin, v = mesh.vertices[j] - origin;
+    volume += u.dot(v.cross(mesh.vertices[k] - origin)) / 6;
+  }
+  return volume;
+}
+
+void read_parts(SolidMesh& mesh, const std::vector<std::uint32_t>& part, std::size_t part_count) {
+  const Bounds b = bounds_of(mesh);
+  if (((b.max - b.min).array() <= 0).any()) return;  // flat: no volume
+  Parts parts(mesh, part, part_count);
+  parts.turn_outward();
+  parts.measure();
+}
+
+}  // namespace neve::sim::shapes
