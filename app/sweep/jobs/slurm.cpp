@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -18,6 +19,7 @@
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
+#include "app/sweep/jobs/slurm_jobs.h"
 #include "app/sweep/plan/selection.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/store/store.h"
@@ -102,78 +104,102 @@ void write_scripts(const fs::path& folder, const SlurmOptions& options,
   write("collect.sh", options::words_of(collect));
 }
 
-std::string job_id(const std::string& answer) {
-  const std::string id = answer.substr(0, answer.find_first_of(";\n"));
-  if (id.empty() || id.find_first_not_of("0123456789") != std::string::npos)
-    throw Error(exit_io,
-                fmt::format("sbatch answered \"{}\"; expected the number of a job", answer),
-                "sbatch");
-  return id;
-}
-
-fs::path jobs_path(const fs::path& folder) {
-  return folder / "slurm" / "jobs.json";
-}
-
-std::vector<std::string> known_jobs(const fs::path& folder) {
-  try {
-    return parse_json(output::read_file(jobs_path(folder))).get<std::vector<std::string>>();
-  } catch (const std::exception& error) {
-    rethrow_no_memory(error);
-    return {};
-  }
-}
-
 /// The jobs that are still waiting or running.
-std::vector<std::string> living(const std::vector<std::string>& jobs) {
+std::vector<QueuedJob> living(const std::vector<QueuedJob>& jobs) {
+  if (jobs.empty()) return {};
   std::set<std::string> seen;
   // Lists all jobs of this user, because asking for a job that Slurm has forgotten is an error.
-  std::istringstream lines(call("squeue", {"--me", "--noheader", "--format=%A %F"}));
-  for (std::string id; lines >> id;) seen.insert(id);
-  std::vector<std::string> alive;
-  for (const std::string& job : jobs)
-    if (seen.contains(job)) alive.push_back(job);
+  std::istringstream words(call("squeue", {"--me", "--noheader", "--format=%A %F"}));
+  for (std::string word; words >> word;) seen.insert(word);
+  std::vector<QueuedJob> alive;
+  for (const QueuedJob& job : jobs)
+    if (seen.contains(job.number)) alive.push_back(job);
   return alive;
 }
 
-std::vector<std::string> submit(const fs::path& folder, const store::Manifest& manifest,
-                                const std::vector<int>& indices, const SlurmOptions& options,
-                                const std::string& retry_failed) {
-  output::make_folder(folder / "slurm");
-  output::remove_abandoned(folder / "slurm");
-  write_scripts(folder, options, retry_failed);
-  const std::string log = (fs::absolute(folder) / "slurm" / "%A_%a.log").string();
-  std::vector<std::string> jobs;
-  std::string after = "--dependency=afterany";
-  std::string beginning;
-  if (manifest.beginning) {
-    std::vector<std::string> words = sbatch_options(manifest, options);
-    words.push_back("--output=" + (fs::absolute(folder) / "slurm" / "beginning.log").string());
-    words.push_back((folder / "slurm" / "beginning.sh").string());
-    jobs.push_back(job_id(call("sbatch", words)));
-    // Not afterok: runs whose beginning failed say so, instead of waiting for ever.
-    beginning = after + ":" + jobs.back();
+std::vector<std::string> numbers_of(const std::vector<QueuedJob>& jobs) {
+  std::vector<std::string> numbers;
+  for (const QueuedJob& job : jobs) numbers.push_back(job.number);
+  return numbers;
+}
+
+/// Jobs of one call of neve: each is on disk before the next is asked for.
+class Queue {
+ public:
+  Queue(const fs::path& folder, const store::Manifest& manifest, const SlurmOptions& options,
+        std::vector<QueuedJob> jobs)
+      : folder_(folder), manifest_(manifest), options_(options), jobs_(std::move(jobs)) {}
+
+  const std::vector<QueuedJob>& jobs() const { return jobs_; }
+  void forget_ended() { jobs_ = living(jobs_); }
+
+  /// Arrays of runs, and a job that collects when all have ended. @throws Error at the first that
+  /// Slurm refuses
+  void submit(const std::vector<int>& runs);
+  /// Of these runs those that no job is queued for.
+  std::vector<int> without_job(const std::vector<int>& runs) const;
+
+ private:
+  std::string beginning_job();
+  void add(const std::vector<std::string>& words, const std::vector<int>& runs,
+           bool is_beginning = false) {
+    jobs_.push_back({job_number(call("sbatch", words)), runs, is_beginning});
+    write_queued_jobs(folder_, jobs_);
   }
-  for (const SlurmArray& array : split_arrays(indices, max_array_size())) {
-    std::vector<std::string> words = sbatch_options(manifest, options);
+  std::string log(const char* name) const {
+    return "--output=" + (fs::absolute(folder_) / "slurm" / name).string();
+  }
+
+  const fs::path& folder_;
+  const store::Manifest& manifest_;
+  const SlurmOptions& options_;
+  std::vector<QueuedJob> jobs_;
+};
+
+std::vector<int> Queue::without_job(const std::vector<int>& runs) const {
+  std::set<int> queued;
+  for (const QueuedJob& job : jobs_) queued.insert(job.runs.begin(), job.runs.end());
+  std::vector<int> without;
+  std::ranges::copy_if(runs, std::back_inserter(without),
+                       [&](int run) { return !queued.contains(run); });
+  return without;
+}
+
+/// The number of the job that makes the common beginning; submits it unless it is queued.
+std::string Queue::beginning_job() {
+  const auto queued = std::ranges::find_if(jobs_, &QueuedJob::is_beginning);
+  if (queued != jobs_.end()) return queued->number;
+  std::vector<std::string> words = sbatch_options(manifest_, options_);
+  words.push_back(log("beginning.log"));
+  words.push_back((folder_ / "slurm" / "beginning.sh").string());
+  add(words, {}, true);
+  return jobs_.back().number;
+}
+
+void Queue::submit(const std::vector<int>& runs) {
+  // Not afterok: runs whose beginning failed say so, instead of waiting for ever.
+  std::string after;
+  if (manifest_.beginning &&
+      !has_beginning(manifest_.beginning->run, store::beginning_folder(folder_)))
+    after = "--dependency=afterany:" + beginning_job();
+  for (const SlurmArray& array : split_arrays(runs, max_array_size())) {
+    std::vector<std::string> words = sbatch_options(manifest_, options_);
     words.push_back("--array=" + array.tasks +
-                    (options.jobs > 0 ? "%" + std::to_string(options.jobs) : ""));
-    words.push_back("--output=" + log);
-    if (!beginning.empty()) words.push_back(beginning);
-    words.push_back((folder / "slurm" / "run.sh").string());
+                    (options_.jobs > 0 ? "%" + std::to_string(options_.jobs) : ""));
+    words.push_back(log("%A_%a.log"));
+    if (!after.empty()) words.push_back(after);
+    words.push_back((folder_ / "slurm" / "run.sh").string());
     words.push_back(std::to_string(array.offset));
-    jobs.push_back(job_id(call("sbatch", words)));
-    after += ":" + jobs.back();
+    add(words, array.runs);
   }
   // afterany: a failed run is no reason to have no sheet.
-  std::vector<std::string> collector{
-      "--parsable", "--job-name=" + manifest.name + "-collect",
-      "--output=" + (fs::absolute(folder) / "slurm" / "collect.log").string(), after};
-  collector.insert(collector.end(), options.options.begin(), options.options.end());
-  collector.push_back((folder / "slurm" / "collect.sh").string());
-  jobs.push_back(job_id(call("sbatch", collector)));
-  output::write_file(jobs_path(folder), to_text(Json(jobs)) + "\n");
-  return jobs;
+  std::string all = "--dependency=afterany";
+  for (const QueuedJob& job : jobs_) all += ":" + job.number;
+  std::vector<std::string> collector{"--parsable", "--job-name=" + manifest_.name + "-collect",
+                                     log("collect.log"), all};
+  collector.insert(collector.end(), options_.options.begin(), options_.options.end());
+  collector.push_back((folder_ / "slurm" / "collect.sh").string());
+  add(collector, {});
 }
 
 RunCounts count(const fs::path& folder, const store::Manifest& manifest,
@@ -194,19 +220,21 @@ RunCounts count(const fs::path& folder, const store::Manifest& manifest,
 
 std::vector<SlurmArray> split_arrays(const std::vector<int>& indices, int max_array_size) {
   std::map<int, std::vector<int>> blocks;
-  for (const int index : indices) blocks[index / max_array_size].push_back(index % max_array_size);
+  for (const int index : indices) blocks[index / max_array_size].push_back(index);
   std::vector<SlurmArray> arrays;
-  for (const auto& [block, tasks] : blocks)
-    arrays.push_back({block * max_array_size, plan::selection_text(tasks)});
+  for (const auto& [block, runs] : blocks) {
+    std::vector<int> tasks;
+    for (const int run : runs) tasks.push_back(run % max_array_size);
+    arrays.push_back({block * max_array_size, plan::selection_text(tasks), runs});
+  }
   return arrays;
 }
 
-JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
-                     const std::vector<int>& indices, const SlurmOptions& options,
-                     const std::string& retry_failed, Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
-  const store::Retry retry =
-      retry_failed.empty() ? store::Retry{} : store::parse_retry(retry_failed);
+namespace {
+
+/// Runs that have to be made, of equal ones the first.
+std::vector<int> missing_runs(const fs::path& folder, const store::Manifest& manifest,
+                              const std::vector<int>& indices, const store::Retry& retry) {
   std::vector<int> missing;
   std::set<std::string> keys;
   for (const int index : indices) {
@@ -215,27 +243,73 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
     const bool is_wanted = !store::is_finished(state) || retry.contains(state);
     if (is_wanted && keys.insert(run.key).second) missing.push_back(index);
   }
-  JobsResult result;
-  std::vector<std::string> jobs = living(known_jobs(folder));
-  if (!jobs.empty()) {
-    progress.note("waiting for the jobs submitted before");
-  } else if (!missing.empty()) {
-    jobs = submit(folder, manifest, missing, options, retry_failed);
-    result.started = static_cast<int>(missing.size());
-    progress.note(fmt::format("submitted {} runs as job {}{}", missing.size(), jobs.front(),
-                              jobs.size() > 2 ? " and others" : ""));
+  return missing;
+}
+
+/// Queues runs that no job is there for. A site that takes only some of them gets the rest when one
+/// of these has ended. @return how many were queued
+/// @throws Error where it takes none and none is there
+std::size_t queue_rest(Queue& queue, const std::vector<int>& missing, Progress& progress) {
+  const std::vector<int> rest = queue.without_job(missing);
+  if (rest.empty()) return 0;
+  const std::size_t before = queue.jobs().size();
+  const auto names = [&] { return joined(numbers_of(queue.jobs()), ", "); };
+  try {
+    queue.submit(rest);
+  } catch (const Error& error) {
+    if (queue.jobs().empty()) throw;
+    const std::vector<int> left = queue.without_job(rest);
+    if (queue.jobs().size() > before || before == 0 || left.empty())
+      progress.warning(fmt::format(
+          "{}; queued are {} runs as job {}{}", error.what(), rest.size() - left.size(), names(),
+          left.empty() ? "; neve sweep collect makes the sheet if nobody waits here"
+                       : fmt::format("; {} more follow when a job has ended", left.size())));
+    return rest.size() - left.size();
   }
+  progress.note(fmt::format("submitted {} runs as job {}", rest.size(), names()));
+  return rest.size();
+}
+
+}  // namespace
+
+JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
+                     const std::vector<int>& indices, const SlurmOptions& options,
+                     const std::string& retry_failed, Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const store::Retry retry =
+      retry_failed.empty() ? store::Retry{} : store::parse_retry(retry_failed);
+  const std::vector<int> missing = missing_runs(folder, manifest, indices, retry);
+  JobsResult result;
+  Queue queue(folder, manifest, options, living(queued_jobs(folder)));
+  if (!queue.jobs().empty()) progress.note("waiting for the jobs submitted before");
+  if (!queue.without_job(missing).empty()) {
+    output::make_folder(folder / "slurm");
+    output::remove_abandoned(folder / "slurm");
+    write_scripts(folder, options, retry_failed);
+    result.started = static_cast<int>(queue_rest(queue, missing, progress));
+  }
+  std::set<int> tried;  // also those of jobs that have ended
+  const auto note_tried = [&] {
+    for (const QueuedJob& job : queue.jobs()) tried.insert(job.runs.begin(), job.runs.end());
+  };
   WorkClock clock;
-  while (!jobs.empty() && !is_interrupted()) {
+  while (!queue.jobs().empty() && !is_interrupted()) {
     RunCounts counts = count(folder, manifest, indices);
     clock.note(counts.finished);
     counts.seconds_left = clock.seconds_for(counts.all - counts.finished);
     progress.runs(counts);
     std::this_thread::sleep_for(check_interval);
-    jobs = living(jobs);
+    note_tried();
+    const std::size_t before = queue.jobs().size();
+    queue.forget_ended();
+    std::vector<int> rest;
+    std::ranges::copy_if(missing, std::back_inserter(rest),
+                         [&](int run) { return !tried.contains(run); });
+    if (queue.jobs().size() < before && !rest.empty())
+      result.started += static_cast<int>(queue_rest(queue, rest, progress));
   }
-  if (is_interrupted() && !jobs.empty()) {
-    call("scancel", jobs);
+  if (is_interrupted() && !queue.jobs().empty()) {
+    call("scancel", numbers_of(queue.jobs()));
     result.is_interrupted = true;
   }
   progress.clear();

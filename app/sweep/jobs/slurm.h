@@ -21,15 +21,17 @@ struct SlurmOptions {
 /// One array that Slurm accepts: task t is the run offset + t.
 struct SlurmArray {
   int offset = 0;
-  std::string tasks;  ///< "0-7,9"
+  std::string tasks;      ///< "0-7,9"
+  std::vector<int> runs;  ///< by their indices
 };
 
 /// Arrays for these runs with indices below the site's MaxArraySize.
 std::vector<SlurmArray> split_arrays(const std::vector<int>& indices, int max_array_size);
 
 /// Submits the unfinished ones of these runs, and a job that collects when all have ended; then
-/// waits for that, with progress. Jobs that an earlier call submitted and that are still there are
-/// waited for instead. A Ctrl-C cancels the jobs.
+/// waits for that, with progress. Runs of jobs that an earlier call submitted and that are still
+/// there are waited for, and submitted no second time. Runs that Slurm takes no job for yet are
+/// submitted when another job has ended. A Ctrl-C cancels the jobs.
 /// @throws Error where there is no Slurm, or it refuses
 JobsResult run_slurm(const std::filesystem::path& folder, const store::Manifest& manifest,
                      const std::vector<int>& indices, const SlurmOptions& options,
