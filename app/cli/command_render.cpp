@@ -265,10 +265,14 @@ int run_render(const run::RenderOptions& options) {
   std::optional<render::Image> reference;
   if (!options.reference.empty()) reference = read_reference(options.reference);
 
-  if (job.has_movies()) output::require_movie(options.movie, job.scene.fps);
+  if (job.has_movies())
+    job.options.movie = output::available_movie(options.movie, job.scene.fps);
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
+  if (const std::string other = output::other_format_text(options.movie, job.options.movie);
+      !other.empty())
+    progress.note(other);
   const auto context = render::gl::open_context(options.backend);
   progress.note(
       fmt::format("OpenGL: {}, {}, {}", context->backend, context->renderer, context->version));

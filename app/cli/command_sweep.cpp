@@ -296,7 +296,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
     sweep::plan::print_sweep_plan(plan, cores, options.is_json);
     return exit_ok;
   }
-  output::require_movie(options.movie, plan.base.fps);
+  const output::MovieStyle movie = output::available_movie(options.movie, plan.base.fps);
   sweep::store::check_folder(plan);
   // Shards of a sweep work side by side.
   const output::FolderLock lock(
@@ -321,7 +321,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   }
   const sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
   if (result.failure) fail_by_machine(*result.failure, plan.folder);
-  sweep::sheet::collect_sweep(plan.folder, options.movie, options.backend, cores, progress);
+  sweep::sheet::collect_sweep(plan.folder, movie, options.backend, cores, progress);
   print_sweep_result(options, plan.folder, result, foreseen_seconds, progress);
   if (result.elsewhere > 0)
     progress.say(fmt::format(
@@ -369,9 +369,10 @@ int run_sweep_collect(const sweep::plan::CollectOptions& options) {
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
-  output::require_movie(options.movie, sweep::store::read_manifest(options.folder).fps);
-  sweep::sheet::collect_sweep(options.folder, options.movie, options.backend,
-                              core_count(options.threads), progress);
+  const output::MovieStyle movie =
+      output::available_movie(options.movie, sweep::store::read_manifest(options.folder).fps);
+  sweep::sheet::collect_sweep(options.folder, movie, options.backend, core_count(options.threads),
+                              progress);
   if (is_interrupted()) return exit_interrupted;
   const RunCounts counts = sweep::jobs::progress_of(options.folder).counts();
   const int unfinished = counts.all - counts.finished;

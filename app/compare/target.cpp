@@ -34,7 +34,7 @@ output::MovieStyle movie_for(const PairOptions& options, TargetKind kind) {
         "does not fit " + options.out,
         std::string("omit it, or name a file ") + output::movie_suffix(movie.format));
   if (!movie.has_format) movie.format = format;
-  movie.is_chosen = true;
+  movie.is_chosen = movie.has_format = true;
   return movie;
 }
 

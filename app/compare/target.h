@@ -30,8 +30,9 @@ class Target {
   bool has(Mode mode) const;
   void leave_out(Mode mode);
 
+  /// Before the pictures, see available_movie().
   /// @param fps  of the scenes @throws IoError, UsageError where movies cannot be made as asked for
-  void check_movies(double fps) const { output::require_movie(movie_, fps); }
+  void check_movies(double fps) { movie_ = output::available_movie(movie_, fps); }
   /// Takes the folder and removes the files that an earlier comparison listed there.
   void begin();
   void add(Mode mode, int frame, const render::Image& image);

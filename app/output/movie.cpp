@@ -197,30 +197,69 @@ MovieResult write_movie(const MovieRequest& request) {
   return {MovieOutcome::written, {}};
 }
 
-void require_movie(const MovieStyle& style, double fps) {
-  if (!style.is_chosen || !style.is_made) return;
+namespace {
+
+/// Browsers show at most this many frames a second of a GIF.
+constexpr double fastest_gif = 50;
+
+void require_gif_rate(const MovieStyle& style, double fps) {
   const double rate = style.fps > 0 ? style.fps : fps;
-  constexpr double fastest_gif = 50;
   if (style.format == MovieFormat::gif && rate > fastest_gif)
     throw Error(exit_usage,
                 "--movie gif: browsers show at most 50 frames a second of a GIF, and these are " +
                     rough_text(rate) + "; add --movie-fps 50 to slow it down, or use --movie webp",
                 "--movie", "add --movie-fps 50, or use --movie webp");
+}
+
+/// Those that this ffmpeg has an encoder for.
+std::vector<MovieFormat> formats_of(const fs::path& ffmpeg) {
+  const ProcessResult listed = run_process(ffmpeg, {"-v", "error", "-encoders"}, "/", 60);
+  std::vector<MovieFormat> formats = all_movie_formats();
+  std::erase_if(formats, [&](MovieFormat format) {
+    return listed.output.find(std::string(" ") + movie_encoder(format) + " ") == std::string::npos;
+  });
+  return formats;
+}
+
+}  // namespace
+
+MovieStyle available_movie(const MovieStyle& style, double fps) {
+  if (!style.is_made) return style;
+  if (style.is_chosen) require_gif_rate(style, fps);
   const std::string flag = std::string("--movie ") + name(style.format);
   const auto ffmpeg = find_program("ffmpeg");
+  if (!ffmpeg && !style.is_chosen) return style;
   if (!ffmpeg)
     throw IoError(flag +
                       ": ffmpeg, which makes movies, is not in PATH; install it (Debian: "
                       "ffmpeg), or leave pictures with --movie none",
                   "ffmpeg", "--movie none");
-  const ProcessResult listed = run_process(*ffmpeg, {"-v", "error", "-encoders"}, "/", 60);
-  if (listed.output.find(std::string(" ") + movie_encoder(style.format) + " ") != std::string::npos)
-    return;
-  throw IoError(
-      flag + ": " + ffmpeg->string() + " has no encoder " + movie_encoder(style.format) +
-          "; install a complete ffmpeg, or choose another format: h264, prores and gif are "
-          "in most",
-      ffmpeg->string(), "choose another format");
+  const std::vector<MovieFormat> formats = formats_of(*ffmpeg);
+  const auto has = [&](MovieFormat format) {
+    return std::ranges::find(formats, format) != formats.end();
+  };
+  if (has(style.format)) return style;
+  MovieStyle other = style;
+  for (const MovieFormat format : {MovieFormat::vp9, MovieFormat::prores, MovieFormat::gif}) {
+    other.format = format;
+    if (!style.has_format && has(format) && (format != MovieFormat::gif || fps <= fastest_gif))
+      return other;
+  }
+  if (!style.is_chosen) return style;  // the pictures come with a warning
+  std::string others;
+  for (const MovieFormat format : formats)
+    others += (others.empty() ? "" : ", ") + std::string(name(format));
+  throw IoError(flag + ": " + ffmpeg->string() + " has no encoder " + movie_encoder(style.format) +
+                    "; install a complete ffmpeg" +
+                    (others.empty() ? ", or leave pictures with --movie none"
+                                    : ", or choose a format that this one makes: " + others),
+                ffmpeg->string(), others.empty() ? "--movie none" : "choose another format");
+}
+
+std::string other_format_text(const MovieStyle& wanted, const MovieStyle& available) {
+  if (wanted.format == available.format) return {};
+  return std::string("ffmpeg here makes no ") + name(wanted.format) + ": movies are " +
+         name(available.format) + ", *" + movie_suffix(available.format);
 }
 
 }  // namespace neve::app::output

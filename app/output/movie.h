@@ -37,9 +37,15 @@ struct MovieResult {
 /// Never throws for failures of ffmpeg and of the disk.
 MovieResult write_movie(const MovieRequest& request);
 
-/// A movie that was asked for and cannot be made is told before the pictures are.
+/// The style that can be made here, known before the first picture: the format that was asked for,
+/// or, where nobody named one, the first of h264, vp9, prores and gif that this ffmpeg makes.
+/// Without ffmpeg the style as it is: pictures alone are what most want then.
 /// @param fps  of the scene
-/// @throws IoError where ffmpeg or its encoder is missing, Error for too fast a GIF
-void require_movie(const MovieStyle& style, double fps);
+/// @throws IoError where ffmpeg or the encoder of what was asked for is missing, Error for too fast
+///         a GIF
+MovieStyle available_movie(const MovieStyle& style, double fps);
+
+/// "ffmpeg here makes no h264: movies are vp9"; empty where nothing changed.
+std::string other_format_text(const MovieStyle& wanted, const MovieStyle& available);
 
 }  // namespace neve::app::output

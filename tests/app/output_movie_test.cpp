@@ -195,7 +195,7 @@ TEST(MovieWithoutFfmpeg, AMovieThatWasAskedForIsAnErrorBeforeThePictures) {
   const std::string path = std::getenv("PATH");
   const auto problem = [](const app::output::MovieStyle& style, double fps) -> std::string {
     try {
-      app::output::require_movie(style, fps);
+      app::output::available_movie(style, fps);
     } catch (const app::Error& error) {
       return error.what();
     }
@@ -208,14 +208,24 @@ TEST(MovieWithoutFfmpeg, AMovieThatWasAskedForIsAnErrorBeforeThePictures) {
   const std::string no_ffmpeg = problem(style, 24);
   fs::permissions(folder.write("ffmpeg", "#!/bin/bash\necho ' V....D libx264   H.264'\n"),
                   fs::perms::owner_all);
+  style.has_format = true;
   const std::string no_encoder = problem(style, 24);
   style.format = app::output::MovieFormat::h264;
   EXPECT_EQ(problem(style, 24), "");
+  // Nobody named a format: the first that is there.
+  folder.write("ffmpeg",
+               "#!/bin/bash\necho ' V....D prores_ks   ProRes'; echo ' V....D gif   GIF'\n");
+  const app::output::MovieStyle usual;
+  const app::output::MovieStyle other = app::output::available_movie(usual, 24);
+  const std::string no_h264 = problem(style, 24);
   style.format = app::output::MovieFormat::gif;
   const std::string too_fast = problem(style, 60);
   ::setenv("PATH", path.c_str(), 1);
   EXPECT_NE(no_ffmpeg.find("ffmpeg, which makes movies, is not in PATH"), std::string::npos);
   EXPECT_NE(no_encoder.find("has no encoder libx265"), std::string::npos) << no_encoder;
+  EXPECT_EQ(other.format, app::output::MovieFormat::prores);
+  EXPECT_NE(other_format_text(usual, other).find("movies are prores"), std::string::npos);
+  EXPECT_NE(no_h264.find("that this one makes: prores, gif"), std::string::npos) << no_h264;
   EXPECT_NE(too_fast.find("at most 50 frames a second"), std::string::npos) << too_fast;
 }
 
