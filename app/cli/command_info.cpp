@@ -32,6 +32,7 @@ void print_picture(const record::PictureRecord& record, const std::string& pictu
       << "frame       " << record.frame << "\n"
       << "quality     " << record.quality << "\n"
       << (record.plate.empty() ? "" : "plate       " + record.plate + "\n")
+      << (record.lut.empty() ? "" : "lut         " + record.lut + "\n")
       << (record.shutter > 0 ? "shutter     " + rough_text(record.shutter) + " degrees\n" : "")
       << (record.strip ? strip_line(*record.strip, picture) : "")
       << (record.passes.empty() ? "" : "passes      " + joined(record.passes, ", ") + "\n")

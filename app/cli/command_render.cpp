@@ -15,6 +15,7 @@
 #include "app/picture/mosaic.h"
 #include "app/record/picture_record.h"
 #include "app/run/fork.h"
+#include "app/run/lut.h"
 #include "app/run/passes.h"
 #include "app/run/plate.h"
 #include "app/run/render_job.h"
@@ -30,6 +31,7 @@
 #include "app/support/text.h"
 #include "app/timeline/origin.h"
 #include "render/gl/context.h"
+#include "render/overlay/font_cover.h"
 
 namespace neve::app::cli {
 
@@ -168,6 +170,18 @@ void print_result(const run::RenderJob& job, const run::RenderRun& run,
   std::cout << to_text(json) << "\n";
 }
 
+/// Words that pictures cannot show.
+void check_title(const std::string& title, std::vector<health::Finding>& findings) {
+  const std::string missing = render::overlay::characters_without_glyph(title);
+  if (!missing.empty())
+    findings.push_back({health::Severity::warning, "title",
+                        fmt::format("the font of the caption lacks {}: pictures show a sign for "
+                                    "what is missing instead",
+                                    missing),
+                        "use letters of Latin, Greek, Cyrillic, Arabic or another script of DejaVu "
+                        "Sans, or --no-caption"});
+}
+
 /// Units that are not those of neve, snow that starts inside colliders or flies past everything:
 /// nothing else tells before the run.
 void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Progress& progress) {
@@ -176,6 +190,7 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
   health::check_meshes(job.scene, findings);
   health::check_collider_overlaps(job.scene, seeded, findings);
   health::check_meetings(job.scene, seeded, findings);
+  check_title(job.scene.title, findings);
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
     if (finding.severity == health::Severity::note)
@@ -217,6 +232,10 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
       job.coarsening > 1 ? fmt::format(", coarsened {}", scene::coarsening_text(job.coarsening))
                          : "";
   if (job.fast) progress.note(job.fast->sentence());
+  if (job.frames.last > job.scene.frames)
+    progress.note(
+        fmt::format("frame {} is after the last frame of the scene, {}: the run continues",
+                    job.frames.last, job.scene.frames));
   progress.note(fmt::format("{}: {} particles{}, about {} of memory{}", job.scene_file, particles,
                             to_come, bytes_text(plan.memory), coarsened));
 }
@@ -265,8 +284,7 @@ int run_render(const run::RenderOptions& options) {
   std::optional<render::Image> reference;
   if (!options.reference.empty()) reference = read_reference(options.reference);
 
-  if (job.has_movies())
-    job.options.movie = output::available_movie(options.movie, job.scene.fps);
+  if (job.has_movies()) job.options.movie = output::available_movie(options.movie, job.scene.fps);
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
@@ -280,6 +298,7 @@ int run_render(const run::RenderOptions& options) {
   render::Renderer renderer(*context, options.shader_dir, &pool);
   check_picture_sizes(job.scene, job.quality, renderer.max_size());
   check_plates(job);
+  if (!job.lut.empty()) run::read_lut(job.lut);
   // Before anything else of the run: another one may be writing there.
   const output::FolderLock lock(job.folder, "neve render");
 

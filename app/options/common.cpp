@@ -7,6 +7,7 @@
 #include "app/options/languages.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
+#include "app/support/film_rate.h"
 #include "app/support/lower_text.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"
@@ -116,7 +117,7 @@ void describe_movie(Command& visit, output::MovieStyle& movie) {
   visit.custom(
       "--movie-fps", fps.type, fps.example,
       [&movie, fps](const std::string& text) {
-        movie.fps = fps.read("--movie-fps", text);
+        movie.fps = exact_rate(fps.read("--movie-fps", text));
         movie.is_chosen = true;
       },
       [&movie, fps] { return movie.fps == 0 ? "" : fps.write(movie.fps); },

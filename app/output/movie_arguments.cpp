@@ -1,9 +1,10 @@
 #include "app/output/movie_arguments.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
+
+#include "app/support/film_rate.h"
 
 namespace neve::app::output {
 
@@ -11,18 +12,11 @@ namespace {
 
 using FfmpegWords = std::vector<std::string>;
 
-/// Shortest text that reads back as the same number, with a point in every locale.
-std::string decimal(double value) {
-  char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed);
-  return {buffer, end.ptr};
-}
-
 /// Pictures are named relative to their folder: its path may hold a '%', a pattern character.
 FfmpegWords input_arguments(const MovieRequest& request) {
   FfmpegWords arguments;
   append_words(arguments, "-nostdin -v error -y -f image2 -framerate");
-  arguments.push_back(decimal(movie_fps(request)));
+  arguments.push_back(rate_text(movie_fps(request)));
   arguments.insert(arguments.end(), {"-start_number", std::to_string(request.first_frame)});
   append_words(arguments, "-i %04d.png");
   return arguments;
@@ -113,9 +107,14 @@ std::vector<std::string> movie_arguments(const MovieRequest& request,
                      {"-lavfi", "[0:v]" + over_plain(request) +
                                     "format=rgb24[x];[x][1:v]paletteuse=dither=sierra2_4a"});
   else if (format != MovieFormat::webp)
-    arguments.insert(arguments.end(),
-                     {"-vf", over_plain(request) + "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
-                                                   "scale=out_color_matrix=bt709:out_range=tv"});
+    arguments.insert(
+        arguments.end(),
+        {"-vf",
+         over_plain(request) +
+             "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
+             "scale=out_color_matrix=bt709:out_range=tv,"
+             // Encoders take them from the pictures; -color_trc alone leaves a QuickTime without.
+             "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"});
   arguments.insert(arguments.end(), {"-c:v", movie_encoder(format)});
   append_words(arguments, encoder_words(request));
   arguments.push_back(std::filesystem::absolute(target).string());

@@ -141,6 +141,7 @@ Json to_json(const PictureRecord& record) {
   json["view"] = record.view;
   json["quality"] = record.quality;
   if (!record.plate.empty()) json["plate"] = record.plate;
+  if (!record.lut.empty()) json["lut"] = record.lut;
   if (record.shutter > 0) json["shutter"] = record.shutter;
   if (!record.passes.empty()) json["passes"] = record.passes;
   if (record.strip) json["strip"] = to_json(*record.strip);
@@ -208,9 +209,11 @@ void follow_moved_files(const fs::path& picture, PictureRecord& record) {
     if (now.empty()) continue;
     follow(recorded, now, record.scene);
     for (std::string& change : record.overrides) follow(recorded, now, change);
-    std::string plate = '"' + record.plate + '"';
-    follow(recorded, now, plate);
-    record.plate = plate.substr(1, plate.size() - 2);
+    for (std::string* file : {&record.plate, &record.lut}) {
+      std::string quoted = '"' + *file + '"';
+      follow(recorded, now, quoted);
+      *file = quoted.substr(1, quoted.size() - 2);
+    }
   }
   record.files = std::move(files);
 }
@@ -248,6 +251,7 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   record.view = reader.text("neve:view");
   record.quality = reader.text("neve:quality");
   if (text.contains("neve:plate")) record.plate = reader.text("neve:plate");
+  if (text.contains("neve:lut")) record.lut = reader.text("neve:lut");
   if (text.contains("neve:shutter")) record.shutter = reader.number<double>("neve:shutter");
   if (!(record.shutter >= 0 && record.shutter <= 360))
     reader.fail("its shutter is not from 0 to 360");

@@ -33,6 +33,7 @@ struct PictureRecord {
   int frame = 0;
   std::string view;
   std::string quality;                       ///< draft, preview, final
+  std::string lut;                           ///< of --lut; empty: none
   std::string plate;                         ///< of --plate; empty: none
   double shutter = 0;                        ///< degrees of motion blur; 0: none
   std::vector<std::string> passes;           ///< of --passes; none: only PNGs

@@ -8,6 +8,7 @@
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/picture/shutter.h"
+#include "app/run/lut.h"
 #include "app/run/plate.h"
 #include "render/image/mean_image.h"
 
@@ -21,6 +22,7 @@ Drawing::Drawing(const RenderJob& job, const setup::SeededScene& seeded, render:
       record_(std::move(record)),
       scene_(job.scene),
       builder_(scene_, seeded, {job.quality, job.overrides, job.coarsening}) {
+  if (!job.lut.empty()) lut_ = read_lut(job.lut);
   if (!job.passes.empty()) passes_.emplace(scene_, seeded, pass_list(job.passes));
 }
 
@@ -172,10 +174,12 @@ record::PictureRecord Drawing::record_of(const std::string& view) const {
     const std::filesystem::path plate = plate_path(job_.plate, record.frame);
     record.files[plate.string()] = record::hash_text(output::hash_file(plate));
   }
+  if (!job_.lut.empty()) record.files[job_.lut] = record::hash_text(output::hash_file(job_.lut));
   return record;
 }
 
 output::Picture Drawing::picture_of(const std::string& view, render::Image image) const {
+  if (lut_) render::apply(*lut_, image);
   return {output::frame_path(job_.folder, view, record_.frame), std::move(image),
           record::to_png_text(record_of(view))};
 }

@@ -12,6 +12,7 @@
 #include "app/run/passes.h"
 #include "app/run/render_job.h"
 #include "app/timeline/timeline.h"
+#include "render/image/cube_lut.h"
 #include "render/renderer.h"
 
 namespace neve::app::run {
@@ -65,6 +66,7 @@ class Drawing {
   record::PictureRecord record_;
   scene::Scene scene_;  ///< the job's with the changes made so far
   picture::FrameBuilder builder_;
+  std::optional<render::CubeLut> lut_;        ///< of --lut
   std::optional<PassReader> passes_;          ///< of --passes
   std::vector<picture::PlotSample> history_;  ///< of the snapshot that was read
   std::vector<render::channels::PointNumbers> pass_numbers_;

@@ -2,32 +2,90 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "app/output/atomic_file.h"
 #include "app/support/errors.h"
+#include "render/image/exr.h"
 #include "sim/shapes/numbered_files.h"
 
 namespace neve::app::run {
 
 namespace {
 
-/// Grey becomes RGB, and alpha is dropped.
-render::Image as_rgb(const render::Image& image) {
+/// sRGB from linear light. Source: IEC 61966-2-1.
+std::uint8_t srgb_of(double light) {
+  const double c = std::clamp(light, 0.0, 1.0);
+  const double value = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255 * value));
+}
+
+/// Linear light from sRGB, or from samples of another exponent.
+double light_of(std::uint8_t sample, double gamma) {
+  const double c = sample / 255.0;
+  if (gamma > 0) return std::pow(c, 1 / gamma);
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+/// Grey becomes RGB, alpha lies over black, and another gamma becomes that of sRGB.
+render::Image as_rgb(const render::Image& image, double gamma) {
+  constexpr double usual = 1 / 2.2, near = 0.005;
+  const bool is_srgb = gamma == 0 || std::abs(gamma - usual) < near;
   const auto channels = static_cast<std::size_t>(image.channels);
+  const bool has_alpha = channels == 2 || channels == 4;
   render::Image out{image.width, image.height, 3, {}};
   out.pixels.reserve(image.pixels.size() / channels * 3);
-  for (std::size_t i = 0; i < image.pixels.size(); i += channels)
-    for (std::size_t c = 0; c < 3; ++c)
-      out.pixels.push_back(image.pixels[i + (channels < 3 ? 0 : c)]);
+  for (std::size_t i = 0; i < image.pixels.size(); i += channels) {
+    const std::uint8_t alpha = has_alpha ? image.pixels[i + channels - 1] : 255;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint8_t sample = image.pixels[i + (channels < 3 ? 0 : c)];
+      const bool is_kept = is_srgb && alpha == 255;
+      out.pixels.push_back(
+          is_kept ? sample : srgb_of(light_of(sample, is_srgb ? 0 : gamma) * alpha / 255.0));
+    }
+  }
   return out;
+}
+
+/// Linear light, as compositors write it: premultiplied, so that alpha lies over black by itself.
+render::Image rgb_of_exr(const std::vector<std::uint8_t>& bytes) {
+  const render::ExrPicture picture = render::decode_exr(bytes);
+  render::Image out{picture.width, picture.height, 3, {}};
+  out.pixels.resize(3 * static_cast<std::size_t>(picture.width) *
+                    static_cast<std::size_t>(picture.height));
+  const char* const names[] = {"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const render::ExrChannel* channel = picture.find(names[c]);
+    if (!channel) channel = picture.find("Y");
+    if (!channel)
+      throw render::ImageError(std::string("the OpenEXR file has no channel ") + names[c]);
+    const std::vector<float> light = render::numbers_of(*channel);
+    for (std::size_t i = 0; i < light.size(); ++i)
+      out.pixels[3 * i + c] = std::isfinite(light[i]) ? srgb_of(light[i]) : 255;
+  }
+  return out;
+}
+
+render::Image rgb_of(const std::vector<std::uint8_t>& bytes) {
+  const auto begins = [&](std::initializer_list<std::uint8_t> start) {
+    return bytes.size() > start.size() && std::equal(start.begin(), start.end(), bytes.begin());
+  };
+  if (begins({0x76, 0x2f, 0x31, 0x01})) return rgb_of_exr(bytes);
+  if (begins({0xff, 0xd8, 0xff})) return as_rgb(render::decode_jpeg(bytes), 0);
+  return as_rgb(render::decode_png(bytes), render::read_png_gamma(bytes));
 }
 
 }  // namespace
 
 std::filesystem::path plate_path(const std::string& pattern, int frame) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(pattern, error)) return pattern;
   const std::string name = sim::shapes::numbered_file(pattern, frame);
   if (std::filesystem::path(name).filename().string().find('%') != std::string::npos)
     throw UsageError("--plate", "cannot read \"" + pattern + "\"",
-                     "expected a PNG, or one for each frame, as in street/%04d.png");
+                     "expected a picture, or one for each frame, as in street/%04d.png");
   return name;
 }
 
@@ -35,17 +93,17 @@ render::Image read_plate(const std::filesystem::path& file, const std::string& v
                          scene::PictureSize size) {
   render::Image image;
   try {
-    image = render::decode_png(output::read_file(file));
+    image = rgb_of(output::read_file(file));
   } catch (const render::ImageError& error) {
     throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string(),
-                "a plate is a PNG");
+                "a plate is a PNG, a JPEG or an OpenEXR file");
   }
   if (image.width != size.width || image.height != size.height)
     throw Error(exit_invalid_scene,
                 fmt::format("{}: error: the plate is {}x{} and the view {} is {}x{}", file.string(),
                             image.width, image.height, view, size.width, size.height),
                 file.string(), fmt::format("draw with --size {}x{}", image.width, image.height));
-  return as_rgb(image);
+  return image;
 }
 
 }  // namespace neve::app::run

@@ -13,7 +13,8 @@ namespace neve::app::run {
 /// place is one picture for all frames. @throws UsageError for any other use of %
 std::filesystem::path plate_path(const std::string& pattern, int frame);
 
-/// @return RGB @throws IoError; Error when it is no PNG of the size of the view
+/// A PNG, a JPEG, or the RGB or Y of an OpenEXR file in linear light; alpha lies over black.
+/// @return RGB @throws IoError; Error when it is none of them, or not of the size of the view
 render::Image read_plate(const std::filesystem::path& file, const std::string& view,
                          scene::PictureSize size);
 

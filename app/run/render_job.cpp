@@ -73,6 +73,7 @@ void take_picture(const record::PictureRecord& picture, RenderJob& job) {
   job.passes = picture.passes;
   job.shutter = picture.shutter;
   job.plate = picture.plate;
+  job.lut = picture.lut;
   choose_views({picture.view}, job);
   job.scene.exports.clear();
   check_texts(job);
@@ -126,6 +127,7 @@ RenderJob make_job(const RenderOptions& options) {
   else if (!job.picture || options.quality)  // a picture has its own
     job.shutter = job.quality == setup::Quality::final ? usual_shutter : 0;
   if (!options.plate.empty()) job.plate = options.plate;
+  if (!options.lut.empty()) job.lut = options.lut;
   if (!options.passes.empty()) job.passes = options.passes;
   if (is_only_mosaics(job)) {
     for (const auto& [flag, value] :
@@ -151,6 +153,7 @@ record::PictureRecord picture_record(const RenderJob& job, const std::string& sc
   picture.version = version;
   picture.quality = setup::name(job.quality);
   picture.plate = job.plate;
+  picture.lut = job.lut;
   picture.shutter = job.shutter;
   picture.passes = job.passes;
   picture.files = record::hash_files(job.scene);

@@ -27,6 +27,7 @@ struct RenderJob : timeline::Origin {
   setup::Quality quality = setup::Quality::preview;
   std::vector<std::string> only_tiles{};  ///< views drawn in a mosaic and not by themselves
   std::string plate{};                    ///< picture behind, see plate.h; empty: none
+  std::string lut{};                      ///< look of the pictures, a .cube file; empty: none
   double shutter = 0;                     ///< degrees of motion blur; 0: none
   std::vector<std::string> passes{};      ///< of --passes, see passes.h; none: only PNGs
   std::vector<std::string> warnings{};    ///< of the start, for run.json

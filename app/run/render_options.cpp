@@ -48,9 +48,13 @@ void describe_pictures(options::Command& visit, RenderOptions& o) {
                           [](setup::Quality quality) { return setup::name(quality); }),
         "draft: half the width and height; preview: as in the scene (default); final: four samples "
         "per pixel and motion blur");
-  visit("--plate", o.plate, options::text("PNG"),
-        "Picture behind the snow: a PNG, or one for each frame as in street/%04d.png; the ground "
-        "only takes shadows");
+  visit("--plate", o.plate, options::text("FILE"),
+        "Picture behind the snow, PNG, JPEG or OpenEXR, or one for each frame as in "
+        "street/%04d.png, street/####.png or street/$F4.png; the ground only takes shadows");
+  visit("--lut", o.lut, options::text("CUBE"),
+        "Look for the PNGs and movies: a .cube file of colours as they are displayed; an EXR stays "
+        "as "
+        "it is");
   visit("--shutter", o.shutter,
         options::number<double>(
             "DEGREES", 0, 360,

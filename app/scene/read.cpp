@@ -10,6 +10,7 @@
 #include "app/scene/toml/toml_source.h"
 #include "app/scene/toml/toml_text.h"
 #include "app/support/errors.h"
+#include "app/support/film_rate.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -133,6 +134,7 @@ Scene scene_of(toml::Table root, const std::string& name, const std::string& bas
   Reading reading{{name, base_dir, overrides}, {}};
   Scene scene;
   Reader(reading, root, "").read([&](auto& visit) { describe(visit, scene); });
+  scene.fps = exact_rate(scene.fps);
   if (const auto problem = find_problem(scene)) {
     reading.source.fail(reading.place_of(problem->address), problem->message, problem->hint);
   }

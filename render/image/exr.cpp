@@ -2,6 +2,7 @@
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
+#include <ImfFramesPerSecond.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputFile.h>
@@ -86,7 +87,11 @@ Imf::Header header_of(const ExrPicture& picture, const ExrHeader& from) {
   for (const ExrChannel& channel : picture.channels)
     header.channels().insert(channel.name, Imf::Channel(type_of(channel)));
   for (const auto& [name, text] : from.text) header.insert(name, Imf::StringAttribute(text));
-  if (from.fps > 0) Imf::addFramesPerSecond(header, Imf::Rational(from.fps));
+  // Linear light of the primaries of sRGB and BT.709; the name is that of OCIO's ACES
+  // configurations.
+  Imf::addChromaticities(header, Imf::Chromaticities());
+  header.insert("oiio:ColorSpace", Imf::StringAttribute("lin_rec709"));
+  if (from.fps > 0) Imf::addFramesPerSecond(header, Imf::guessExactFps(from.fps));
   if (from.to_camera) Imf::addWorldToCamera(header, matrix(*from.to_camera));
   if (from.to_ndc) Imf::addWorldToNDC(header, matrix(*from.to_ndc));
   return header;

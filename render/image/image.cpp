@@ -3,6 +3,7 @@
 #include <libdeflate.h>
 
 #include <algorithm>
+#include <array>
 #include <climits>
 #include <cmath>
 #include <cstdlib>
@@ -53,6 +54,7 @@ void* note_of_stb(void* memory) {
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
 #define STBI_MALLOC(size) neve::render::note_of_stb(std::malloc(size))
@@ -156,17 +158,27 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
   if (!png || length < static_cast<int>(ihdr_end)) throw std::bad_alloc();
 
   std::vector<std::uint8_t> bytes(png.get(), png.get() + ihdr_end);
-  for (const auto& [keyword, value] : text) {
-    const std::vector<std::uint8_t> chunk = make_itxt_chunk(keyword, value);
+  const auto add = [&](const std::vector<std::uint8_t>& chunk) {
     bytes.insert(bytes.end(), chunk.begin(), chunk.end());
-  }
+  };
+  // sRGB, and the same for programs that know only its curve and its primaries (PNG, 11.3.3.5).
+  constexpr std::array<std::uint8_t, 1> perceptual = {0};
+  constexpr std::array<std::uint8_t, 4> gamma = {0, 0, 0xb1, 0x8f};  // 45455: 1 / 2.2
+  constexpr std::array<std::uint8_t, 32> primaries = {
+      0, 0, 0x7a, 0x26, 0, 0, 0x80, 0x84, 0, 0, 0xfa, 0x00, 0, 0, 0x80, 0xe8,
+      0, 0, 0x75, 0x30, 0, 0, 0xea, 0x60, 0, 0, 0x3a, 0x98, 0, 0, 0x17, 0x70};
+  add(make_png_chunk("sRGB", perceptual));
+  add(make_png_chunk("gAMA", gamma));
+  add(make_png_chunk("cHRM", primaries));
+  for (const auto& [keyword, value] : text) add(make_itxt_chunk(keyword, value));
   bytes.insert(bytes.end(), png.get() + ihdr_end, png.get() + length);
   return bytes;
 }
 
-Image decode_png(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() > INT_MAX) throw ImageError("PNG is too large");
-  check_size(read_png_chunks(bytes));  // stb checks no checksums and forgives missing ends
+namespace {
+
+/// @param format  for messages
+Image decode_by_stb(std::span<const std::uint8_t> bytes, const std::string& format) {
   Image image;
   has_stb_no_memory = false;
   const std::unique_ptr<unsigned char, void (*)(void*)> pixels(
@@ -176,11 +188,37 @@ Image decode_png(std::span<const std::uint8_t> bytes) {
   if (!pixels && has_stb_no_memory) throw std::bad_alloc();
   if (!pixels) {
     const char* reason = stbi_failure_reason();  // none for a block of an unknown type
-    throw ImageError(std::string("PNG is damaged: ") + (reason ? reason : "cannot be unpacked"));
+    throw ImageError(format + " is damaged: " + (reason ? reason : "cannot be unpacked"));
   }
   const std::size_t count = static_cast<std::size_t>(image.width) * image.height * image.channels;
   image.pixels.assign(pixels.get(), pixels.get() + count);
   return image;
+}
+
+}  // namespace
+
+Image decode_png(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() > INT_MAX) throw ImageError("PNG is too large");
+  check_size(read_png_chunks(bytes));  // stb checks no checksums and forgives missing ends
+  return decode_by_stb(bytes, "PNG");
+}
+
+Image decode_jpeg(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() > INT_MAX) throw ImageError("JPEG is too large");
+  if (bytes.size() < 3 || bytes[0] != 0xff || bytes[1] != 0xd8 || bytes[2] != 0xff)
+    throw ImageError("not a JPEG: it does not begin as one");
+  return decode_by_stb(bytes, "JPEG");
+}
+
+double read_png_gamma(std::span<const std::uint8_t> bytes) {
+  double gamma = 0;
+  for (const PngChunk& chunk : read_png_chunks(bytes)) {
+    if (chunk.type == "sRGB" || chunk.type == "iCCP") return 0;
+    if (chunk.type != "gAMA" || chunk.data.size() != 4) continue;
+    gamma = 0;
+    for (const std::uint8_t byte : chunk.data) gamma = 256 * gamma + byte;
+  }
+  return gamma / 100000;
 }
 
 PngText read_png_text(std::span<const std::uint8_t> bytes) {

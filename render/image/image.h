@@ -28,6 +28,11 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text = {
 /// @throws ImageError when the bytes are no whole PNG
 Image decode_png(std::span<const std::uint8_t> bytes);
 PngText read_png_text(std::span<const std::uint8_t> bytes);
+/// Exponent that made the samples of light, 1 for samples in linear light; 0 where the PNG says
+/// sRGB, another profile, or nothing. @throws ImageError when the bytes are no whole PNG
+double read_png_gamma(std::span<const std::uint8_t> bytes);
+/// Baseline and progressive, of one or three channels. @throws ImageError
+Image decode_jpeg(std::span<const std::uint8_t> bytes);
 
 /// Absolute difference over all channels, 0 to 255.
 struct Difference {

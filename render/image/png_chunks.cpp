@@ -62,22 +62,26 @@ std::vector<PngChunk> read_png_chunks(std::span<const std::uint8_t> bytes) {
   throw ImageError("PNG is cut off: IEND is missing");
 }
 
+std::vector<std::uint8_t> make_png_chunk(const std::string& type,
+                                         std::span<const std::uint8_t> data) {
+  std::vector<std::uint8_t> chunk;
+  append_u32(chunk, static_cast<std::uint32_t>(data.size()));
+  chunk.insert(chunk.end(), type.begin(), type.end());
+  chunk.insert(chunk.end(), data.begin(), data.end());
+  append_u32(chunk, checksum(std::span(chunk).subspan(4)));
+  return chunk;
+}
+
 std::vector<std::uint8_t> make_itxt_chunk(const std::string& keyword, const std::string& text) {
   check_keyword(keyword);
   if (text.find('\0') != std::string::npos)
     throw ImageError("PNG text: \"" + keyword + "\" holds a zero byte");
-  std::vector<std::uint8_t> typed = {'i', 'T', 'X', 't'};
-  typed.insert(typed.end(), keyword.begin(), keyword.end());
+  std::vector<std::uint8_t> data(keyword.begin(), keyword.end());
   // End of keyword; not compressed, method 0; no language, no translated keyword.
-  typed.insert(typed.end(), {0, 0, 0, 0, 0});
-  typed.insert(typed.end(), text.begin(), text.end());
-  if (typed.size() - 4 > 0x7fffffffu) throw ImageError("PNG text: \"" + keyword + "\" is too long");
-
-  std::vector<std::uint8_t> chunk;
-  append_u32(chunk, static_cast<std::uint32_t>(typed.size() - 4));
-  chunk.insert(chunk.end(), typed.begin(), typed.end());
-  append_u32(chunk, checksum(typed));
-  return chunk;
+  data.insert(data.end(), {0, 0, 0, 0, 0});
+  data.insert(data.end(), text.begin(), text.end());
+  if (data.size() > 0x7fffffffu) throw ImageError("PNG text: \"" + keyword + "\" is too long");
+  return make_png_chunk("iTXt", data);
 }
 
 }  // namespace neve::render

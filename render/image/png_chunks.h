@@ -19,6 +19,10 @@ struct PngChunk {
 /// @throws ImageError when the signature, a length or a checksum is wrong or IEND is missing
 std::vector<PngChunk> read_png_chunks(std::span<const std::uint8_t> bytes);
 
+/// A chunk, length and checksum included. @param type four letters
+std::vector<std::uint8_t> make_png_chunk(const std::string& type,
+                                         std::span<const std::uint8_t> data);
+
 /// An uncompressed iTXt chunk, length and checksum included.
 /// @throws ImageError when the keyword is not allowed or the text holds a zero byte
 std::vector<std::uint8_t> make_itxt_chunk(const std::string& keyword, const std::string& text);

@@ -159,6 +159,30 @@ TEST_F(Movie, EveryFormatHoldsEveryFrameAlsoEqualOnes) {
   }
 }
 
+TEST_F(Movie, MoviesSayThatTheirColoursAreThoseOfBt709) {
+  const auto ffprobe = app::output::find_program("ffprobe");
+  if (!ffprobe) SKIP_OR_FAIL("no ffprobe in PATH (Debian: ffmpeg)");
+  for (const app::output::MovieFormat format : app::output::all_movie_formats()) {
+    if (format == app::output::MovieFormat::gif || format == app::output::MovieFormat::webp)
+      continue;  // they are RGB
+    const Fixture f;
+    write_pictures(f.folder, 0, 1);
+    app::output::MovieRequest wanted = request(f.folder, 0, 1);
+    wanted.style.format = format;
+    wanted.file = app::output::movie_path(f.folder, "v", format);
+    wanted.fps = 24000.0 / 1001;
+    ASSERT_EQ(app::output::write_movie(wanted).outcome, app::output::MovieOutcome::written);
+    const auto told =
+        app::output::run_process(*ffprobe,
+                                 {"-v", "error", "-show_entries",
+                                  "stream=color_space,color_transfer,color_primaries,r_frame_rate",
+                                  "-of", "csv=p=0", wanted.file.string()},
+                                 f.folder);
+    EXPECT_EQ(told.output.find("bt709,bt709,bt709,24000/1001"), 0u)
+        << app::output::name(format) << ": " << told.output << told.errors;
+  }
+}
+
 TEST_F(Movie, LessQualityIsASmallerFileAndTheRateIsThatOfTheStyle) {
   const Fixture f;
   unsigned noise = 1;

@@ -4,6 +4,7 @@
 #include "app/scene/read.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/support/errors.h"
+#include "app/support/film_rate.h"
 
 namespace neve::app {
 namespace {
@@ -170,6 +171,23 @@ TEST(ValueAt, ValueLookupFindsTheValueOfAnAddress) {
   for (const char* nothing : {"", "frames", "solver.cfl.x", "body.bull.velocity", "body.3.name",
                               "material.ice.hardening", "fps.fps"})
     EXPECT_EQ(text(nothing), "") << nothing;
+}
+
+TEST(FilmRates, RatesOfTelevisionAreExact) {
+  const auto fps = [](const std::string& text) {
+    return scene::read_scene_text(
+               "fps = " + text + "\n[[body]]\nshape = { sphere = { radius = 0.1 } }\n", "s.toml",
+               ".")
+        .fps;
+  };
+  EXPECT_EQ(fps("23.976"), 24000.0 / 1001);
+  EXPECT_EQ(fps("23.98"), 24000.0 / 1001);
+  EXPECT_EQ(fps("29.97"), 30000.0 / 1001);
+  EXPECT_EQ(fps("59.94"), 60000.0 / 1001);
+  EXPECT_EQ(fps("23.9"), 23.9);
+  EXPECT_EQ(fps("25"), 25);
+  EXPECT_EQ(rate_text(24000.0 / 1001), "24000/1001");
+  EXPECT_EQ(rate_text(12.5), "12.5");
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <filesystem>
 
 #include "app/output/atomic_file.h"
+#include "render/image/exr.h"
 #include "render/image/image.h"
+#include "render/image/jpeg.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -107,6 +109,56 @@ TEST_F(Plates, APlateIsBehindTheSnow) {
     std::filesystem::rename(folder / "moved" / part, folder / part);
   app::output::write_file(folder / "street/0001.png", bytes);
   EXPECT_EQ(neve({"render", "run/particles/0001.png", "--out", "other"}).exit_code, 3);
+}
+
+TEST_F(Plates, PlatesOfOtherFormatsAndNumbersAreRead) {
+  // Linear light 0.5 is 188 of sRGB.
+  render::ExrPicture exr{160, 90, {}};
+  for (const char* name : {"R", "G", "B"})
+    exr.channels.push_back({name, std::vector<float>(160 * 90, 0.5f)});
+  const auto bytes = render::encode_exr(exr);
+  for (const char* file : {"plate.exr", "p.0000.exr"})
+    app::output::write_file(folder / file, bytes);
+  render::Image covered{160, 90, 4, std::vector<std::uint8_t>(160 * 90 * 4, 255)};
+  for (std::size_t i = 3; i < covered.pixels.size(); i += 4) covered.pixels[i] = 0;
+  app::output::write_file(folder / "alpha.png", render::encode_png(covered));
+  const auto corner = [&](const std::string& plate) {
+    render({"flying.toml", "--frames", "0-0", "--plate", plate, "--out", "run"});
+    return int{picture("run/particles/0000.png").pixels.at(30)};
+  };
+  for (const char* plate : {"plate.exr", "p.####.exr", "p.$F4.exr", "p.%04d.exr"})
+    EXPECT_EQ(corner(plate), 188) << plate;
+  EXPECT_EQ(corner("alpha.png"), 0) << "white that covers nothing";
+  if (render::can_encode_jpeg()) {
+    const render::Image grey{160, 90, 3, std::vector<std::uint8_t>(160 * 90 * 3, 77)};
+    app::output::write_file(folder / "photo.jpg", render::encode_jpeg(grey, 95, true));
+    EXPECT_NEAR(corner("photo.jpg"), 77, 1);
+  }
+}
+
+TEST_F(Plates, ALookChangesThePicturesAndIsKeptWithThem) {
+  folder.write("negative.cube", "LUT_1D_SIZE 2\n1 1 1\n0 0 0\n");
+  const std::vector<std::string> frame{"flying.toml", "--frames", "0-0"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), frame.begin(), frame.end());
+    render(more);
+  };
+  with({"--out", "plain"});
+  with({"--lut", "negative.cube", "--out", "graded"});
+  const render::Image plain = picture("plain/particles/0000.png"),
+                      graded = picture("graded/particles/0000.png");
+  ASSERT_EQ(plain.pixels.size(), graded.pixels.size());
+  for (std::size_t i = 0; i < plain.pixels.size(); ++i) {
+    const bool is_alpha = i % 4 == 3;
+    ASSERT_EQ(is_alpha ? plain.pixels[i] : 255 - plain.pixels[i], graded.pixels[i]);
+  }
+  render({"graded/particles/0000.png", "--out", "again"});
+  EXPECT_EQ(picture("again/particles/0000.png").pixels, graded.pixels);
+  EXPECT_TRUE(contains(neve({"info", "graded/particles/0000.png"}).output, "negative.cube"));
+  folder.write("wrong.cube", "LUT_1D_SIZE 2\n");
+  const auto refused = neve({"render", "flying.toml", "--lut", "wrong.cube", "--out", "wrong"});
+  EXPECT_EQ(refused.exit_code, 3) << refused.errors;
+  EXPECT_TRUE(contains(refused.errors, "wrong.cube:1")) << refused.errors;
 }
 
 TEST_F(Plates, WrongPlatesAndShuttersAreRefusedBeforeTheRun) {

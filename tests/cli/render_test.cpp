@@ -263,5 +263,19 @@ TEST_F(Cli, DrawingBesideTheSimulationChangesNoBit) {
   }
 }
 
+TEST_F(Cli, ATitleThatTheFontLacksIsSaidOnce) {
+  const auto said = [&](const std::string& title) {
+    const auto result = neve({"render", "scene.toml", "--frames", "0-1", "--no-movie", "--out",
+                              "titled", "--set", "title=\"" + title + "\""});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return result.errors;
+  };
+  const std::string japanese = said("雪 névé 雪");
+  const std::size_t first = japanese.find("lacks 雪:");
+  EXPECT_NE(first, std::string::npos) << japanese;
+  EXPECT_EQ(japanese.find("lacks", first + 1), std::string::npos) << japanese;
+  EXPECT_FALSE(contains(said("снег névé"), "lacks"));
+}
+
 }  // namespace
 }  // namespace neve::test

@@ -59,6 +59,20 @@ TEST(Png, TextRoundTripKeepsUtf8AndLength) {
   EXPECT_EQ(decode_png(bytes).pixels, noise(5, 4, 3).pixels);
 }
 
+TEST(Png, APictureSaysThatItIsSrgb) {
+  const std::vector<std::uint8_t> bytes = encode_png(noise(3, 2, 3));
+  std::vector<std::string> types;
+  for (const PngChunk& part : read_png_chunks(bytes)) types.push_back(part.type);
+  EXPECT_EQ(types, (std::vector<std::string>{"IHDR", "sRGB", "gAMA", "cHRM", "IDAT", "IEND"}));
+  EXPECT_EQ(read_png_gamma(bytes), 0);
+  std::vector<std::uint8_t> linear = bytes;
+  const std::vector<std::uint8_t> gamma = chunk("gAMA", std::string("\0\1\x86\xa0", 4));
+  linear.erase(linear.begin() + 33, linear.begin() + 33 + 13);  // the chunk sRGB
+  linear.erase(linear.begin() + 33, linear.begin() + 33 + 16);  // gAMA
+  linear.insert(linear.begin() + 33, gamma.begin(), gamma.end());
+  EXPECT_DOUBLE_EQ(read_png_gamma(linear), 1);
+}
+
 TEST(Png, TextOfOtherToolsIsReadOrSkipped) {
   const std::string zero(1, '\0');
   EXPECT_EQ(read_png_text(png_with(chunk("tEXt", "Author" + zero + "Zo\xeb"))).at("Author"), "Zoë");
