@@ -56,12 +56,12 @@ void check_nesting(const MeshReading& reading, bool is_even_odd, const std::stri
 
 void check_repairs(const MeshReading& reading, const std::string& at, const std::string& name,
                    std::vector<Finding>& findings) {
+  // Where all parts are wound inward, one convention differs from another and nothing is in doubt.
   const std::size_t turned = reading.turned_parts;
-  if (turned > 0)
-    findings.push_back({turned < reading.parts ? Severity::warning : Severity::note, at,
-                        fmt::format("{} of the {} of {} wound inward and read outward", turned,
-                                    counted(reading.parts, "part", "parts"),
-                                    name + (turned == 1 ? " is" : " are")),
+  if (turned > 0 && turned < reading.parts)
+    findings.push_back({Severity::warning, at,
+                        fmt::format("{} of the {} parts of {} wound inward and read outward",
+                                    turned, reading.parts, name + (turned == 1 ? " is" : " are")),
                         "recalculate its normals in the program that made it"});
   if (reading.turned_faces > 0)
     findings.push_back({Severity::note, at,

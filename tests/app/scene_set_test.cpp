@@ -83,6 +83,7 @@ TEST(Set, SettingReadsBareWordsAsStrings) {
   EXPECT_EQ(set({"title="}).title, "");
   EXPECT_EQ(set({"title=a=b"}).title, "a=b");
   EXPECT_EQ(set({"limits.memory=8GiB"}).limits.memory, 8ull << 30);
+  EXPECT_EQ(set({"limits.memory=1G"}).limits.memory, 1ull << 30) << "as Slurm and Docker write it";
   EXPECT_EQ(set({"view.close.particles.range=auto"}).views[0].particles.range.has_value(), false);
 }
 
