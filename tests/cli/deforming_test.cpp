@@ -100,8 +100,9 @@ TEST_F(Deforming, StagesHaveTheMeshAtEveryTime) {
 
 TEST_F(Deforming, MistakesWithNumberedFilesAreExplained) {
   const std::string at = "collider.plate.shape.mesh_sequence.";
-  expect_refused(at + "files=\"flap.obj\"", "one %d or %04d in the name of the files");
-  expect_refused(at + "files=\"../../etc/passwd\"", "one %d or %04d in the name of the files");
+  expect_refused(at + "files=\"flap.obj\"", "one %d, %04d, #### or $F4 in the name of the files");
+  expect_refused(at + "files=\"../../etc/passwd\"",
+                 "one %d, %04d, #### or $F4 in the name of the files");
   expect_refused(at + "last=5",
                  "flap_0004.obj: no such file; missing of the numbers 0 to "
                  "5: 4, 5");
