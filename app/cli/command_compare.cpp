@@ -14,6 +14,7 @@
 #include "app/cli/report_error.h"
 #include "app/compare/compare_run.h"
 #include "app/output/atomic_file.h"
+#include "app/output/read_picture.h"
 #include "app/output/sequence.h"
 #include "app/record/picture_record.h"
 #include "app/support/errors.h"
@@ -30,12 +31,7 @@ namespace fs = std::filesystem;
 
 render::Image read_picture(const std::string& file) {
   require_picture(file, "neve compare");
-  const std::vector<std::uint8_t> bytes = output::read_file(file);
-  try {
-    return render::decode_png(bytes);
-  } catch (const render::ImageError& error) {
-    throw Error(exit_invalid_scene, file + ": error: " + error.what(), file);
-  }
+  return output::read_picture(file);
 }
 
 int compare_pictures(const CompareOptions& options) {

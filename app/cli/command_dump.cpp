@@ -12,6 +12,7 @@
 #include "app/health/expected.h"
 #include "app/output/named_file.h"
 #include "app/record/run_json.h"
+#include "app/run/agreement.h"
 #include "app/run/render_job.h"
 #include "app/scene/names.h"
 #include "app/support/errors.h"
@@ -178,8 +179,10 @@ class DumpOutput {
 
  private:
   void put(const std::string& text) {
-    if (options_.file.empty())
+    if (options_.file.empty() && options_.format != dump::DumpFormat::vtk)
       std::cout << (count_ > 0 ? "\n" : "") << text;
+    else if (options_.file.empty())
+      output::write_named_file("/dev/stdout", text);  // bytes, not text
     else
       output::write_named_file(
           options_.at.size() == 1 ? options_.file : numbered(options_.file, count_).string(), text);
@@ -216,6 +219,7 @@ int run_dump(const dump::DumpOptions& options) {
   const setup::Plan plan =
       setup::make_plan(job.scene, job.frames, job.quality, options.run.threads);
   setup::check_limits(job.scene, plan, job.coarsening);
+  run::require_agreement(job, plan, options.run.is_agreed);
   check_dump_output(options);
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),

@@ -16,6 +16,7 @@
 #include "app/options/parse.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
+#include "app/support/printable_stream.h"
 #include "app/support/version.h"
 #include "sim/kernels/simd.h"
 
@@ -176,6 +177,7 @@ Entry program() {
 }
 
 int run_command_line(const Words& words) {
+  make_printable(std::cout);
   Entry root = program();
   if (words.empty()) {
     std::cerr << root.help();

@@ -5,6 +5,7 @@
 
 #include "app/advice/suggest.h"
 #include "app/cli/commands.h"
+#include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
 #include "app/scene/first_scene.h"
 #include "app/scene/schema.h"
@@ -63,11 +64,12 @@ int run_new(const PlainOptions& options) {
     std::cout << to_text({{"scene", file}, {"schema", schema.string()}}) << "\n";
     return exit_ok;
   }
+  const std::string word = options::shell_path(file);
   std::cout << "wrote " << file << ", and " << schema.string()
-            << " for editors\nnext:\n  neve check " << file
-            << "                what it costs, and what looks wrong\n  neve render " << file
-            << " --coarsen 2   a quick preview\n  neve view " << file
-            << "                 live: change numbers while the snow moves\n  neve render " << file
+            << " for editors\nnext:\n  neve check " << word
+            << "                what it costs, and what looks wrong\n  neve render " << word
+            << " --coarsen 2   a quick preview\n  neve view " << word
+            << "                 live: change numbers while the snow moves\n  neve render " << word
             << "               pictures and a film\n";
   return exit_ok;
 }

@@ -80,8 +80,8 @@ void print_pick(const pick::Game& game, const pick::PickOptions& options,
   for (const scene::Override& value : values)
     std::cout << "  " << value.address << " = " << value.value << "\n";
   for (const std::string& line : game.lesson().lines) std::cout << line << "\n";
-  std::cout << "next:\n  neve render " << options::shell_word(scene) << "\n  neve sweep "
-            << options::shell_word((game.folder() / "picked_sweep.toml").string()) << "\n";
+  std::cout << "next:\n  neve render " << options::shell_path(scene) << "\n  neve sweep "
+            << options::shell_path((game.folder() / "picked_sweep.toml").string()) << "\n";
 }
 
 /// Makes the nine runs, their sheet and their page. @return exit code
@@ -209,6 +209,9 @@ int run_pick(const PickCommand& command) {
   std::vector<pick::Click> list;
   if (!options.clicks.empty())
     list = pick::parse_clicks(pick::text_of_file(options.clicks), options.clicks);
+  if (!options.clicks.empty() && list.empty())
+    throw UsageError("--clicks", options.clicks + " holds no choice",
+                     "expected one a line: a tile from 1 to 9, two of them, or 0 for none");
   output::make_folder(game.folder());
   const auto lock = output::FolderLock::try_lock(game.folder(), "neve pick",
                                                  output::FolderLock::Kind::alone, ".pick.lock");

@@ -11,9 +11,11 @@
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
 #include "app/output/movie.h"
+#include "app/output/read_picture.h"
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/record/picture_record.h"
+#include "app/run/agreement.h"
 #include "app/run/fork.h"
 #include "app/run/lut.h"
 #include "app/run/passes.h"
@@ -36,14 +38,6 @@
 namespace neve::app::cli {
 
 namespace {
-
-render::Image read_reference(const std::string& file) {
-  try {
-    return render::decode_png(output::read_file(file));
-  } catch (const render::ImageError& error) {
-    throw Error(exit_invalid_scene, file + ": error: " + error.what(), file);
-  }
-}
 
 /// A run has its pictures, and a strip shows many frames: one of them has to be named.
 void refuse_origin(const run::RenderOptions& options, const run::RenderJob& job) {
@@ -117,8 +111,7 @@ void check_picture_sizes(const scene::Scene& scene, setup::Quality quality, int 
 void check_plates(const run::RenderJob& job) {
   if (job.plate.empty()) return;
   for (const scene::View& view : job.scene.views)
-    run::read_plate(run::plate_path(job.plate, job.frames.first), view.name,
-                    setup::size_of(job.scene, view));
+    run::read_plate(job, job.frames.first, view.name, setup::size_of(job.scene, view));
 }
 
 /// @return the exit code; leaves DIR/difference.png when the pictures differ
@@ -281,8 +274,9 @@ int run_render(const run::RenderOptions& options) {
     return exit_ok;
   }
   setup::check_limits(job.scene, plan, job.coarsening);
+  run::require_agreement(job, plan, options.is_agreed);
   std::optional<render::Image> reference;
-  if (!options.reference.empty()) reference = read_reference(options.reference);
+  if (!options.reference.empty()) reference = output::read_picture(options.reference);
 
   if (job.has_movies()) job.options.movie = output::available_movie(options.movie, job.scene.fps);
   catch_interrupts();
@@ -329,7 +323,7 @@ int run_render(const run::RenderOptions& options) {
     const auto file = output::frame_path(job.folder, run.record().views.front(),
                                          run.record().frames.back().frame);
     const render::Image picture =
-        result.last_picture ? *result.last_picture : render::decode_png(output::read_file(file));
+        result.last_picture ? *result.last_picture : output::read_picture(file);
     return compare_with_reference(options, job, picture, *reference);
   }
   return code;

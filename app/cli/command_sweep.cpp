@@ -61,6 +61,7 @@ sweep::store::Retry retry_of(const std::string& states) {
 /// One command a line, each makes one run that is not finished.
 void emit_commands(const sweep::plan::SweepOptions& options, const std::filesystem::path& folder,
                    const sweep::store::Manifest& manifest, Progress& progress) {
+  options::refuse_input("--emit", options.emit, manifest.scene_file);
   sweep::plan::SweepRunOptions one;
   one.folder = std::filesystem::absolute(folder).string();
   one.threads = 1;

@@ -66,6 +66,8 @@ Findings verify_sweep_folder(const fs::path& folder) {
     const fs::path place = fs::path("runs") / item.folder;
     const sweep::store::RunStatus status = sweep::store::read_status(folder / place);
     if (status.key != item.key || !sweep::store::is_finished(status.state)) ++left;
+    if (status.is_damaged)
+      findings.flaws.push_back({(place / "status.json").generic_string(), "is damaged"});
     const bool is_made = status.state == sweep::store::RunState::ok ||
                          status.state == sweep::store::RunState::diverged;
     if (status.key != item.key || !is_made) continue;
@@ -78,6 +80,11 @@ Findings verify_sweep_folder(const fs::path& folder) {
       findings.flaws.push_back({(place / "run.json").generic_string(),
                                 fmt::format("ends before frame {}", item.frames.last)});
   }
+  std::error_code error;
+  if (manifest.beginning && fs::exists(sweep::store::beginning_folder(folder), error))
+    for (const record::Flaw& flaw :
+         record::verify_run(sweep::store::beginning_folder(folder)).flaws)
+      findings.flaws.push_back({"beginning/" + flaw.file, flaw.what});
   if (left > 0)
     findings.unfinished = fmt::format("{} of {} runs are not finished", left, manifest.runs.size());
   findings.status = left > 0 ? "unfinished" : "ok";
@@ -121,7 +128,8 @@ void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const F
   for (const record::Flaw& flaw : findings.flaws)
     std::cout << printable_text((fs::path(folder) / flaw.file).string()) << " "
               << printable_text(flaw.what) << "\n";
-  if (!findings.unfinished.empty()) std::cout << folder << ": " << findings.unfinished << "\n";
+  if (!findings.unfinished.empty())
+    std::cout << printable_text(folder + ": " + findings.unfinished) << "\n";
   if (is_quiet) return;
   if (findings.is_whole())
     std::cout << folder << ": complete, " << findings.files << " files unchanged\n";

@@ -3,7 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
@@ -16,6 +16,7 @@
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"
+#include "render/image/image.h"
 #include "render/renderer.h"
 #include "sim/kernels/simd.h"
 #include "sim/seeding/seeding.h"
@@ -89,6 +90,14 @@ Report describe_current_error() {
     return plain_report(exit_no_backend, error.what(), {}, "neve doctor explains each backend");
   } catch (const std::bad_alloc&) {
     return out_of_memory();
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string file = error.path1().string();
+    return plain_report(exit_io, file + ": " + error.code().message(), file);
+  } catch (const nlohmann::json::exception& error) {
+    return plain_report(exit_invalid_scene,
+                        std::string("a JSON file is not as neve wrote it: ") + error.what());
+  } catch (const render::ImageError& error) {
+    return plain_report(exit_invalid_scene, std::string("a picture is damaged: ") + error.what());
   } catch (const std::exception& error) {
     return plain_report(exit_internal, error.what());
   } catch (...) {
@@ -117,7 +126,7 @@ int report_current_error(const ErrorOutput& output) {
     std::cerr << printable_text(report.line) << std::endl;
   }
   if (!output.log.empty() && options::is_log_name(output.log))
-    std::ofstream(output.log, std::ios::app) << time_text() << "  " << report.line << std::endl;
+    append_line(output.log, time_text() + "  " + report.line);
   if (output.is_json) std::cout << to_text(json) << std::endl;
   return report.code;
 }

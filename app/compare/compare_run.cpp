@@ -4,8 +4,9 @@
 
 #include "app/compare/pair_pictures.h"
 #include "app/compare/target.h"
-#include "app/output/atomic_file.h"
+#include "app/output/read_picture.h"
 #include "app/record/picture_record.h"
+#include "app/run/agreement.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "render/gl/context.h"
@@ -33,10 +34,11 @@ std::optional<UsageError> metrics_problem(const Pair& pair) {
                     "compare the folders of two runs");
 }
 
-void check_costs(const Side& side, int threads) {
+void check_costs(const Side& side, const PairOptions& options) {
   const setup::Plan plan =
-      setup::make_plan(side.job.scene, side.job.frames, setup::Quality::draft, threads);
+      setup::make_plan(side.job.scene, side.job.frames, setup::Quality::draft, options.threads);
   setup::check_limits(side.job.scene, plan, side.job.coarsening);
+  run::require_agreement(side.job, plan, options.is_agreed);
 }
 
 /// Frames that get pictures: one picture is of the last.
@@ -90,14 +92,15 @@ class PairRun {
   }
 
   void draw_states(render::Renderer& renderer) {
-    check_costs(pair_.a, options_.threads);
-    check_costs(pair_.b, options_.threads);
+    check_costs(pair_.a, options_);
+    check_costs(pair_.b, options_);
     const setup::FrameRange frames = drawn_frames(pair_, target_);
+    PairPainter painter(options_, pair_, renderer);
+    painter.check_sizes(target_.modes());
     timeline::Timeline a = timeline::open(pair_.a.job, options_.threads, progress_);
     timeline::Timeline b = timeline::open(pair_.b.job, options_.threads, progress_);
     refuse_mode(options_, Mode::displacement, id_problem(pair_, a.seeded(), b.seeded()), target_,
                 result_);
-    PairPainter painter(options_, pair_, renderer);
     target_.begin();
     progress_.start(frames.last);
     for (int frame = frames.first; frame <= frames.last; ++frame) {
@@ -130,7 +133,9 @@ class PairRun {
     const auto named = [](const Side& side) {
       return side.values.empty() ? side.job.scene_file : side.job.scene_file + "   " + side.values;
     };
-    if (renderer) picture = draw_series(result_.moments, named(pair_.a), named(pair_.b), *renderer);
+    // Interrupted before the first moment, there is nothing to draw.
+    if (renderer && !result_.moments.empty())
+      picture = draw_series(result_.moments, named(pair_.a), named(pair_.b), *renderer);
     target_.add_metrics(series_csv(result_.moments), picture);
   }
 
@@ -142,11 +147,7 @@ class PairRun {
 };
 
 render::Image read_plain(const std::string& file) {
-  try {
-    return opaque(render::decode_png(output::read_file(file)));
-  } catch (const render::ImageError& error) {
-    throw Error(exit_invalid_scene, file + ": error: " + error.what(), file);
-  }
+  return opaque(output::read_picture(file));
 }
 
 }  // namespace
@@ -179,6 +180,9 @@ PairResult compare_plain_pictures(const PairOptions& options) {
                 options.b, "give pictures of one size");
   const auto context = render::gl::open_context(options.backend);
   render::Renderer renderer(*context);
+  const int count = mode == Mode::wipe ? 1 : 2;
+  setup::check_picture("the picture of both", size_with_strip({a.width, a.height}, count),
+                       renderer.max_size(), options.out, "compare smaller pictures");
   std::vector<render::Image> images{a, b};
   if (mode == Mode::wipe) images = {wiped(a, b, options.wipe)};
   target.begin();

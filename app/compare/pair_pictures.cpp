@@ -60,6 +60,20 @@ PairPainter::PairPainter(const PairOptions& options, const Pair& pair, render::R
   std::erase(view_.layers, scene::Layer::caption);
 }
 
+void PairPainter::check_sizes(const std::vector<Mode>& modes) const {
+  const scene::PictureSize one = setup::size_of(pair_.a.job.scene, view_);
+  const int largest = renderer_.max_size();
+  setup::check_picture("a picture of one run", one, largest, "--size", "give a smaller --size");
+  for (const Mode mode : modes) {
+    if (mode == Mode::metrics) continue;
+    const bool is_single = mode == Mode::wipe || mode == Mode::mass;
+    setup::check_picture(
+        std::string("the picture of --mode ") + name(mode), size_with_strip(one, is_single ? 1 : 2),
+        largest, "--size",
+        is_single ? "give a smaller --size" : "give a smaller --size, or --mode wipe");
+  }
+}
+
 scene::View PairPainter::view_for(Mode mode) const {
   scene::View view = view_;
   if (mode != Mode::displacement && mode != Mode::mass) return view;

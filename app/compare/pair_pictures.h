@@ -25,6 +25,9 @@ class PairPainter {
 
   render::Image draw(Mode mode) const;
 
+  /// @throws LimitError for a picture of a mode that is too large to be drawn
+  void check_sizes(const std::vector<Mode>& modes) const;
+
   /// m, displacement that has the last colour.
   double range() const { return range_; }
 

@@ -14,21 +14,28 @@ using Rgb = std::array<std::uint8_t, 3>;
 constexpr Rgb strip_ground{30, 33, 39}, strip_bright{240, 244, 250}, strip_soft{190, 199, 212};
 constexpr int gap = 4;  // px between two pictures
 
-int font_for(const render::Image& image) {
-  return std::clamp(static_cast<int>(std::lround(image.width / 46.0)), 12, 40);
+int font_for(int width) {
+  return std::clamp(static_cast<int>(std::lround(width / 46.0)), 12, 40);
+}
+int head_for(int font) {
+  return static_cast<int>(std::lround(3.4 * font));
 }
 
 }  // namespace
+
+scene::PictureSize size_with_strip(const scene::PictureSize& image, int count) {
+  const int font = font_for(image.width);
+  return {count * image.width + (count - 1) * gap,
+          head_for(font) + image.height + static_cast<int>(std::lround(1.9 * font))};
+}
 
 render::Image with_strip(const std::vector<render::Image>& images,
                          const std::array<StripWords, 2>& words, const std::string& line,
                          render::Renderer& renderer) {
   const render::Image& first = images.front();
-  const int font = font_for(first);
-  const int head = static_cast<int>(std::lround(3.4 * font)),
-            foot = static_cast<int>(std::lround(1.9 * font));
+  const int font = font_for(first.width), head = head_for(font);
   const auto count = static_cast<int>(images.size());
-  const int width = count * first.width + (count - 1) * gap, height = head + first.height + foot;
+  const auto [width, height] = size_with_strip({first.width, first.height}, count);
   std::vector<render::Tile> tiles;
   for (int k = 0; k < count; ++k)
     tiles.push_back({k * (first.width + gap), head, images[static_cast<std::size_t>(k)]});

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/scene.h"
 #include "render/renderer.h"
 
 namespace neve::app::compare {
@@ -14,6 +15,9 @@ struct StripWords {
   std::string title;   ///< "A   out/soft"
   std::string values;  ///< "hardening = 5"
 };
+
+/// Of the picture that with_strip() makes of so many images of this size.
+scene::PictureSize size_with_strip(const scene::PictureSize& image, int count);
 
 /// @param images  of one size: two beside each other, or one that shows both
 /// @param line    below them

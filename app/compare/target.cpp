@@ -6,6 +6,7 @@
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
+#include "app/record/earlier.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
 #include "app/support/version.h"
@@ -71,33 +72,6 @@ fs::path list_path(const fs::path& folder) {
   return folder / "compare.json";
 }
 
-/// Names that an earlier comparison wrote: pictures of a mode, movies, metrics.
-bool is_listed_name(const fs::path& file) {
-  const auto parent = file.parent_path().string();
-  const std::string stem = file.stem().string(), suffix = file.extension().string();
-  const bool is_known = suffix == ".png" || suffix == ".csv" || movie_format_of(file);
-  return is_known && output::is_plain_name(stem) &&
-         scene::value_named<Mode>(parent.empty() ? stem : parent).has_value();
-}
-
-void remove_earlier_files(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::is_regular_file(fs::symlink_status(list_path(folder), error))) return;
-  try {
-    const Json list = parse_json(output::read_file(list_path(folder)));
-    for (const Json& item : list.at("files")) {
-      const fs::path file = item.get<std::string>();
-      if (is_listed_name(file) && fs::is_regular_file(fs::symlink_status(folder / file, error)))
-        fs::remove(folder / file, error);
-    }
-  } catch (const IoError&) {
-    throw;
-  } catch (const std::exception& error) {
-    rethrow_no_memory(error);
-    // No list of ours: nothing is removed.
-  }
-}
-
 }  // namespace
 
 Target::Target(const PairOptions& options)
@@ -124,12 +98,14 @@ void Target::leave_out(Mode mode) {
   std::erase(modes_, mode);
 }
 
-fs::path Target::folder_of(Mode mode) const {
-  return kind_ == TargetKind::movie ? scratch_ : out_ / name(mode);
+std::vector<fs::path> Target::files() const {
+  std::vector<fs::path> names;
+  for (const output::WrittenFile& file : files_) names.push_back(file.file);
+  return names;
 }
 
-void Target::note(const fs::path& file) {
-  files_.push_back(file);
+fs::path Target::folder_of(Mode mode) const {
+  return kind_ == TargetKind::movie ? scratch_ : out_ / name(mode);
 }
 
 void Target::begin() {
@@ -141,9 +117,9 @@ void Target::begin() {
   }
   output::make_folder(out_);
   lock_.emplace(out_, "neve compare");
-  remove_earlier_files(out_);
+  record::remove_listed(out_, record::file_hashes(record::read_json(list_path(out_))));
   for (const Mode mode : modes_)
-    if (mode != Mode::metrics) output::make_folder(folder_of(mode));
+    if (mode != Mode::metrics) output::make_own_folder(folder_of(mode));
 }
 
 void Target::add(Mode mode, int frame, const render::Image& image) {
@@ -152,8 +128,8 @@ void Target::add(Mode mode, int frame, const render::Image& image) {
   fs::path file = out_;
   if (kind_ == TargetKind::folder) file = output::frame_path(out_, name(mode), frame);
   if (kind_ == TargetKind::movie) file = output::frame_path(scratch_, ".", frame);
-  output::write_file(file, render::encode_png(image));
-  if (kind_ != TargetKind::movie) note(file);
+  const output::WrittenFile written = output::write_hashed(file, render::encode_png(image));
+  if (kind_ != TargetKind::movie) files_.push_back(written);
 }
 
 std::vector<std::string> Target::add_movies(double fps) {
@@ -169,7 +145,7 @@ std::vector<std::string> Target::add_movies(double fps) {
     const output::MovieResult movie =
         output::write_movie({folder_of(mode), file, first_, last_, fps, false, 0, movie_});
     if (movie.outcome == output::MovieOutcome::written) {
-      note(file);
+      files_.push_back({file, output::hash_file(file)});
       continue;
     }
     const bool has_none = movie.outcome == output::MovieOutcome::no_ffmpeg;
@@ -186,21 +162,20 @@ std::vector<std::string> Target::add_movies(double fps) {
 void Target::add_metrics(const std::string& csv, const std::optional<render::Image>& picture) {
   if (kind_ == TargetKind::table || kind_ == TargetKind::folder) {
     const fs::path file = kind_ == TargetKind::table ? out_ : out_ / "metrics.csv";
-    output::write_file(file, csv);
-    note(file);
+    files_.push_back(output::write_hashed(file, csv));
   }
   if (!picture || kind_ == TargetKind::table) return;
   const fs::path file = kind_ == TargetKind::picture ? out_ : out_ / "metrics.png";
-  output::write_file(file, render::encode_png(*picture));
-  note(file);
+  files_.push_back(output::write_hashed(file, render::encode_png(*picture)));
 }
 
 void Target::finish() {
   if (kind_ != TargetKind::folder) return;
-  Json names = Json::array();
-  for (const fs::path& file : files_)
-    names.push_back(file.lexically_relative(out_).generic_string());
-  output::write_file(list_path(out_), to_text({{"version", version}, {"files", names}}) + "\n");
+  record::FileHashes hashes;
+  for (const output::WrittenFile& file : files_)
+    hashes[file.file.lexically_relative(out_).generic_string()] = record::hash_text(file.hash);
+  output::write_file(list_path(out_),
+                     record::with_own_hash({{"version", version}, {"files", hashes}}));
 }
 
 }  // namespace neve::app::compare

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/compare/pair_options.h"
+#include "app/output/file_hash.h"
 #include "app/output/folder_lock.h"
 #include "app/output/movie.h"
 #include "render/image/image.h"
@@ -33,20 +34,19 @@ class Target {
   /// Before the pictures, see available_movie().
   /// @param fps  of the scenes @throws IoError, UsageError where movies cannot be made as asked for
   void check_movies(double fps) { movie_ = output::available_movie(movie_, fps); }
-  /// Takes the folder and removes the files that an earlier comparison listed there.
+  /// Takes the folder and removes the files that an earlier comparison wrote there.
   void begin();
   void add(Mode mode, int frame, const render::Image& image);
   /// Movies of all modes. @return warnings @throws IoError where a movie alone cannot be made
   std::vector<std::string> add_movies(double fps);
   void add_metrics(const std::string& csv, const std::optional<render::Image>& picture);
-  /// Lists the files in compare.json; only in a folder.
+  /// Lists the files in compare.json, with their hashes; only in a folder.
   void finish();
 
-  const std::vector<std::filesystem::path>& files() const { return files_; }
+  std::vector<std::filesystem::path> files() const;
 
  private:
   std::filesystem::path folder_of(Mode mode) const;
-  void note(const std::filesystem::path& file);
 
   std::filesystem::path out_;
   TargetKind kind_;
@@ -55,7 +55,7 @@ class Target {
   std::optional<output::FolderLock> lock_;
   std::filesystem::path scratch_;  ///< pictures of a movie that is alone
   int first_ = -1, last_ = -1;     ///< frames that were added
-  std::vector<std::filesystem::path> files_;
+  std::vector<output::WrittenFile> files_;
 };
 
 }  // namespace neve::app::compare

@@ -5,6 +5,7 @@
 #include "app/exports/bytes.h"
 #include "app/exports/encode.h"
 #include "app/support/errors.h"
+#include "app/support/room.h"
 #include "app/support/text.h"
 
 namespace neve::app::exports {
@@ -90,6 +91,11 @@ NodeBox box_of(const sim::RasterizedNodes& nodes) {
                      "vti",
                      "write vtp instead, or let a [[sink]] with outside = true remove snow that is "
                      "far away");
+  // Mass and velocity as numbers, as bytes, and as the text of the file.
+  require_room(
+      size.prod() * 4 * sizeof(double) * 3, "the box of nodes around the snow", "vti",
+      "write vtp or vdb instead, or let a [[sink]] with outside = true remove snow that is "
+      "far away");
   return {4 * low, 4 * (high - low + Vec3i::Ones())};
 }
 

@@ -41,28 +41,6 @@ Json surface_json(const scene::Scene& scene, const scene::Export& spec) {
           {"smallest_piece", spec.smallest_piece}};
 }
 
-/// Below the folder: no absolute path, nothing that leads out of it, no link on the way.
-bool is_safe(const fs::path& folder, const fs::path& path) {
-  fs::path at = folder;
-  std::error_code error;
-  for (const fs::path& part : path) {
-    const std::string name = part.string();
-    if (name.empty() || name == "." || name == ".." || name == "/") return false;
-    at /= part;
-    if (fs::is_symlink(fs::symlink_status(at, error))) return false;
-  }
-  return !path.empty() && fs::is_regular_file(fs::symlink_status(at, error));
-}
-
-void remove_listed(const fs::path& folder, const Json& path) {
-  if (!path.is_string()) return;
-  const fs::path file = path.get<std::string>();
-  std::error_code error;
-  if (!is_safe(folder, file)) return;
-  if (!fs::remove(folder / file, error) && error && error != std::errc::directory_not_empty)
-    output::fail_writing(folder / file, "cannot remove what an earlier run made", error.value());
-}
-
 /// In the place of the one of the same number, or after all others.
 template <class Item>
 void put(std::vector<Item>& items, Item item) {
@@ -119,7 +97,7 @@ Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int 
     const Table table = make_table(scene_, spec, origins_, carried_, *state);
     check_capacity(spec, table, static_cast<double>(table.rows));
     const fs::path folder = folder_ / scene::folder_of(spec);
-    output::make_folder(folder);
+    output::make_own_folder(folder);
     std::vector<output::WrittenFile> written{output::write_hashed(
         folder / file_name(spec, number), encode({scene_, spec, *state, table}))};
     if (!series.empty())
@@ -184,23 +162,6 @@ Json Exporter::to_json(const std::string& below) const {
     list.push_back(std::move(json));
   }
   return list;
-}
-
-void remove_earlier_exports(const fs::path& folder, const Json& list) {
-  if (!list.is_array()) return;
-  for (const Json& e : list) {
-    if (!e.is_object()) continue;
-    remove_listed(folder, e.value("series", Json()));
-    if (!e.contains("files") || !e["files"].is_array()) continue;
-    fs::path below;
-    for (const Json& file : e["files"]) {
-      if (!file.is_object() || !file.contains("file")) continue;
-      remove_listed(folder, file["file"]);
-      if (file["file"].is_string()) below = fs::path(file["file"].get<std::string>()).parent_path();
-    }
-    if (e.value("format", Json()) == "usda")
-      remove_listed(folder, Json((below / "manifest.usda").string()));
-  }
 }
 
 }  // namespace neve::app::exports

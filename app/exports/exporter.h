@@ -67,9 +67,4 @@ class Exporter {
   std::vector<Job> jobs_;
 };
 
-/// Removes the files that such a list names, and no others: names that could lead out of the
-/// folder, links and unknown files are left alone.
-/// @param folder  that the paths in the list start from
-void remove_earlier_exports(const std::filesystem::path& folder, const Json& list);
-
 }  // namespace neve::app::exports

@@ -10,6 +10,7 @@
 
 #include "app/health/findings.h"
 #include "app/setup/snow_pieces.h"
+#include "app/support/interrupt.h"
 #include "app/support/text.h"
 
 namespace neve::app::health {
@@ -21,6 +22,8 @@ using sim::Vec3d;
 constexpr double never_met = std::numeric_limits<double>::infinity();
 /// Particles of a body that stand for all of them.
 constexpr std::size_t max_sampled = 400;
+/// Bodies and colliders; more of them fill a scene, and some meet.
+constexpr std::size_t max_compared = 1000;
 constexpr int min_looks = 24, max_looks = 240;
 
 struct Box {
@@ -153,24 +156,47 @@ void fly_to_colliders(const scene::Scene& scene, const std::vector<double>& time
   }
 }
 
-/// True if another body is met.
-bool fly_past_bodies(const scene::Scene& scene, const std::vector<double>& times,
-                     const std::vector<Flight>& flights, const Flight& flight, Nearest& nearest) {
-  const double between = times.size() > 1 ? times[1] - times[0] : 0;
-  for (const double time : times) {
-    Box box;
-    const std::vector<Vec3d> places = flight.at(time, box);
-    for (const Flight& other : flights) {
-      if (&other == &flight || other.is_empty()) continue;
-      Box other_box;
-      const std::vector<Vec3d> other_places = other.at(time, other_box);
-      const double reach = reach_of(scene, flight, time, between) + other.spacing();
-      const double distance = distance_between(places, box, other_places, other_box, reach);
-      nearest.note(distance, time, display_name("body", other.body().name));
-      if (distance <= reach) return true;
-    }
+/// All bodies at one time.
+struct Moment {
+  double time = 0;
+  std::vector<Box> box;
+  std::vector<std::vector<Vec3d>> places;
+
+  Moment(const std::vector<Flight>& flights, double when) : time(when), box(flights.size()) {
+    for (std::size_t k = 0; k < flights.size(); ++k) places.push_back(flights[k].at(when, box[k]));
+  }
+};
+
+/// @return whether another body is met
+bool meets_another(const scene::Scene& scene, const std::vector<Flight>& flights,
+                   const Moment& moment, double between, std::size_t k, Nearest& nearest) {
+  for (std::size_t other = 0; other < flights.size(); ++other) {
+    if (other == k || flights[other].is_empty()) continue;
+    const double reach =
+        reach_of(scene, flights[k], moment.time, between) + flights[other].spacing();
+    const double distance = distance_between(moment.places[k], moment.box[k], moment.places[other],
+                                             moment.box[other], reach);
+    if (distance < nearest.distance)
+      nearest.note(distance, moment.time, display_name("body", flights[other].body().name));
+    if (distance <= reach) return true;
   }
   return false;
+}
+
+/// Whether each of the bodies meets another one, of those that fly.
+std::vector<bool> fly_past_bodies(const scene::Scene& scene, const std::vector<double>& times,
+                                  const std::vector<Flight>& flights,
+                                  const std::vector<bool>& flies, std::vector<Nearest>& nearest) {
+  const double between = times.size() > 1 ? times[1] - times[0] : 0;
+  std::vector<bool> meets(flights.size(), false);
+  for (const double time : times) {
+    if (is_interrupted()) return std::vector<bool>(flights.size(), true);
+    const Moment moment(flights, time);
+    for (std::size_t k = 0; k < flights.size(); ++k)
+      if (flies[k] && !meets[k])
+        meets[k] = meets_another(scene, flights, moment, between, k, nearest[k]);
+  }
+  return meets;
 }
 
 constexpr const char* floor_advice =
@@ -199,18 +225,22 @@ void check_meetings(const scene::Scene& scene, const setup::SeededScene& seeded,
   const double end = scene.frames / scene.fps;
   // A stream of snow fills the way of others.
   if (end <= 0 || !scene.emitters.empty()) return;
+  // Each is compared with each.
+  if (scene.bodies.size() + scene.colliders.size() > max_compared) return;
   std::vector<Flight> flights;
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) flights.emplace_back(scene, seeded, k);
   const std::vector<double> times = times_of(flights, end);
   std::vector<Nearest> nearest(flights.size());
-  for (std::size_t k = 0; k < flights.size(); ++k)
-    if (!flights[k].is_empty()) fly_to_colliders(scene, times, flights[k], nearest[k]);
-  for (std::size_t k = 0; k < flights.size(); ++k) {
-    const Flight& flight = flights[k];
-    if (flight.is_empty() || !flight.moves() || flight.stopped < never_met) continue;
-    if (fly_past_bodies(scene, times, flights, flight, nearest[k])) continue;
-    findings.push_back(free_fall(flight, nearest[k], end));
+  std::vector<bool> flies(flights.size(), false);
+  for (std::size_t k = 0; k < flights.size() && !is_interrupted(); ++k) {
+    if (flights[k].is_empty()) continue;
+    fly_to_colliders(scene, times, flights[k], nearest[k]);
+    flies[k] = flights[k].moves() && flights[k].stopped == never_met;
   }
+  if (std::find(flies.begin(), flies.end(), true) == flies.end()) return;
+  const std::vector<bool> meets = fly_past_bodies(scene, times, flights, flies, nearest);
+  for (std::size_t k = 0; k < flights.size(); ++k)
+    if (flies[k] && !meets[k]) findings.push_back(free_fall(flights[k], nearest[k], end));
 }
 
 void check_gravity(const scene::Scene& scene, std::vector<Finding>& findings) {

@@ -13,6 +13,10 @@ std::string shell_word(const std::string& text) {
   return quoted + "'";
 }
 
+std::string shell_path(const std::string& path) {
+  return shell_word(path.starts_with('-') ? "./" + path : path);
+}
+
 namespace {
 
 void add_words(const Option& option, const std::string& value, std::vector<std::string>& words) {

@@ -1,6 +1,8 @@
 #include "app/options/option.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -69,6 +71,13 @@ std::vector<std::string> Command::flags() const {
   return flags;
 }
 
+void refuse_input(const std::string& flag, const std::string& output, const std::string& input) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(output, error) &&
+      std::filesystem::equivalent(output, input, error))
+    throw UsageError(flag, output + " is what the command reads", "name another file");
+}
+
 void Command::check_all() const {
   const auto is_given = [this](const std::string& flag) { return find(flag)->is_given(); };
   for (const Option& option : options) {
@@ -81,6 +90,13 @@ void Command::check_all() const {
         throw UsageError(option.name(), rule.message, rule.hint);
   }
   for (const auto& check : checks) check();
+  for (const char* flag : {"--out", "--emit", "--log", "--record"})
+    for (const Option& input : options) {
+      const Option* output = find(flag);
+      if (!output || &input == output) continue;
+      for (const std::string& file : output->given)
+        for (const std::string& read : input.given) refuse_input(flag, file, read);
+    }
 }
 
 }  // namespace neve::app::options

@@ -110,6 +110,9 @@ struct Command {
               const std::string& sentence);
 };
 
+/// @throws UsageError where an output would replace a file that is read
+void refuse_input(const std::string& flag, const std::string& output, const std::string& input);
+
 template <class Member, class T>
 Option& Command::operator()(const char* names, Member& member, const Language<T>& language,
                             const std::string& sentence) {

@@ -160,6 +160,14 @@ void make_folder(const std::filesystem::path& path) {
   if (error) fail_writing(path, "cannot create the folder", error.value());
 }
 
+void make_own_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  if (is_symlink(symlink_status(path, error)))
+    throw IoError(path.string() + ": is a link, where a folder is to be made", path.string(),
+                  "move it away, or choose another folder with --out");
+  make_folder(path);
+}
+
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint64_t limit) {
   const auto fail_reading = [&](const std::string& reason) {
     throw IoError(path.string() + ": cannot read: " + reason, path.string());

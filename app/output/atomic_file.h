@@ -37,6 +37,10 @@ void move_into_place(const std::filesystem::path& temporary, const std::filesyst
 /// Creates a folder and those above it. @throws IoError
 void make_folder(const std::filesystem::path& path);
 
+/// The same of a folder whose name the program chooses, inside one that a person named: a link in
+/// its place is refused, as for files.
+void make_own_folder(const std::filesystem::path& path);
+
 /// These bring the bytes of files, and the list of files in a folder, to the disk: both survive a
 /// power cut afterwards.
 /// Many files at once take little longer than one. @throws IoError

@@ -1,18 +1,22 @@
 #include "app/output/checkpoint.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/output/descriptor.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/support/errors.h"
+#include "app/support/room.h"
 #include "app/support/text.h"
 
 namespace neve::app::output {
@@ -26,6 +30,9 @@ constexpr char magic[8] = {'N', 'E', 'V', 'E', 'C', 'K', 'P', '1'};
 constexpr std::size_t number_bytes = 8;
 constexpr std::size_t kept = 2;
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 40;
+/// A frame has about a kilobyte, and takes some ten as an object.
+constexpr std::uint64_t longest_json = std::uint64_t{1} << 26;
+constexpr const char* no_checkpoint = "is not a checkpoint of this version";
 
 fs::path folder_of(const fs::path& folder) {
   return folder / "checkpoint";
@@ -55,10 +62,11 @@ int frame_of(const fs::path& file) {
   return end.ec == std::errc() && frame >= 0 && frame <= max_frame ? frame : -1;
 }
 
-/// Newest first.
+/// Newest first. Behind a link they are another's.
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error, ignored;
+  if (fs::is_symlink(fs::symlink_status(folder, ignored))) return files;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
     if (it->path().extension() == ".ckpt" && it->is_regular_file(ignored))
       files.push_back(it->path());
@@ -82,9 +90,25 @@ fs::path state_path(const fs::path& folder, int frame) {
   return states_folder(folder) / name;
 }
 
+/// A file is judged by its first bytes and its size before there is memory for it.
+void check_start(const fs::path& file) {
+  std::error_code error;
+  char start[sizeof magic] = {};
+  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (in.get() < 0) return;  // reading it says why
+  const ssize_t count = ::read(in.get(), start, sizeof start);
+  if (count < 0)
+    throw UnreadableError(file.string() + ": cannot read: " + std::strerror(errno), file.string());
+  if (count == sizeof start && std::memcmp(start, magic, sizeof magic) != 0)
+    throw std::runtime_error(no_checkpoint);
+  if (static_cast<double>(fs::file_size(file, error)) > memory_room() && !error)
+    throw std::runtime_error("needs more memory than may be used");
+}
+
 /// @return whether the file is whole; its damage is noted where it is not
 bool read_into(FoundCheckpoint& found, const fs::path& file) {
   try {
+    check_start(file);
     found.checkpoint = parse_checkpoint(read_file(file, largest_file));
     found.checkpoint->file = file;
     return true;
@@ -103,7 +127,7 @@ void tidy_checkpoint_folder(const fs::path& folder) {
   const fs::path path = folder_of(folder);
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return;
-  if (fs::is_directory(path, error)) return remove_abandoned(path);
+  if (fs::is_directory(fs::symlink_status(path, error))) return remove_abandoned(path);
   throw IoError(path.string() + ": cannot write checkpoints here: not a folder", path.string(),
                 "rename it, choose another folder with --out, or --checkpoint-every 0");
 }
@@ -127,19 +151,18 @@ std::vector<std::uint8_t> encode_checkpoint(const Checkpoint& checkpoint) {
   return bytes;
 }
 
-Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes) {
+Checkpoint parse_checkpoint(std::vector<std::uint8_t> bytes) {
   const auto refuse = [](const char* why) { throw std::runtime_error(why); };
   if (bytes.size() < sizeof magic + 2 * number_bytes) refuse("is truncated");
-  if (std::memcmp(bytes.data(), magic, sizeof magic) != 0)
-    refuse("is not a checkpoint of this version");
+  if (std::memcmp(bytes.data(), magic, sizeof magic) != 0) refuse(no_checkpoint);
   const std::size_t body = bytes.size() - number_bytes;
   std::uint64_t length = 0, sum = 0;
   std::memcpy(&length, bytes.data() + sizeof magic, number_bytes);
   std::memcpy(&sum, bytes.data() + body, number_bytes);
   if (sum != checksum({bytes.data(), body})) refuse("is damaged: its checksum is wrong");
   const std::size_t json_start = sizeof magic + number_bytes;
-  if (length > body - json_start) refuse("is damaged");
-  const Json json = parse_json(bytes.subspan(json_start, length));
+  if (length > body - json_start || length > longest_json) refuse("is damaged");
+  const Json json = parse_json(std::span(bytes).subspan(json_start, length));
   Checkpoint c;
   c.identity = json.at("identity").get<std::string>();
   c.simd = json.at("simd").get<std::string>();
@@ -148,8 +171,10 @@ Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes) {
   c.steps = whole_number<std::size_t>(json.at("steps"));
   if (c.frame < 0 || c.frame > max_frame) refuse("has an invalid frame number");
   c.progress = json.at("progress");
-  c.state.assign(bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length),
-                 bytes.begin() + static_cast<std::ptrdiff_t>(body));
+  // Not twice in memory: it may be most of what there is.
+  bytes.resize(body);
+  bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length));
+  c.state = std::move(bytes);
   return c;
 }
 
@@ -157,7 +182,7 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
   const std::vector<std::uint8_t> bytes = encode_checkpoint(checkpoint);
   std::error_code error;
   const bool is_new = !fs::exists(folder_of(folder), error);
-  make_folder(folder_of(folder));
+  make_own_folder(folder_of(folder));
   if (is_new) sync_folder(folder);
   write_file(folder_of(folder) / file_name(checkpoint), bytes, Durability::synced);
   remove_abandoned(folder_of(folder));
@@ -176,7 +201,7 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, int before) {
 }
 
 void write_state(const fs::path& folder, const Checkpoint& checkpoint) {
-  make_folder(states_folder(folder));
+  make_own_folder(states_folder(folder));
   // Its checksum tells one that a power cut left unfinished.
   write_file(state_path(folder, checkpoint.frame), encode_checkpoint(checkpoint));
 }

@@ -35,7 +35,7 @@ void tidy_checkpoint_folder(const std::filesystem::path& folder);
 std::vector<std::uint8_t> encode_checkpoint(const Checkpoint& checkpoint);
 
 /// @throws std::runtime_error for bytes that are no whole checkpoint
-Checkpoint parse_checkpoint(std::span<const std::uint8_t> bytes);
+Checkpoint parse_checkpoint(std::vector<std::uint8_t> bytes);
 
 /// Writes one and removes all but the newest two, in this order. It is on the disk when this
 /// returns. @throws IoError

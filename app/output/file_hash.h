@@ -18,7 +18,7 @@ struct WrittenFile {
 WrittenFile write_hashed(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 WrittenFile write_hashed(const std::filesystem::path& file, std::string_view text);
 
-/// Hashes the bytes of a regular file of any size. @throws IoError
-std::uint64_t hash_file(const std::filesystem::path& file);
+/// Hashes the bytes of a regular file. @throws IoError, also when it is larger than `limit` bytes
+std::uint64_t hash_file(const std::filesystem::path& file, std::uint64_t limit = UINT64_MAX);
 
 }  // namespace neve::app::output

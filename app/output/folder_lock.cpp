@@ -42,6 +42,17 @@ std::string now_text() {
   return text;
 }
 
+/// What write_holder() wrote, or nothing: another process may just be writing it.
+bool is_ours(int fd) {
+  char bytes[longest_holder];
+  const ssize_t count = ::pread(fd, bytes, sizeof bytes, 0);
+  if (count <= 0) return true;
+  const std::string_view text(bytes, static_cast<std::size_t>(count));
+  // A power cut may leave zeros, or a part of it.
+  return text.find_first_not_of('\0') == text.npos || text.starts_with("neve ") ||
+         text.find(", process ") != text.npos;
+}
+
 Descriptor open_lock(const fs::path& file) {
   Descriptor lock(
       ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
@@ -49,6 +60,9 @@ Descriptor open_lock(const fs::path& file) {
   struct stat status {};
   if (::fstat(lock.get(), &status) != 0) fail_locking(file, errno);
   if (!S_ISREG(status.st_mode)) fail_locking(file, EINVAL);
+  if (status.st_nlink > 1 || !is_ours(lock.get()))
+    throw IoError(file.string() + ": is a file of another program, and has the name of our lock",
+                  file.string(), "move it away, or choose another folder with --out");
   return lock;
 }
 

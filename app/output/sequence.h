@@ -1,5 +1,5 @@
 #pragma once
-/// The layout of an output folder, and the removal of the files of an earlier run.
+/// The layout of an output folder.
 
 #include <filesystem>
 #include <string>
@@ -35,11 +35,5 @@ std::filesystem::path incident_path(const std::filesystem::path& folder);
 std::filesystem::path run_json_path(const std::filesystem::path& folder);
 /// The list of the files that `neve export` wrote into a folder.
 std::filesystem::path export_list_path(const std::filesystem::path& folder);
-
-/// Removes the pictures and movies that DIR/run.json lists, and nothing else: names that could lead
-/// out of DIR, links and unknown files are left alone. No run.json, or one that cannot be read:
-/// nothing is removed.
-/// @return how many files were removed
-std::size_t remove_earlier_run(const std::filesystem::path& folder);
 
 }  // namespace neve::app::output

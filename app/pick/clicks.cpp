@@ -7,6 +7,7 @@
 #include "app/output/atomic_file.h"
 #include "app/pick/search/rounds.h"
 #include "app/support/errors.h"
+#include "app/support/text.h"
 
 namespace neve::app::pick {
 
@@ -58,7 +59,7 @@ std::vector<Click> parse_clicks(const std::string& text, const std::string& file
 
 std::string clicks_text(const std::vector<Click>& clicks, const std::vector<std::string>& comment) {
   std::string text;
-  for (const std::string& line : comment) text += "# " + line + "\n";
+  for (const std::string& line : comment) text += "# " + line_text(line) + "\n";
   for (const Click& click : clicks) text += click_text(click) + "\n";
   return text;
 }

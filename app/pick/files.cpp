@@ -6,6 +6,7 @@
 
 #include "app/scene/params.h"
 #include "app/scene/read.h"
+#include "app/support/text.h"
 
 namespace neve::app::pick {
 
@@ -49,8 +50,9 @@ std::string picked_scene(const SearchScene& scene, const search::Point& place) {
   std::vector<scene::Override> all = scene.fixed;
   const std::vector<scene::Override> own = settings_at(scene.axes, place);
   all.insert(all.end(), own.begin(), own.end());
-  return "# Picked with neve pick from " + std::filesystem::path(scene.file).filename().string() +
-         ".\n" + scene::write_scene(scene::read_scene_file(scene.file, all));
+  return "# Picked with neve pick from " +
+         line_text(std::filesystem::path(scene.file).filename().string()) + ".\n" +
+         scene::write_scene(scene::read_scene_file(scene.file, all));
 }
 
 std::string picked_sweep(const SearchScene& scene, const std::string& scene_name,

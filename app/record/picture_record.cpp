@@ -7,9 +7,7 @@
 #include <sstream>
 
 #include "app/output/atomic_file.h"
-#include "app/output/file_hash.h"
 #include "app/output/sequence.h"
-#include "app/record/run_json.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -28,8 +26,8 @@ Json to_json(const StripRecord& strip) {
 StripRecord strip_record(const Json& json) {
   StripRecord strip;
   strip.times = json.at("times").get<std::vector<double>>();
-  strip.columns = json.at("columns").get<int>();
-  strip.width = json.at("width").get<int>();
+  strip.columns = whole_number<int>(json.at("columns"));
+  strip.width = whole_number<int>(json.at("width"));
   const bool is_increasing =
       std::ranges::adjacent_find(strip.times, std::greater_equal<>()) == strip.times.end();
   if (strip.times.empty() || !is_increasing || !(strip.times.front() >= 0) ||
@@ -39,6 +37,10 @@ StripRecord strip_record(const Json& json) {
     throw std::runtime_error("its columns or width are out of range");
   return strip;
 }
+
+/// More than any person makes while a run runs.
+constexpr std::size_t max_changes = 100'000;
+constexpr double largest_coarsening = 1e6;
 
 /// Reads the texts of one PNG and says which one is wrong.
 class TextReader {
@@ -149,77 +151,6 @@ Json to_json(const PictureRecord& record) {
   return json;
 }
 
-namespace {
-
-namespace fs = std::filesystem;
-
-bool is_content(const fs::path& file, const std::string& hash) {
-  try {
-    return hash_text(output::hash_file(file)) == hash;
-  } catch (const IoError&) {
-    return false;
-  }
-}
-
-/// Finds a file of a picture that has moved, as projects move as a whole: in the folder of the
-/// picture or one above, below the longest part of its recorded path that exists. Empty: no such
-/// file has this content.
-fs::path moved_file(const std::string& recorded, const std::string& hash, const fs::path& picture) {
-  const fs::path path = recorded;
-  const std::vector<fs::path> parts(path.begin(), path.end());
-  std::error_code error;
-  for (fs::path folder = fs::absolute(picture, error).parent_path();;
-       folder = folder.parent_path()) {
-    for (std::size_t first = path.is_absolute() ? 1 : 0; first < parts.size(); ++first) {
-      fs::path file = folder;
-      for (std::size_t k = first; k < parts.size(); ++k) file /= parts[k];
-      error.clear();
-      if (fs::is_regular_file(file, error) && is_content(file, hash))
-        return file.lexically_normal();
-    }
-    if (folder == folder.parent_path()) break;
-  }
-  return {};
-}
-
-/// In texts of TOML: a file, or the pattern of numbered files in its folder, has moved.
-void follow(const std::string& recorded, const std::string& now, std::string& text) {
-  const std::string folder = '"' + recorded.substr(0, recorded.rfind('/') + 1);
-  const std::string name = recorded.substr(recorded.rfind('/') + 1);
-  const std::string new_folder = '"' + now.substr(0, now.rfind('/') + 1);
-  for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos; ++at) {
-    const std::size_t start = at + folder.size(), end = text.find('"', start);
-    const std::string named = text.substr(start, end - start);
-    const bool is_pattern =
-        named.find('%') != std::string::npos && named.find('/') == std::string::npos;
-    if (named == name || is_pattern) text.replace(at, folder.size(), new_folder);
-  }
-}
-
-/// Names the files of the picture where they are now.
-void follow_moved_files(const fs::path& picture, PictureRecord& record) {
-  std::map<std::string, std::string> files;
-  for (const auto& [recorded, hash] : record.files) {
-    // check_files refuses a file that was changed in its place.
-    std::error_code error;
-    const bool is_there =
-        fs::path(recorded).is_absolute() ? fs::exists(recorded, error) : is_content(recorded, hash);
-    const std::string now = is_there ? "" : moved_file(recorded, hash, picture).string();
-    files[now.empty() ? recorded : now] = hash;
-    if (now.empty()) continue;
-    follow(recorded, now, record.scene);
-    for (std::string& change : record.overrides) follow(recorded, now, change);
-    for (std::string* file : {&record.plate, &record.lut}) {
-      std::string quoted = '"' + *file + '"';
-      follow(recorded, now, quoted);
-      *file = quoted.substr(1, quoted.size() - 2);
-    }
-  }
-  record.files = std::move(files);
-}
-
-}  // namespace
-
 PictureRecord read_picture_record(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = output::read_file(file);
   render::PngText text;
@@ -228,9 +159,7 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
   } catch (const render::ImageError& error) {
     throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string());
   }
-  PictureRecord record = picture_record_of(text, file.string());
-  follow_moved_files(file, record);
-  return record;
+  return picture_record_of(text, file.string());
 }
 
 PictureRecord picture_record_of(const render::PngText& text, const std::string& file) {
@@ -242,7 +171,8 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   if (text.contains("neve:changes")) record.changes = reader.changes("neve:changes");
   // Pictures of earlier versions do not say.
   if (text.contains("neve:coarsen")) record.coarsening = reader.number<double>("neve:coarsen");
-  if (!(record.coarsening >= 1)) reader.fail("its coarsening is less than 1");
+  if (!(record.coarsening >= 1 && record.coarsening <= largest_coarsening))
+    reader.fail("its coarsening is not from 1 to a million");
   record.seed = reader.number<std::uint64_t>("neve:seed");
   record.version = reader.text("neve:version");
   if (text.contains("neve:build")) record.build = reader.text("neve:build");
@@ -260,46 +190,12 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   const Json files = reader.json("neve:files");
   for (const auto& [path, hash] : files.items())
     if (hash.is_string()) record.files[path] = hash.get<std::string>();
-  if (record.frame < 0) reader.fail("its frame is negative");
+  if (record.frame < 0 || record.frame > output::max_frame)
+    reader.fail("its frame is not from 0 to " + std::to_string(output::max_frame));
+  if (record.changes.size() > max_changes)
+    reader.fail("it has more than " + std::to_string(max_changes) + " changes");
   if (!output::is_plain_name(record.view)) reader.fail("the name of its view is invalid");
   return record;
-}
-
-std::map<std::string, std::string> hash_files(const scene::Scene& scene) {
-  std::map<std::string, std::string> files;
-  const auto hash = [&](const std::string& file) {
-    if (files.contains(file)) return;
-    files[file] = hash_text(output::hash_file(file));
-  };
-  const auto add = [&](const sim::shapes::Shape& shape) {
-    if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&shape.form)) hash(mesh->file);
-    if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&shape.form))
-      for (const std::string& file : sim::shapes::files_of(*sequence)) hash(file);
-    if (const auto* points = std::get_if<sim::shapes::Points>(&shape.form)) hash(points->file);
-  };
-  for (const sim::seeding::Body& body : scene.bodies) add(body.shape);
-  for (const scene::Collider& collider : scene.colliders) add(collider.shape);
-  for (const sim::seeding::Emitter& emitter : scene.emitters) add(emitter.shape);
-  for (const sim::seeding::Sink& sink : scene.sinks) add(sink.shape);
-  return files;
-}
-
-void check_files(const PictureRecord& record) {
-  const auto hash_now = [](const std::string& path) {
-    try {
-      return hash_text(output::hash_file(path));
-    } catch (const IoError& failure) {
-      throw IoError(failure.what(), path,
-                    "the picture was made with this file: put it back, or beside the picture");
-    }
-  };
-  for (const auto& [path, hash] : record.files) {
-    if (hash_now(path) != hash)
-      throw Error(
-          exit_invalid_scene,
-          path + ": error: has changed since the picture was made; the picture used " + hash, path,
-          "restore the old file, or render the scene file instead");
-  }
 }
 
 bool is_picture(const std::filesystem::path& file) {

@@ -47,18 +47,10 @@ Json to_json(const PictureRecord& record);
 /// @param file  named in errors @throws Error when the texts are no record
 PictureRecord picture_record_of(const render::PngText& text, const std::string& file);
 
-/// Files of its scene that are no longer where they were are looked for in the folder of the
-/// picture and those above, by the end of their path and their content: a project that was moved
-/// draws its pictures again.
+/// Reads no other file: those of its scene are looked for with find_files().
 /// @throws Error with exit_invalid_scene when the file is no PNG or OpenEXR file, or holds no or
 /// broken records
 PictureRecord read_picture_record(const std::filesystem::path& file);
-
-/// The files that a scene names, each with the hash of its content. @throws IoError
-std::map<std::string, std::string> hash_files(const scene::Scene& scene);
-
-/// @throws Error naming the file that is missing or has changed since the picture was made
-void check_files(const PictureRecord& record);
 
 /// True if the file starts like a PNG or an OpenEXR file.
 bool is_picture(const std::filesystem::path& file);

@@ -200,11 +200,6 @@ Json read_run_json(const std::filesystem::path& folder) {
   return read_json(output::run_json_path(folder));
 }
 
-Json earlier_exports(const std::filesystem::path& folder) {
-  const Json run = read_run_json(folder);
-  return run.is_object() ? run.value("exports", Json()) : Json();
-}
-
 std::vector<FrameRecord> frame_records(const Json& run) {
   std::vector<FrameRecord> frames;
   try {
@@ -227,7 +222,8 @@ FileHashes file_hashes(const Json& run) {
 
 bool is_untouched(Json run) {
   if (!run.is_object()) return false;
-  if (!run.contains("hash")) return !run.contains("files");
+  // Those of this version have one.
+  if (!run.contains("hash")) return run.value("version", Json()) != version;
   const Json hash = run["hash"];
   run.erase("hash");
   return hash == hash_of(to_text(run));

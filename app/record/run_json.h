@@ -107,9 +107,6 @@ Json read_json(const std::filesystem::path& file);
 /// DIR/run.json; null if there is no such file or it cannot be read.
 Json read_run_json(const std::filesystem::path& folder);
 
-/// The exports that DIR/run.json lists; null if there are none.
-Json earlier_exports(const std::filesystem::path& folder);
-
 /// The frames that it lists; none if they cannot be read.
 std::vector<FrameRecord> frame_records(const Json& run);
 
@@ -119,8 +116,8 @@ FileHashes file_hashes(const Json& run);
 /// JSON as text, with a last entry `hash`, the hash of the rest.
 std::string with_own_hash(const Json& json);
 
-/// Whether run.json is as write_run_json wrote it: its `hash` is the one of with_own_hash().
-/// Those of earlier versions have none and pass.
+/// Whether a file is as with_own_hash() wrote it: run.json, export.json, the manifest of a sweep,
+/// the status of a run. Those of earlier versions have no hash and pass.
 bool is_untouched(Json run);
 
 /// The frames that DIR/run.json lists.

@@ -12,6 +12,7 @@
 #include "app/output/sequence.h"
 #include "app/record/picture_record.h"
 #include "app/support/errors.h"
+#include "app/support/room.h"
 #include "render/image/exr.h"
 
 namespace neve::app::record {
@@ -42,16 +43,15 @@ std::string flaw_of(const fs::path& file, const std::string& hash) {
 std::string flaw_by_text(const fs::path& file, const std::string& view, const FrameRecord& frame) {
   if (const std::string flaw = flaw_of(file, ""); flaw != is_another) return flaw;
   try {
-    const PictureRecord record = read_picture_record(file);
-    const bool is_same = record.view == view && record.frame == frame.frame &&
-                         record.state_hash == hash_text(frame.state_hash);
     if (file.extension() == ".exr")
-      render::decode_exr(output::read_file(file));
+      render::decode_exr(output::read_file(file), memory_room());
     else
-      render::decode_png(output::read_file(file));
-    return is_same ? "" : is_another;
+      render::decode_png(output::read_file(file), memory_room());
+    return is_picture_of(file, view, frame) ? "" : is_another;
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const render::ImageSizeError&) {
+    return "needs more memory than may be used, and is not checked";
   } catch (const std::exception&) {
     return "is damaged";
   }
@@ -69,26 +69,6 @@ std::string picture_flaw(const fs::path& folder, const Pictures& pictures, const
 bool is_inside(const fs::path& name) {
   return name.is_relative() &&
          std::none_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
-}
-
-/// The words of run.json that say which pictures there are. Empty if something is wrong with
-/// them.
-std::optional<Pictures> listed_pictures(const Json& run) {
-  Pictures pictures;
-  try {
-    for (const Json& frame : run.at("frames")) pictures.frames.push_back(frame_record(frame));
-    pictures.views = run.at("views").get<std::vector<std::string>>();
-    if (run.contains("views_of_passes"))
-      pictures.views_of_passes = run["views_of_passes"].get<std::vector<std::string>>();
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  for (const auto* names : {&pictures.views, &pictures.views_of_passes})
-    if (!std::ranges::all_of(*names, output::is_plain_name)) return std::nullopt;
-  pictures.files = file_hashes(run);
-  return pictures;
 }
 
 /// A run draws every frame from its first to its last.
@@ -129,6 +109,34 @@ void check_export(const fs::path& folder, Verification& result) {
 }
 
 }  // namespace
+
+bool is_picture_of(const fs::path& file, const std::string& view, const FrameRecord& frame) {
+  try {
+    const PictureRecord record = read_picture_record(file);
+    return record.view == view && record.frame == frame.frame &&
+           record.state_hash == hash_text(frame.state_hash);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::optional<Pictures> listed_pictures(const Json& run) {
+  Pictures pictures;
+  try {
+    for (const Json& frame : run.at("frames")) pictures.frames.push_back(frame_record(frame));
+    pictures.views = run.at("views").get<std::vector<std::string>>();
+    if (run.contains("views_of_passes"))
+      pictures.views_of_passes = run["views_of_passes"].get<std::vector<std::string>>();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  for (const auto* names : {&pictures.views, &pictures.views_of_passes})
+    if (!std::ranges::all_of(*names, output::is_plain_name)) return std::nullopt;
+  pictures.files = file_hashes(run);
+  return pictures;
+}
 
 std::vector<Flaw> picture_flaws(const fs::path& folder, const Pictures& pictures, int first,
                                 int last, std::vector<int>& flawed_frames) {

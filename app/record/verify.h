@@ -24,6 +24,13 @@ struct Pictures {
   FileHashes files;
 };
 
+/// What run.json says of its pictures. Empty if something is wrong with it.
+std::optional<Pictures> listed_pictures(const Json& run);
+
+/// True for a picture that says of itself that it is this frame of a run.
+bool is_picture_of(const std::filesystem::path& file, const std::string& view,
+                   const FrameRecord& frame);
+
 /// Frames from `first` to `last` with pictures that are missing or damaged, and other frames in
 /// `pictures` that are. A picture without a hash is held to the state hash inside it.
 std::vector<Flaw> picture_flaws(const std::filesystem::path& folder, const Pictures& pictures,

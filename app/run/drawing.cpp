@@ -85,8 +85,7 @@ Drawing::Files Drawing::draw(const picture::Snapshot& snapshot) {
       fetch_down_to(0);
       std::optional<render::Image> plate;
       if (!job_.plate.empty())
-        plate = read_plate(plate_path(job_.plate, snapshot.frame), view.name,
-                           {drawn.width, drawn.height});
+        plate = read_plate(job_, snapshot.frame, view.name, {drawn.width, drawn.height});
       files.pictures.push_back(picture_of(view.name, draw_mean(drawn, moments, plate)));
     }
     if (passes_)

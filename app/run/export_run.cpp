@@ -8,6 +8,7 @@
 #include "app/output/folder_lock.h"
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
+#include "app/record/earlier.h"
 #include "app/record/run_json.h"
 #include "app/scene/check.h"
 #include "app/setup/resolve.h"
@@ -48,9 +49,12 @@ struct Kept {
   bool is_whole = true;
 };
 
-void keep_export(const Json& one, const Json& list, Kept& kept) {
+/// @throws std::exception for an entry that neve has not written
+void keep_export(const Json& one, const record::FileHashes& files, Kept& kept) {
   const std::string folder = one.at("name").get<std::string>() + "/";
-  for (const auto& [file, hash] : list.at("files").items())
+  for (const Json& file : one.at("files"))
+    for (const char* key : {"file", "number", "time", "state_hash"}) file.at(key);
+  for (const auto& [file, hash] : files)
     if (file.starts_with(folder) || one.at("series") == file) kept.files[file] = hash;
   kept.exports.push_back(one);
 }
@@ -65,18 +69,16 @@ Kept replace_earlier(const ExportJob& job) {
     const Json list = parse_json(output::read_file(file));
     const bool is_of_scene = list.at("scene_file") == job.run.scene_file;
     Kept kept;
-    Json replaced = Json::array();
+    record::FileHashes replaced = record::file_hashes(list);
     for (const Json& one : list.at("exports")) {
       const bool is_ours = std::any_of(ours.begin(), ours.end(), [&](const scene::Export& e) {
         return one.at("name") == scene::folder_of(e);
       });
-      if (is_of_scene && !is_ours)
-        keep_export(one, list, kept);
-      else
-        replaced.push_back(one);
+      if (is_of_scene && !is_ours) keep_export(one, record::file_hashes(list), kept);
     }
+    std::erase_if(replaced, [&](const auto& file) { return kept.files.contains(file.first); });
     kept.is_whole = kept.exports.empty() || list.at("is_whole").get<bool>();
-    exports::remove_earlier_exports(job.run.folder, replaced);
+    record::remove_listed(job.run.folder, replaced);
     return kept;
   } catch (const IoError&) {
     throw;  // files of an earlier export would lie beside the new ones
@@ -152,7 +154,10 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
                               last, run.scene, progress);
   timeline::Timeline timeline = timeline::open(run, threads, progress);
   const sim::Simulation& simulation = timeline.simulation();
-  output::make_folder(job.run.folder);
+  if (job.run.folder == job.lock_folder)
+    output::make_folder(job.run.folder);
+  else
+    output::make_own_folder(job.run.folder);
   const Kept kept = replace_earlier(job);
   exports::Exporter exporter(run.scene, job.run.folder, timeline.seeded().body_end);
   output::PictureWriter writer;

@@ -1,5 +1,6 @@
 #include "app/run/identity.h"
 
+#include "app/record/picture_files.h"
 #include "app/scene/read.h"
 #include "app/support/version.h"
 

@@ -11,6 +11,7 @@
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
+#include "app/record/earlier.h"
 #include "app/support/errors.h"
 
 namespace neve::app::run {
@@ -33,8 +34,7 @@ Ledger::Ledger(const RenderJob& job, const setup::SeededScene& seeded, record::R
       exporter_(job.scene, job.folder / output::exports_folder, seeded.body_end) {}
 
 void Ledger::replace_earlier() {
-  exports::remove_earlier_exports(job_.folder, record::earlier_exports(job_.folder));
-  output::remove_earlier_run(job_.folder);
+  record::remove_earlier_run(job_.folder);
   output::remove_checkpoints(job_.folder);
 }
 
@@ -52,8 +52,9 @@ void Ledger::take(const timeline::Moment& moment) {
 }
 
 void Ledger::open() {
+  if (!job_.scene.exports.empty()) output::make_own_folder(job_.folder / output::exports_folder);
   for (const std::string& view : record_.views) {
-    output::make_folder(job_.folder / view);
+    output::make_own_folder(job_.folder / view);
     output::remove_abandoned(job_.folder / view);
   }
   write();

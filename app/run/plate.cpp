@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "app/output/atomic_file.h"
+#include "app/record/picture_files.h"
 #include "app/support/errors.h"
+#include "app/support/room.h"
 #include "render/image/exr.h"
 #include "sim/shapes/numbered_files.h"
 
@@ -51,7 +53,7 @@ render::Image as_rgb(const render::Image& image, double gamma) {
 
 /// Linear light, as compositors write it: premultiplied, so that alpha lies over black by itself.
 render::Image rgb_of_exr(const std::vector<std::uint8_t>& bytes) {
-  const render::ExrPicture picture = render::decode_exr(bytes);
+  const render::ExrPicture picture = render::decode_exr(bytes, memory_room());
   render::Image out{picture.width, picture.height, 3, {}};
   out.pixels.resize(3 * static_cast<std::size_t>(picture.width) *
                     static_cast<std::size_t>(picture.height));
@@ -68,13 +70,22 @@ render::Image rgb_of_exr(const std::vector<std::uint8_t>& bytes) {
   return out;
 }
 
-render::Image rgb_of(const std::vector<std::uint8_t>& bytes) {
+/// @param file  named in errors
+render::Image rgb_of(const std::vector<std::uint8_t>& bytes, const std::filesystem::path& file) {
   const auto begins = [&](std::initializer_list<std::uint8_t> start) {
     return bytes.size() > start.size() && std::equal(start.begin(), start.end(), bytes.begin());
   };
-  if (begins({0x76, 0x2f, 0x31, 0x01})) return rgb_of_exr(bytes);
-  if (begins({0xff, 0xd8, 0xff})) return as_rgb(render::decode_jpeg(bytes), 0);
-  return as_rgb(render::decode_png(bytes), render::read_png_gamma(bytes));
+  try {
+    if (begins({0x76, 0x2f, 0x31, 0x01})) return rgb_of_exr(bytes);
+    if (begins({0xff, 0xd8, 0xff})) return as_rgb(render::decode_jpeg(bytes, memory_room()), 0);
+    return as_rgb(render::decode_png(bytes, memory_room()), render::read_png_gamma(bytes));
+  } catch (const render::ImageSizeError& error) {
+    require_room(error.bytes, error.what(), file.string());
+    throw;
+  } catch (const render::ImageError& error) {
+    throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string(),
+                "a plate is a PNG, a JPEG or an OpenEXR file");
+  }
 }
 
 }  // namespace
@@ -89,15 +100,12 @@ std::filesystem::path plate_path(const std::string& pattern, int frame) {
   return name;
 }
 
-render::Image read_plate(const std::filesystem::path& file, const std::string& view,
+render::Image read_plate(const RenderJob& job, int frame, const std::string& view,
                          scene::PictureSize size) {
-  render::Image image;
-  try {
-    image = rgb_of(output::read_file(file));
-  } catch (const render::ImageError& error) {
-    throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string(),
-                "a plate is a PNG, a JPEG or an OpenEXR file");
-  }
+  const std::filesystem::path file = plate_path(job.plate, frame);
+  if (job.picture && job.options.plate.empty())
+    record::require_listed(*job.picture, file.string(), job.scene_file);
+  const render::Image image = rgb_of(output::read_file(file), file);
   if (image.width != size.width || image.height != size.height)
     throw Error(exit_invalid_scene,
                 fmt::format("{}: error: the plate is {}x{} and the view {} is {}x{}", file.string(),

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/run/render_job.h"
 #include "app/scene/scene.h"
 #include "render/image/image.h"
 
@@ -13,9 +14,10 @@ namespace neve::app::run {
 /// place is one picture for all frames. @throws UsageError for any other use of %
 std::filesystem::path plate_path(const std::string& pattern, int frame);
 
-/// A PNG, a JPEG, or the RGB or Y of an OpenEXR file in linear light; alpha lies over black.
-/// @return RGB @throws IoError; Error when it is none of them, or not of the size of the view
-render::Image read_plate(const std::filesystem::path& file, const std::string& view,
+/// That of a job: a PNG, a JPEG, or the RGB or Y of an OpenEXR file in linear light; alpha lies
+/// over black. @return RGB @throws IoError; Error when it is none of them, not of the size of the
+/// view, or a picture names it that was not made with it; LimitError
+render::Image read_plate(const RenderJob& job, int frame, const std::string& view,
                          scene::PictureSize size);
 
 }  // namespace neve::app::run

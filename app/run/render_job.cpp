@@ -1,4 +1,5 @@
 #include "app/run/render_job.h"
+#include "app/record/picture_files.h"
 
 #include <algorithm>
 #include <cstdio>

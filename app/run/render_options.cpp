@@ -87,6 +87,13 @@ void describe_scene(options::Command& visit, RenderOptions& o, const char* help)
   options::describe_caps(visit, o.caps);
 }
 
+void describe_agreement(options::Command& visit, bool& is_agreed) {
+  visit("--yes", is_agreed,
+        "Make a picture again that lies in no folder of a run, though it takes more than a minute "
+        "or 500 MB: "
+        "otherwise neve asks");
+}
+
 void describe(options::Command& visit, RenderOptions& o) {
   visit.about("render", "Simulate a scene and draw its frames");
   describe_scene(visit, o);
@@ -115,6 +122,7 @@ void describe(options::Command& visit, RenderOptions& o) {
              "Omit the words over the pictures: for films; the layers counter and slate stay");
   visit("--shader-dir", o.shader_dir, options::existing_folder("the files of shaders/"),
         "Read shaders from this folder");
+  describe_agreement(visit, o.is_agreed);
   visit("--dry-run", o.dry_run, "Print particles, memory, pixels and frames; start nothing");
   visit("--json", o.is_json, options::json_help);
   options::describe_progress(visit, o.progress);

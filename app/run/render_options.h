@@ -47,6 +47,7 @@ struct RenderOptions {
   bool has_caption = true;
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress;
+  bool is_agreed = false;  ///< to the cost of a picture that came alone, see agreement.h
   bool dry_run = false;
   bool is_json = false;
 };
@@ -58,6 +59,9 @@ void describe(options::Command& visit, RenderOptions& options);
 inline constexpr const char* origin_help =
     "Scene file (TOML), - for standard input, a picture made by neve, or the folder of a run; "
     "default: a falling snowball";
+
+/// --yes
+void describe_agreement(options::Command& visit, bool& is_agreed);
 
 /// The scene and its changes, for all commands that simulate one. @param help  of SCENE
 void describe_scene(options::Command& visit, RenderOptions& options,

@@ -4,7 +4,9 @@
 #include <new>
 
 #include "app/output/atomic_file.h"
+#include "app/output/movie_format.h"
 #include "app/output/sequence.h"
+#include "app/record/earlier.h"
 #include "app/record/verify.h"
 #include "app/run/identity.h"
 #include "app/scene/flat.h"
@@ -56,15 +58,20 @@ std::string other_thing(const std::filesystem::path& folder, const record::Pictu
 
 /// Adds the frames that run.json lists and the checkpoint does not: those after it, and all of an
 /// earlier version. Their pictures stay listed until they are made again.
-void add_listed(const Json& run_json, int last, timeline::Made& run) {
+void add_listed(const std::filesystem::path& folder, const Json& run_json, int last,
+                timeline::Made& run) {
   const bool has_none = run.frames.empty();
   if (has_none && run_json.is_object()) run.exports = run_json.value("exports", Json());
   for (const record::FrameRecord& frame : record::frame_records(run_json))
     if (has_none || frame.frame > last) record::add_frame(run.frames, frame);
   for (const auto& [file, hash] : record::file_hashes(run_json)) run.files.emplace(file, hash);
-  // Movies are made again at the end: only pictures are in folders.
-  std::erase_if(run.files,
-                [](const auto& file) { return file.first.find('/') == std::string::npos; });
+  // Pictures are in folders. Movies are made again at the end; those of other formats stay ours.
+  std::erase_if(run.files, [&](const auto& file) {
+    if (file.first.find('/') != std::string::npos) return false;
+    const std::string suffix = std::filesystem::path(file.first).extension().string();
+    const bool is_movie = !suffix.empty() && output::movie_format_named(suffix.substr(1));
+    return !is_movie || !record::has_hash(folder / file.first, file.second);
+  });
 }
 
 void check_identity(const std::filesystem::path& folder, const output::Checkpoint& checkpoint,
@@ -127,7 +134,7 @@ std::optional<Resumption> find_resumption(const std::filesystem::path& folder,
   check_identity(folder, *found.checkpoint, picture, record.simd, progress);
   Resumption resumption{timeline::to_moment(*std::move(found.checkpoint))};
   timeline::Moment& moment = resumption.moment;
-  add_listed(record::read_run_json(folder), moment.frame, moment.made);
+  add_listed(folder, record::read_run_json(folder), moment.frame, moment.made);
   const std::vector<record::Flaw> flaws = find_flaws(folder, record, frames, resumption);
   if (!flaws.empty())
     progress.warning(folder.string() + ": " + record::flaw_text(flaws) + "; made again");

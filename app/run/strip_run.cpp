@@ -84,6 +84,7 @@ std::vector<std::string> words_of(const StripJob& job) {
 
 class Strip {
  public:
+  /// @throws LimitError for one that is too large to be drawn, whatever its columns
   Strip(const StripJob& job, const scene::Scene& scene, render::Renderer& renderer)
       : job_(job),
         renderer_(renderer),
@@ -91,8 +92,20 @@ class Strip {
         legends_(scene::has_layer(scene.views.front(), scene::Layer::legend)
                      ? picture::legends_of(scene.views.front())
                      : std::vector<render::Legend>{}),
-        layout_(job, setup::size_of(scene, scene.views.front()), words_.size(), !legends_.empty()) {
+        layout_(layout_with(scene)) {
+    // One that is too high is wrapped.
+    const int largest = renderer.max_size(), tiles = static_cast<int>(job.times.size());
+    while (layout_.height() > largest && job_.columns < tiles) {
+      ++job_.columns;
+      layout_ = layout_with(scene);
+    }
+    setup::check_picture("the strip", {job_.width, layout_.height()}, largest, "--width",
+                         "make it narrower with --width, or give fewer --tiles");
+    setup::check_picture("a tile of the strip", {layout_.tile_width, layout_.tile_height}, largest,
+                         "--width", "make it narrower with --width");
   }
+
+  int columns() const { return job_.columns; }
 
   void add(const timeline::Timeline& timeline, const scene::Scene& resolved) {
     // The changes of the run count, the look is that of the job.
@@ -139,6 +152,10 @@ class Strip {
   }
 
  private:
+  Layout layout_with(const scene::Scene& scene) const {
+    return {job_, setup::size_of(scene, scene.views.front()), words_.size(), !legends_.empty()};
+  }
+
   scene::View tile_view(scene::View view) const {
     view.size = scene::PictureSize{layout_.tile_width, layout_.tile_height};
     view.background = scene::Background::gradient;
@@ -148,7 +165,7 @@ class Strip {
     return view;
   }
 
-  const StripJob& job_;
+  StripJob job_;
   render::Renderer& renderer_;
   std::vector<std::string> words_;
   std::vector<render::Legend> legends_;
@@ -195,10 +212,22 @@ StripJob make_strip_job(const StripOptions& options) {
   return job;
 }
 
+double memory_of_strip(const StripJob& job) {
+  constexpr double bytes_per_pixel = 36;
+  const Layout layout(job, setup::size_of(job.run.scene, job.run.scene.views.front()), 2, false);
+  return bytes_per_pixel * job.width * layout.height();
+}
+
 StripResult run_strip(const StripJob& job, const RenderOptions& options, Progress& progress) {
   const auto context = render::gl::open_context(options.backend);
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, options.shader_dir, &pool);
+  // Too large a one is found before the first step; the ranges of its legend are not known yet.
+  const int columns = Strip(job, job.run.scene, renderer).columns();
+  if (columns > job.columns)
+    progress.warning("the strip has " + std::to_string(columns) +
+                     " columns: one below the other, its tiles would be higher than the " +
+                     std::to_string(renderer.max_size()) + " pixels that this backend draws");
   timeline::warn_of_late_time(rough_text(job.times.back()) + " s", job.times.back(), job.run.scene,
                               progress);
   timeline::Timeline timeline = timeline::open(job.run, options.threads, progress);

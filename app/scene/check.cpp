@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cctype>
 #include <vector>
 
 #include "app/advice/suggest.h"
@@ -22,6 +23,9 @@ namespace neve::app::scene {
 namespace {
 
 using Found = std::optional<Problem>;
+
+/// More than a person writes.
+constexpr std::size_t max_exports = 1000;
 
 /// Directions shorter than this, and points closer, are the same as none.
 constexpr double negligible = 1e-6;
@@ -327,6 +331,25 @@ std::vector<std::string> carried_columns(const Scene& scene) {
   return all;
 }
 
+/// As formats write names that allow fewer letters.
+std::string plain_name(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+/// Names that a file of a format has beside those of its attributes.
+std::vector<std::string> own_names(const Export& e) {
+  std::vector<std::string> names;
+  if (e.format == ExportFormat::npz) names = {"time", "frame", "fps", "scale", "up"};
+  if (e.format == ExportFormat::bgeo) names = {"P", "pscale", "time", "frame", "fps", "scale"};
+  if (e.format == ExportFormat::vtp) names = {"Normals", "Points"};
+  const bool has_components = e.format == ExportFormat::ply || e.format == ExportFormat::csv;
+  if (has_components) names = {"x", "y", "z", "vx", "vy", "vz"};
+  if (has_components && e.surface) names.insert(names.end(), {"nx", "ny", "nz"});
+  return names;
+}
+
 Found carried_problem(const Scene& scene, const Export& e) {
   if (e.carried.empty()) return {};
   const std::string at = "export." + e.name + ".carried";
@@ -339,6 +362,19 @@ Found carried_problem(const Scene& scene, const Export& e) {
     if (std::find(ours.begin(), ours.end(), name) != ours.end())
       return Problem{at, quoted + " is an attribute of neve itself",
                      "write it in attributes; rename the column of the file to carry it along"};
+    const std::vector<std::string> own = own_names(e);
+    const auto has_its_name = [&](const std::string& other) {
+      return other == name ||
+             (e.format == ExportFormat::usda && plain_name(other) == plain_name(name));
+    };
+    const auto is_other = [&](const std::string& other) {
+      return other != name && has_its_name(other);
+    };
+    if (std::any_of(own.begin(), own.end(), has_its_name) ||
+        std::any_of(e.carried.begin(), e.carried.end(), is_other) ||
+        std::any_of(ours.begin(), ours.end(), is_other))
+      return Problem{at, quoted + " would have the name of another column in a file of this format",
+                     "rename the column of the file to carry it along"};
     if (std::find(columns.begin(), columns.end(), name) != columns.end()) continue;
     std::vector<std::string> known = ours;
     for (const std::string& column : columns)
@@ -489,6 +525,10 @@ std::optional<Problem> find_problem(const Scene& scene) {
   for (const Mosaic& mosaic : scene.mosaics) {
     if ((found = mosaic_problem(scene, mosaic))) return found;
   }
+  // Each is compared with each, and held beside every other one.
+  if (scene.exports.size() > max_exports)
+    return Problem{"export", "has more than " + std::to_string(max_exports) + " exports",
+                   "write several attributes into one file"};
   for (const Export& e : scene.exports) {
     if ((found = export_problem(scene, e))) return found;
   }

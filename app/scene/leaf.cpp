@@ -11,6 +11,7 @@
 #include "app/advice/wishes.h"
 #include "app/scene/presets.h"
 #include "app/scene/toml/error.h"
+#include "app/scene/toml/toml_text.h"
 #include "app/support/text.h"
 #include "sim/shapes/numbered_files.h"
 
@@ -40,10 +41,14 @@ double bounded_whole_number(const Leaf& leaf) {
   return x;
 }
 
+/// Pictures and runs name the file in texts of UTF-8.
 std::string absolute_path(const Leaf& leaf, const std::string& name) {
   std::error_code error;
   const std::filesystem::path folder = leaf.source.base_dir;
-  return std::filesystem::absolute(folder / name, error).lexically_normal().string();
+  std::string path = std::filesystem::absolute(folder / name, error).lexically_normal().string();
+  if (!toml::is_utf8(path))
+    leaf.fail("a file in folders whose names are UTF-8", "rename the folder: " + path);
+  return path;
 }
 
 /// Names the path that was tried, and a file there that has nearly that name.
@@ -87,37 +92,6 @@ void refuse_few_bytes(const Leaf& leaf) {
 }
 
 }  // namespace
-
-std::optional<double> bytes_of(std::string_view text) {
-  struct Suffix {
-    std::string_view name;
-    double factor;
-  };
-  constexpr Suffix suffixes[] = {{"KiB", 0x1p10},
-                                 {"MiB", 0x1p20},
-                                 {"GiB", 0x1p30},
-                                 {"TiB", 0x1p40},
-                                 {"kB", 1e3},
-                                 {"KB", 1e3},
-                                 {"MB", 1e6},
-                                 {"GB", 1e9},
-                                 {"TB", 1e12},
-                                 {"B", 1},
-                                 // Alone as for Slurm, Docker and systemd: powers of 1024.
-                                 {"K", 0x1p10},
-                                 {"M", 0x1p20},
-                                 {"G", 0x1p30},
-                                 {"T", 0x1p40}};
-  double count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc{}) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  for (const Suffix& suffix : suffixes) {
-    if (text == suffix.name) return std::trunc(count * suffix.factor);
-  }
-  return std::nullopt;
-}
 
 void Source::fail(toml::Location where, const std::string& message, const std::string& hint) const {
   if (where.override_index >= 0) {

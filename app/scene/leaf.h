@@ -42,9 +42,6 @@ struct Leaf {
   const std::string& text(const std::string& what) const;
 };
 
-/// "8GiB" or "1.5 MB" in bytes.
-std::optional<double> bytes_of(std::string_view text);
-
 void read_leaf(const Leaf& leaf, bool& member);
 void read_leaf(const Leaf& leaf, double& member);
 void read_leaf(const Leaf& leaf, int& member);

@@ -164,6 +164,7 @@ std::string read_toml_file(const std::string& file) {
   }
   refuse_waiting_pipe(file);
   std::string text = fs::is_fifo(file, error) ? text_of_stream(file) : read_whole(file);
+  if (text.size() > toml::max_toml_bytes) throw toml::SceneError(file, 0, 0, "larger than 1 MiB");
   if (file.ends_with(".png"))
     throw toml::SceneError(file, 0, 0, "is not a PNG picture, although its name ends in .png",
                            "name a scene file, or a picture that neve has made");

@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "app/advice/suggest.h"
-#include "app/scene/leaf.h"
 #include "app/support/errors.h"
+#include "app/support/room.h"
 #include "app/support/text.h"
 
 namespace neve::app::setup {
 
 namespace {
 
-constexpr const char *memory_name = "NEVE_MAX_MEMORY", *particle_name = "NEVE_MAX_PARTICLES";
+constexpr const char *memory_name = memory_cap_name, *particle_name = "NEVE_MAX_PARTICLES";
 
 std::string text_of(const char* name) {
   const char* text = std::getenv(name);
@@ -30,7 +30,7 @@ double cap_of(const char* name, double (*read)(const std::string&, const std::st
 }  // namespace
 
 double memory_cap(const std::string& text, const std::string& where) {
-  std::optional<double> bytes = scene::bytes_of(text);
+  std::optional<double> bytes = bytes_of(text);
   if (!bytes) bytes = finite_number(text);
   // Nothing runs in less: 16 is 16GiB without its unit.
   constexpr double least = 1e6;

@@ -8,12 +8,14 @@
 #include "app/advice/suggest.h"
 #include "app/output/picture_writer.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/read.h"
 #include "app/setup/caps.h"
 #include "app/setup/mosaic_layout.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
+#include "app/support/room.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/health/limits.h"
@@ -34,6 +36,10 @@ constexpr std::uint64_t driver_address_space = 1'000'000'000;
 /// Plain particles take 24 to 29, smoke with supersampling 50.
 constexpr double bytes_per_sample = 36;
 constexpr double bytes_per_pixel = 4;
+/// Of the program and a software rasteriser before anything is drawn.
+constexpr double program_bytes = 8e7;
+/// Of a frame; the texts of so many are small beside their pixels.
+constexpr double few_pictures = 20;
 
 std::vector<scene::PictureSize> picture_sizes(const scene::Scene& scene) {
   std::vector<scene::PictureSize> sizes;
@@ -52,6 +58,10 @@ double picture_memory(const scene::Scene& scene, Quality quality) {
     together += pixels * bytes_per_pixel;
     waiting = std::max(waiting, pixels * bytes_per_pixel * (output::picture_queue_capacity + 1));
   }
+  // Each picture has the whole scene in it.
+  const double pictures = static_cast<double>(scene.views.size() + scene.mosaics.size());
+  if (pictures > few_pictures)
+    together += 1.2 * pictures * static_cast<double>(scene::write_scene(scene).size());
   return drawn + together + waiting;
 }
 
@@ -198,6 +208,16 @@ Quality quality_named(const std::string& name) {
 
 int supersampling(Quality quality) {
   return quality == Quality::final ? 2 : 1;
+}
+
+void check_picture(const std::string& what, const scene::PictureSize& size, int largest,
+                   const std::string& place, const std::string& advice) {
+  if (std::max(size.width, size.height) > largest)
+    refuse(what + " is " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+               " pixels, and this backend draws at most " + std::to_string(largest) + " a side",
+           place.c_str(), advice);
+  require_room(program_bytes + 1.0 * size.width * size.height * bytes_per_sample, what, place,
+               advice);
 }
 
 scene::PictureSize size_of(const scene::Scene& scene, const scene::View& view) {

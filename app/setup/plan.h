@@ -43,6 +43,12 @@ MemoryLimit memory_limit(const scene::Scene& scene);
 
 int supersampling(Quality quality);
 
+/// Before any step: a picture of this size can be drawn. @param largest  side that the backend
+/// draws
+/// @throws LimitError
+void check_picture(const std::string& what, const scene::PictureSize& size, int largest,
+                   const std::string& place, const std::string& advice);
+
 scene::PictureSize size_of(const scene::Scene& scene, const scene::View& view);
 
 /// @throws sim::ShapeError for meshes that cannot be read

@@ -1,5 +1,6 @@
 #include "app/support/progress.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,7 @@
 
 #include "app/support/errors.h"
 #include "app/support/text.h"
+#include "app/support/version.h"
 
 namespace neve::app {
 
@@ -77,6 +79,14 @@ double WorkClock::seconds_for(double left) const {
   return done > 0 && span.count() > 1 ? left * span.count() / done : -1;
 }
 
+void append_line(const std::string& file, const std::string& line) {
+  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
+  if (fd < 0) return;
+  const std::string text = printable_text(line) + "\n";
+  [[maybe_unused]] const ssize_t written = ::write(fd, text.data(), text.size());
+  ::close(fd);
+}
+
 bool can_update_lines(int fd) {
   const char* terminal = std::getenv("TERM");
   const char* no_color = std::getenv("NO_COLOR");
@@ -91,11 +101,25 @@ Progress::Progress(std::ostream& out, Verbosity verbosity, bool updates,
       updates_(updates && !options.is_json),
       is_json_(options.is_json),
       shown_at_(Clock::now()) {
-  if (options.log.empty()) return;
-  log_.open(options.log, std::ios::app);
-  if (!log_)
-    throw IoError(options.log + ": error: cannot be written: " + std::strerror(errno), options.log,
-                  "give --log a file in a folder that exists");
+  if (!options.log.empty()) open_log(options.log);
+}
+
+void Progress::open_log(const std::string& file) {
+  const auto fail = [&](int reason) {
+    throw IoError(file + ": error: cannot be written: " +
+                      (reason == ENXIO ? "nobody reads this pipe" : std::strerror(reason)),
+                  file, "give --log a file in a folder that exists");
+  };
+  // Opened so, a pipe without a reader does not wait for one.
+  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
+  if (fd < 0) fail(errno);
+  errno = 0;
+  log_.open(file, std::ios::app);
+  const int reason = errno;
+  ::close(fd);
+  if (!log_) fail(reason);
+  log(std::string("neve ") + version);
+  if (!log_) fail(errno);
 }
 
 Progress::~Progress() {
@@ -199,7 +223,15 @@ void Progress::print(const std::string& message, const char* event, const std::s
 }
 
 void Progress::log(const std::string& message) {
-  if (log_.is_open()) log_ << time_text() << "  " << message << std::endl;
+  if (!log_.is_open() || !log_) return;
+  errno = 0;
+  log_ << time_text() << "  " << printable_text(message) << std::endl;
+  if (log_ || !is_log_begun_) {
+    is_log_begun_ = true;
+    return;
+  }
+  print(std::string("neve: warning: --log cannot be written any more: ") + std::strerror(errno),
+        "warning", "--log cannot be written any more");
 }
 
 void Progress::clear() {

@@ -39,6 +39,9 @@ std::string time_text();
 /// "8 s", "3 min 20 s", "2 h 05 min"
 std::string duration_text(double seconds);
 
+/// Adds a line to a log, as far as it can be written: a pipe has to have a reader.
+void append_line(const std::string& file, const std::string& line);
+
 /// Estimates the remaining time from the finished units of work.
 class WorkClock {
  public:
@@ -106,6 +109,7 @@ class Progress {
   void clear_line();
   void print(const std::string& message, const char* event, const std::string& text);
   void print_event(const Json& event);
+  void open_log(const std::string& file);
   void log(const std::string& message);
 
   std::mutex mutex_;
@@ -114,6 +118,7 @@ class Progress {
   bool updates_;
   bool is_json_;
   std::ofstream log_;
+  bool is_log_begun_ = false;
   bool has_line_ = false;
   ProgressState state_;
   Clock::time_point shown_at_;

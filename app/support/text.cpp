@@ -32,6 +32,27 @@ std::string bytes_text(std::uint64_t bytes) {
   return fixed_text(value, unit == 0 || value >= 100 ? 0 : 1) + " " + units[unit];
 }
 
+std::optional<double> bytes_of(std::string_view text) {
+  struct Suffix {
+    std::string_view name;
+    double factor;
+  };
+  // K, M, G and T alone as for Slurm, Docker and systemd: powers of 1024.
+  constexpr Suffix suffixes[] = {{"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}, {"TiB", 0x1p40},
+                                 {"kB", 1e3},     {"KB", 1e3},     {"MB", 1e6},     {"GB", 1e9},
+                                 {"TB", 1e12},    {"B", 1},        {"K", 0x1p10},   {"M", 0x1p20},
+                                 {"G", 0x1p30},   {"T", 0x1p40}};
+  double count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc{}) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  for (const Suffix& suffix : suffixes) {
+    if (text == suffix.name) return std::trunc(count * suffix.factor);
+  }
+  return std::nullopt;
+}
+
 std::string printable_text(const std::string& text) {
   std::string printable;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -46,6 +67,13 @@ std::string printable_text(const std::string& text) {
     k += is_long_control;
   }
   return printable;
+}
+
+std::string line_text(const std::string& text) {
+  std::string line;
+  for (const char c : printable_text(text))
+    line += c == '\n' ? "\\x0a" : c == '\t' ? "\\x09" : std::string(1, c);
+  return line;
 }
 
 std::optional<double> finite_number(std::string_view text) {

@@ -19,9 +19,13 @@ std::string rough_text(double value);
 std::string about_count_text(double value);
 /// "1.2 GiB"
 std::string bytes_text(std::uint64_t bytes);
+/// "8GiB" or "1.5 MB" in bytes.
+std::optional<double> bytes_of(std::string_view text);
 /// With control characters as \x1b and the like: those of a stranger's file do nothing to a
 /// terminal. Line feeds and tabs stay.
 std::string printable_text(const std::string& text);
+/// The same on one line: line feeds and tabs are written out too.
+std::string line_text(const std::string& text);
 /// The number that a text is, and nothing else, not even blanks.
 template <class Number = double>
 std::optional<Number> number_of(std::string_view text) {

@@ -38,7 +38,8 @@ Moments::Moments(StatesFolder states, Progress& progress)
 }
 
 void Moments::add_run(const std::filesystem::path& folder) {
-  if (record::read_run_json(folder).value("version", "") != version) return;
+  const Json run = record::read_run_json(folder);
+  if (!run.is_object() || run.value("version", Json()) != version) return;
   run_ = folder;
   for (const int frame : output::kept_states(folder)) on_disk_[frame] = 0;
   for (const auto& [frame, steps] : output::checkpoint_steps(folder)) on_disk_[frame] = steps;

@@ -4,6 +4,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
+#include "app/record/picture_files.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
@@ -52,8 +53,7 @@ void read_scene_file(const Edits& edits, Origin& origin) {
 
 /// The frame and the scene inside a picture.
 void read_picture(const Edits& edits, Origin& origin) {
-  record::PictureRecord record = record::read_picture_record(origin.scene_file);
-  record::check_files(record);
+  record::PictureRecord record = open_picture(origin.scene_file);
   origin.overrides = record.overrides;
   origin.changes = record.changes;
   origin.coarsening = record.coarsening;
@@ -66,6 +66,15 @@ void read_picture(const Edits& edits, Origin& origin) {
       },
       origin);
   origin.picture = std::move(record);
+}
+
+std::vector<scene::LiveChange> changes_of_run(const Json& run, const fs::path& file) {
+  try {
+    return scene::live_changes(run.value("changes", Json::array()));
+  } catch (const std::runtime_error& error) {
+    throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string(),
+                "neve verify says what else is damaged");
+  }
 }
 
 void read_run(const Edits& edits, Origin& origin) {
@@ -81,7 +90,7 @@ void read_run(const Edits& edits, Origin& origin) {
     const Json run = parse_json(output::read_file(file));
     origin.scene =
         scene::read_scene_text(run.at("scene").get<std::string>(), file.string() + " (its scene)");
-    origin.changes = scene::live_changes(run.value("changes", Json::array()));
+    origin.changes = changes_of_run(run, file);
     origin.overrides = run.value("overrides", std::vector<std::string>{});
     origin.coarsening = run.value("coarsen", 1.0);
     origin.run_frames = record::frame_records(run);
@@ -93,6 +102,13 @@ void read_run(const Edits& edits, Origin& origin) {
 }
 
 }  // namespace
+
+record::PictureRecord open_picture(const std::string& file) {
+  record::PictureRecord record = record::read_picture_record(file);
+  record::find_files(file, record);
+  record::require_listed(record, scene::read_scene_text(record.scene, file + " (its scene)"), file);
+  return record;
+}
 
 bool is_folder(const std::string& path) {
   std::error_code error;

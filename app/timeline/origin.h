@@ -45,6 +45,9 @@ struct Origin {
   std::string name() const;
 };
 
+/// What a picture says of itself, with the files of its scene where they are now. @throws Error
+record::PictureRecord open_picture(const std::string& file);
+
 /// True for the path of a folder that exists.
 bool is_folder(const std::string& path);
 

@@ -9,6 +9,8 @@
 #include "app/scene/flat.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/resolve.h"
+#include "app/support/clock.h"
+#include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/timeline/changes.h"
 #include "app/timeline/times.h"
@@ -99,7 +101,11 @@ void Timeline::make_due() {
   const auto is_due = [&](std::size_t k) {
     return k < changes_.size() && changes_[k].step <= simulation_.steps();
   };
+  const Clock::time_point begin = Clock::now();
   while (is_due(made_)) {
+    // Few changes are made before anyone waits for them.
+    if (is_interrupted() && seconds_since(begin) > 0.5)
+      throw Error(exit_interrupted, "interrupted while the changes of the run were made again");
     std::size_t end = made_;
     std::set<std::string> addresses;
     while (is_due(end) && changes_[end].step == changes_[made_].step &&

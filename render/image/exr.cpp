@@ -97,9 +97,38 @@ Imf::Header header_of(const ExrPicture& picture, const ExrHeader& from) {
   return header;
 }
 
+/// The library allocates what an attribute says: checked before it sees the file. Attributes that
+/// hold sizes of their own inside are in no file of neve.
+void check_attributes(std::span<const std::uint8_t> bytes) {
+  std::size_t at = 8;  // magic number and version
+  const auto word = [&] {
+    const auto rest = bytes.subspan(std::min(at, bytes.size()));
+    const auto end = std::ranges::find(rest, std::uint8_t{0});
+    if (end == rest.end()) throw ImageError("no OpenEXR file: its header has no end");
+    std::string text(rest.begin(), end);
+    at += text.size() + 1;
+    return text;
+  };
+  while (!word().empty()) {
+    const std::string type = word();
+    std::uint32_t size = 0;
+    if (bytes.size() - at < sizeof size) throw ImageError("no OpenEXR file: its header has no end");
+    std::memcpy(&size, bytes.data() + at, sizeof size);
+    at += sizeof size;
+    if (size > bytes.size() - at)
+      throw ImageError("no OpenEXR file: an attribute of " + std::to_string(size) +
+                       " bytes is larger than the file");
+    for (const char* other : {"preview", "stringvector", "floatvector", "deepImageState"})
+      if (type == other)
+        throw ImageError("an OpenEXR file with a " + type + ", which neve never writes");
+    at += size;
+  }
+}
+
 /// Reads with the errors of the library as ours.
 template <class Read>
 auto reading(std::span<const std::uint8_t> bytes, const Read& read) {
+  check_attributes(bytes);
   try {
     BytesIn stream(bytes);
     Imf::InputFile file(stream);
@@ -114,14 +143,21 @@ auto reading(std::span<const std::uint8_t> bytes, const Read& read) {
 }
 
 /// Channels of whole numbers are read in single precision.
-ExrPicture empty_picture(const Imf::Header& header) {
+ExrPicture empty_picture(const Imf::Header& header, std::size_t packed, double room) {
   const Imath::Box2i& window = header.dataWindow();
   const double width = 1.0 + window.max.x - window.min.x;
   const double height = 1.0 + window.max.y - window.min.y;
-  double numbers = 0;
+  constexpr double best_deflate = 1032;  // bytes that one byte of it can become
+  double count = 0;
   const Imf::ChannelList& channels = header.channels();
-  for (auto c = channels.begin(); c != channels.end(); ++c) numbers += width * height;
-  if (!(numbers <= 2147483648.0)) throw ImageError("the picture has too many numbers");
+  for (auto c = channels.begin(); c != channels.end(); ++c)
+    count += width * height * (c.channel().type == Imf::HALF ? 2 : 4);
+  if (!(count <= best_deflate * static_cast<double>(packed)))
+    throw ImageError("the picture has more numbers than its bytes can hold");
+  if (count > room)
+    throw ImageSizeError("a picture of " + std::to_string(static_cast<std::int64_t>(width)) + "x" +
+                             std::to_string(static_cast<std::int64_t>(height)) + " pixels",
+                         count);
   ExrPicture picture{static_cast<int>(width), static_cast<int>(height), {}};
   const auto pixels = static_cast<std::size_t>(width * height);
   for (auto c = channels.begin(); c != channels.end(); ++c) {
@@ -171,9 +207,9 @@ std::vector<std::uint8_t> encode_exr(const ExrPicture& picture, const ExrHeader&
   return std::move(stream.bytes);
 }
 
-ExrPicture decode_exr(std::span<const std::uint8_t> bytes) {
-  return reading(bytes, [](Imf::InputFile& file) {
-    ExrPicture picture = empty_picture(file.header());
+ExrPicture decode_exr(std::span<const std::uint8_t> bytes, double room) {
+  return reading(bytes, [&](Imf::InputFile& file) {
+    ExrPicture picture = empty_picture(file.header(), bytes.size(), room);
     const Imath::V2i corner = file.header().dataWindow().min;
     Imf::FrameBuffer buffer;
     for (const ExrChannel& channel : picture.channels) {

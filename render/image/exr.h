@@ -47,8 +47,10 @@ std::vector<float> numbers_of(const ExrChannel& channel);
 /// Compresses without loss (ZIP, blocks of 16 rows).
 std::vector<std::uint8_t> encode_exr(const ExrPicture& picture, const ExrHeader& header = {});
 
-/// @throws ImageError when the bytes are no whole OpenEXR file of at most 2^31 numbers
-ExrPicture decode_exr(std::span<const std::uint8_t> bytes);
+/// @param room  bytes of memory that its numbers may take
+/// @throws ImageError when the bytes are no whole OpenEXR file
+ExrPicture decode_exr(std::span<const std::uint8_t> bytes,
+                      double room = std::numeric_limits<double>::infinity());
 /// The string attributes of the header. @throws ImageError
 PngText read_exr_text(std::span<const std::uint8_t> bytes);
 

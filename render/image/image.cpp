@@ -42,6 +42,18 @@ void* note_of_stb(void* memory) {
   return memory;
 }
 
+/// Bytes that a picture of its size can need at once: data that unpack to more belong to no pixel.
+thread_local std::size_t max_of_stb = 0;
+thread_local bool has_stb_too_much = false;
+
+void* grown_by_stb(void* memory, std::size_t size) {
+  if (size > max_of_stb) {
+    has_stb_too_much = true;
+    return nullptr;
+  }
+  return note_of_stb(std::realloc(memory, size));
+}
+
 }  // namespace
 }  // namespace neve::render
 
@@ -58,7 +70,7 @@ void* note_of_stb(void* memory) {
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
 #define STBI_MALLOC(size) neve::render::note_of_stb(std::malloc(size))
-#define STBI_REALLOC(memory, size) neve::render::note_of_stb(std::realloc(memory, size))
+#define STBI_REALLOC(memory, size) neve::render::grown_by_stb(memory, size)
 #define STBI_FREE(memory) std::free(memory)
 #include <stb/stb_image.h>
 
@@ -115,24 +127,43 @@ void read_itxt(std::span<const std::uint8_t> rest, PngText& text) {
   text[std::string(keyword.begin(), keyword.end())] = std::string(rest.begin(), rest.end());
 }
 
+/// Bytes of a PNG while it is decoded.
+struct DecodedSize {
+  double unpacked = 0;  ///< rows as they were packed
+  double pixels = 0;    ///< as they are handed over
+};
+
 /// A few bytes that say they are a large picture are refused before there is memory for it.
-void check_size(const std::vector<PngChunk>& chunks) {
+DecodedSize check_size(const std::vector<PngChunk>& chunks, double room) {
   constexpr std::size_t best_deflate = 1032;  // bytes that one byte of deflate can become
   std::size_t packed = 0;
   for (const PngChunk& chunk : chunks)
     if (chunk.type == "IDAT") packed += chunk.data.size();
   const std::span<const std::uint8_t> header = chunks.front().data;
-  if (header.size() < 13) return;  // decoding says why
+  if (header.size() < 13) return {};  // decoding says why
   const auto number_at = [&](std::size_t at) {
     return std::size_t{header[at]} << 24 | std::size_t{header[at + 1]} << 16 |
            std::size_t{header[at + 2]} << 8 | std::size_t{header[at + 3]};
   };
   const std::size_t width = number_at(0), height = number_at(4), kind = header[9];
   const std::size_t samples = kind == 2 ? 3 : kind == 4 ? 2 : kind == 6 ? 4 : 1;
-  if ((width * samples * header[8] + 7) / 8 * height > best_deflate * packed)
+  const std::size_t row = (width * samples * header[8] + 7) / 8;
+  if (row * height > best_deflate * packed)
     throw ImageError("PNG is damaged: " + std::to_string(packed) +
                      " bytes of data are too few for " + std::to_string(width) + "x" +
                      std::to_string(height) + " pixels");
+  // An interlaced picture has up to 7 bytes more a row and pass.
+  const double rows = static_cast<double>(height) * static_cast<double>(row + 1) +
+                      (header[12] ? 16.0 * static_cast<double>(height) + 64 : 0);
+  // Palettes become colours; samples of 16 bits are halved at the end.
+  const double channels = kind == 3 ? 4 : static_cast<double>(samples) + (samples % 2 ? 1 : 0),
+               pixels = static_cast<double>(width) * static_cast<double>(height) * channels *
+                        (header[8] == 16 ? 2 : 1);
+  const double needed = rows + 2.25 * pixels;
+  if (needed > room)
+    throw ImageSizeError(
+        "a picture of " + std::to_string(width) + "x" + std::to_string(height) + " pixels", needed);
+  return {rows, pixels};
 }
 
 void check_comparable(const Image& a, const Image& b) {
@@ -177,14 +208,20 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
 
 namespace {
 
-/// @param format  for messages
-Image decode_by_stb(std::span<const std::uint8_t> bytes, const std::string& format) {
+/// @param format    for messages
+/// @param unpacked  bytes that its data may unpack to
+Image decode_by_stb(std::span<const std::uint8_t> bytes, const std::string& format,
+                    std::size_t unpacked) {
   Image image;
-  has_stb_no_memory = false;
+  has_stb_no_memory = has_stb_too_much = false;
+  // It doubles what it unpacks into, and what it collects of the packed bytes.
+  max_of_stb = 4096 + 2 * std::max(unpacked, bytes.size());
   const std::unique_ptr<unsigned char, void (*)(void*)> pixels(
       stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image.width,
                             &image.height, &image.channels, 0),
       stbi_image_free);
+  if (!pixels && has_stb_too_much)
+    throw ImageError(format + " is damaged: its data unpack to more than its pixels");
   if (!pixels && has_stb_no_memory) throw std::bad_alloc();
   if (!pixels) {
     const char* reason = stbi_failure_reason();  // none for a block of an unknown type
@@ -197,17 +234,28 @@ Image decode_by_stb(std::span<const std::uint8_t> bytes, const std::string& form
 
 }  // namespace
 
-Image decode_png(std::span<const std::uint8_t> bytes) {
+Image decode_png(std::span<const std::uint8_t> bytes, double room) {
   if (bytes.size() > INT_MAX) throw ImageError("PNG is too large");
-  check_size(read_png_chunks(bytes));  // stb checks no checksums and forgives missing ends
-  return decode_by_stb(bytes, "PNG");
+  // stb checks no checksums and forgives missing ends.
+  const DecodedSize size = check_size(read_png_chunks(bytes), room);
+  return decode_by_stb(bytes, "PNG", static_cast<std::size_t>(size.unpacked));
 }
 
-Image decode_jpeg(std::span<const std::uint8_t> bytes) {
+Image decode_jpeg(std::span<const std::uint8_t> bytes, double room) {
   if (bytes.size() > INT_MAX) throw ImageError("JPEG is too large");
   if (bytes.size() < 3 || bytes[0] != 0xff || bytes[1] != 0xd8 || bytes[2] != 0xff)
     throw ImageError("not a JPEG: it does not begin as one");
-  return decode_by_stb(bytes, "JPEG");
+  int width = 0, height = 0, channels = 0;
+  const auto length = static_cast<int>(bytes.size());
+  if (stbi_info_from_memory(bytes.data(), length, &width, &height, &channels)) {
+    // Planes of coefficients (progressive), of samples, and the pixels.
+    const double needed = 8.0 * width * height * std::max(channels, 3);
+    if (needed > room)
+      throw ImageSizeError(
+          "a picture of " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
+          needed);
+  }
+  return decode_by_stb(bytes, "JPEG", bytes.size());
 }
 
 double read_png_gamma(std::span<const std::uint8_t> bytes) {

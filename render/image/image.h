@@ -2,6 +2,7 @@
 /// Pictures as pixels and as PNG bytes with text in them.
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <stdexcept>
@@ -12,6 +13,12 @@ namespace neve::render {
 
 struct ImageError : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// A picture that needs more memory than it may take. what() says which: "a picture of 9x9 pixels"
+struct ImageSizeError : ImageError {
+  ImageSizeError(const std::string& picture, double needed) : ImageError(picture), bytes(needed) {}
+  double bytes;
 };
 
 /// 8-bit sRGB, top row first; a fourth channel is straight alpha.
@@ -25,14 +32,18 @@ using PngText = std::map<std::string, std::string>;
 
 std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text = {});
 
-/// @throws ImageError when the bytes are no whole PNG
-Image decode_png(std::span<const std::uint8_t> bytes);
+/// @param room  bytes of memory that it may take meanwhile
+/// @throws ImageError when the bytes are no whole PNG, ImageSizeError before more than `room` is
+/// taken
+Image decode_png(std::span<const std::uint8_t> bytes,
+                 double room = std::numeric_limits<double>::infinity());
 PngText read_png_text(std::span<const std::uint8_t> bytes);
 /// Exponent that made the samples of light, 1 for samples in linear light; 0 where the PNG says
 /// sRGB, another profile, or nothing. @throws ImageError when the bytes are no whole PNG
 double read_png_gamma(std::span<const std::uint8_t> bytes);
-/// Baseline and progressive, of one or three channels. @throws ImageError
-Image decode_jpeg(std::span<const std::uint8_t> bytes);
+/// Baseline and progressive, of one or three channels. @throws as decode_png
+Image decode_jpeg(std::span<const std::uint8_t> bytes,
+                  double room = std::numeric_limits<double>::infinity());
 
 /// Absolute difference over all channels, 0 to 255.
 struct Difference {

@@ -35,11 +35,12 @@ std::string paint(const char* what, Rgba color) {
 std::string xml_text(const std::string& text) {
   std::string out;
   for (const char c : text)
-    out += c == '<'   ? "&lt;"
-           : c == '>' ? "&gt;"
-           : c == '&' ? "&amp;"
-           : c == '"' ? "&quot;"
-                      : std::string(1, c);
+    out += c >= 0 && c < ' ' ? " "  // XML has no controls
+           : c == '<'        ? "&lt;"
+           : c == '>'        ? "&gt;"
+           : c == '&'        ? "&amp;"
+           : c == '"'        ? "&quot;"
+                             : std::string(1, c);
   return out;
 }
 

@@ -9,6 +9,8 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
+constexpr double tests_per_corner = 20'000;
+
 /// Twice the area, with its sign.
 double area_of(const Point& a, const Point& b, const Point& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
@@ -51,16 +53,22 @@ class Ears {
     return area_of(flat_[i], flat_[j], flat_[m]) < 0;
   }
 
-  void cut(std::size_t k) { left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(k)); }
+  void cut(std::size_t k) {
+    tests_ += 0.1 * static_cast<double>(left_.size() - k);  // moving is cheaper than testing
+    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  double tests() const { return tests_; }
 
   /// @param is_flat  look for corners on a straight line instead
-  bool is_ear(std::size_t k, bool is_flat) const {
+  bool is_ear(std::size_t k, bool is_flat) {
+    tests_ += 1;
     const auto [i, j, m] = around(k);
     const Point &a = flat_[i], &b = flat_[j], &c = flat_[m];
     const double area = area_of(a, b, c), size = (b - a).squaredNorm() + (c - b).squaredNorm();
     if (is_flat) return std::abs(area) <= 1e-12 * size;
     if (!(area > 1e-12 * size)) return false;
     return std::none_of(left_.begin(), left_.end(), [&](std::size_t other) {
+      tests_ += 1;
       const Point& p = flat_[other];
       // Corners in one place touch: they are no obstacle.
       if (p == a || p == b || p == c) return false;
@@ -71,6 +79,7 @@ class Ears {
  private:
   std::vector<Point> flat_;
   std::vector<std::size_t> left_;
+  double tests_ = 0;  ///< of corners, so far
 };
 
 }  // namespace
@@ -88,7 +97,11 @@ bool is_convex(const std::vector<Vec3d>& polygon) {
 std::optional<std::vector<CornerTriple>> cut_ears(const std::vector<Vec3d>& polygon) {
   Ears ears(flattened(polygon));
   std::vector<CornerTriple> triangles;
+  // The search for ears takes up to the third power of the corners; it is given up before a file
+  // that is twice as long takes more than twice the time.
+  const double most = std::min(1e9, tests_per_corner * static_cast<double>(polygon.size()));
   while (ears.left() > 3) {
+    if (ears.tests() > most) return std::nullopt;
     std::optional<std::size_t> found;
     for (const bool is_flat : {false, true})
       for (std::size_t k = 0; k < ears.left() && !found; ++k)

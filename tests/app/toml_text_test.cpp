@@ -97,8 +97,8 @@ TEST(TomlText, BadBytesAreLocated) {
 }
 
 TEST(TomlText, SizeAndDepthAreBounded) {
-  EXPECT_EQ(toml_error(std::string(app::scene::toml::max_toml_bytes + 1, '#')),
-            "f: error: larger than 1 MiB");
+  EXPECT_EQ(toml_error(std::string(app::scene::toml::max_text_bytes + 1, '#')),
+            "f: error: larger than 16 MiB");
   EXPECT_EQ(toml_error(std::string(app::scene::toml::max_toml_bytes, '#')), "no error");
   EXPECT_EQ(toml_error("a" + std::string(65, '.')), "f:1:66: error: more than 64 dots in one key");
   EXPECT_EQ(toml_error("# " + std::string(65, '.')), "no error");

@@ -166,7 +166,7 @@ TEST_F(Strangers, ManifestsWithImpossibleNumbersAreRefused) {
       EXPECT_EQ(code(place, value), 3) << place << " " << value;
   for (const char* view : {"../../x", "/etc", "", "a/b"}) EXPECT_EQ(code("/view", view), 3) << view;
   EXPECT_EQ(code("/runs", app::Json::array()), 3);
-  EXPECT_EQ(code("/title", "the same"), -1) << "unfinished, but read: collect is 0, verify is 9";
+  EXPECT_EQ(code("/title", "the same"), 9) << "not as neve sweep wrote it";
 }
 
 TEST_F(Strangers, AxesWithTooManyValuesAreRefusedBeforeTheyAreMade) {

@@ -171,7 +171,7 @@ void read_picture(std::span<const std::uint8_t> given) {
   } catch (const Error&) {
   }
   try {
-    render::decode_png(bytes);
+    render::decode_png(bytes, 256e6);
   } catch (const render::ImageError&) {
   }
 }
@@ -187,7 +187,11 @@ std::vector<Bytes> run_records() {
   for (const Json& frame : small_run().checkpoint.progress["frames"])
     record.frames.push_back(record::frame_record(frame));
   record.files = {{"particles/0000.png", "0123456789abcdef"}};
-  return {bytes_of(record::with_own_hash(record::to_json(record)))};
+  Json changed = record::to_json(record), no_text = changed;
+  changed["changes"] = "x";
+  no_text["version"] = {nullptr};
+  return {bytes_of(record::with_own_hash(record::to_json(record))),
+          bytes_of(record::with_own_hash(changed)), bytes_of(record::with_own_hash(no_text))};
 }
 
 std::vector<Bytes> pictures() {
@@ -198,7 +202,20 @@ std::vector<Bytes> pictures() {
   record.state_hash = "0123456789abcdef";
   record.quality = "preview";
   const render::Image image{2, 2, 3, std::vector<std::uint8_t>(12, 100)};
-  return {render::encode_png(image, record::to_png_text(record)), render::encode_png(image)};
+  std::vector<Bytes> list{render::encode_png(image, record::to_png_text(record)),
+                          render::encode_png(image)};
+  // A kind of fault each.
+  for (const auto& [key, value] :
+       {std::pair{"files", R"({"/x/proc/self/pagemap":"0","a/a/a/b":"0"})"},
+        {"frame", "2147483647"},
+        {"coarsen", "inf"},
+        {"changes", R"([{"step":0,"address":"solver.gravity","value":"[0, 1, 0]"}])"},
+        {"strip", R"({"times":[0,0.01],"columns":1,"width":16384})"}}) {
+    render::PngText text = record::to_png_text(record);
+    text[std::string("neve:") + key] = value;
+    list.push_back(render::encode_png(image, text));
+  }
+  return list;
 }
 
 }  // namespace neve::test::fuzz

@@ -97,7 +97,8 @@ inline constexpr Folder folders[] = {
      "sim/base app/support app/scene/toml app/scene app/output app/record app/setup app/options "
      "app/run app/sweep/read app/sweep/plan"},
     {"app/sweep/jobs",
-     "sim app/support app/output app/setup app/options app/run app/sweep/plan app/sweep/store"},
+     "sim app/support app/output app/record app/setup app/options app/run app/sweep/plan "
+     "app/sweep/store"},
     {"app/sweep/sheet",
      "render/image render/frame render/gl render/overlay render app/support app/scene app/output "
      "app/setup app/options app/picture app/sweep/plan app/sweep/store app/sweep/jobs"},

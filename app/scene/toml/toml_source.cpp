@@ -65,6 +65,9 @@ class Converter {
 std::string message_of(const ::toml::parse_error& error) {
   const std::string text(error.description());
   const std::string prefix = "Error while parsing ";
+  // It shows pieces of the escapes that the text was given to it with.
+  if (text.find("redefine existing") != text.npos && text.find("'\"") != text.npos)
+    return "this key is given twice";
   return text.starts_with(prefix) ? "cannot parse " + text.substr(prefix.size()) : text;
 }
 

@@ -216,7 +216,11 @@ class Rewriter {
 
   void replace(const CodePoint& c, const std::string& ascii_text) {
     const int length = static_cast<int>(ascii_text.size());
-    if (length > 1) out_.escapes.push_back({line_, out_column_, length});
+    if (length > 1) {
+      const bool is_first = out_.escapes.empty() || out_.escapes.back().line != line_;
+      const int before = is_first ? 0 : out_.escapes.back().before + out_.escapes.back().length - 1;
+      out_.escapes.push_back({line_, out_column_, length, before});
+    }
     out_.text += ascii_text;
     out_column_ += length;
     at_ += c.length;
@@ -238,20 +242,30 @@ class Rewriter {
 }  // namespace
 
 Location AsciiToml::original(int line, int column) const {
-  const auto first = std::lower_bound(escapes.begin(), escapes.end(), line,
-                                      [](const Escape& e, int l) { return e.line < l; });
-  int shift = 0;
-  for (auto e = first; e != escapes.end() && e->line == line && e->column < column; ++e) {
-    // Inside an escape every column is the one code point.
-    shift += std::min(e->length - 1, column - e->column);
-  }
-  return {line, column - shift};
+  const auto is_before = [](const Escape& e, const Location& place) {
+    return e.line < place.line || (e.line == place.line && e.column < place.column);
+  };
+  const Location place{line, column};
+  const auto next = std::lower_bound(escapes.begin(), escapes.end(), place, is_before);
+  if (next == escapes.begin() || std::prev(next)->line != line) return place;
+  const Escape& last = *std::prev(next);
+  // Inside an escape every column is the one code point.
+  return {line, column - last.before - std::min(last.length - 1, column - last.column)};
 }
 
 AsciiToml to_ascii_toml(std::string_view text, const std::string& file) {
-  if (text.size() > max_toml_bytes) throw SceneError(file, 0, 0, "larger than 1 MiB");
+  if (text.size() > max_text_bytes) throw SceneError(file, 0, 0, "larger than 16 MiB");
   text = without_mark(text);
   return Rewriter(text, file).run();
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const CodePoint c = decode(text);
+    if (c.length == 0) return false;
+    text.remove_prefix(c.length);
+  }
+  return true;
 }
 
 bool is_clean_text(std::string_view text) {

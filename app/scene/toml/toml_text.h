@@ -13,7 +13,8 @@
 
 namespace neve::app::scene::toml {
 
-inline constexpr std::size_t max_toml_bytes = 1 << 20;
+/// Of a file; and of a text: neve writes out what people leave to defaults.
+inline constexpr std::size_t max_toml_bytes = 1 << 20, max_text_bytes = 16 << 20;
 
 struct AsciiToml {
   std::string text;
@@ -24,6 +25,7 @@ struct AsciiToml {
   /// A code point written as an escape of `length` columns, from `column` of `text`.
   struct Escape {
     int line, column, length;
+    int before;  ///< columns that the escapes before it in its line are longer
   };
   std::vector<Escape> escapes;  ///< in the order of the text
 };
@@ -31,6 +33,8 @@ struct AsciiToml {
 /// @param file only named in errors
 /// @throws SceneError located in the user's text
 AsciiToml to_ascii_toml(std::string_view text, const std::string& file);
+
+bool is_utf8(std::string_view text);
 
 /// True if `text` is valid UTF-8 without control bytes other than tab, LF and CR.
 bool is_clean_text(std::string_view text);

@@ -126,9 +126,16 @@ std::string toml_document(const Table& root) {
 std::string toml_string(std::string_view text) {
   constexpr std::string_view hex = "0123456789abcdef";
   std::string out = "\"";
-  for (const char c : text) {
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
+    const auto next = k + 1 < text.size() ? static_cast<unsigned char>(text[k + 1]) : 0;
+    if (byte == 0xC2 && next >= 0x80 && next < 0xA0) {  // a control that terminals obey
+      out += "\\u00";
+      out += hex[next >> 4];
+      out += hex[next & 15];
+      ++k;
+    } else if (c == '"' || c == '\\') {
       out += '\\';
       out += c;
     } else if (c == '\n') {

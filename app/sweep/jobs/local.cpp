@@ -14,6 +14,7 @@
 #include "app/output/checkpoint.h"
 #include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
+#include "app/record/earlier.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
@@ -325,7 +326,7 @@ class LocalJobs {
 
   /// Removes the files of an abandoned attempt.
   static void clean(const fs::path& folder) {
-    output::remove_earlier_run(folder);
+    record::remove_earlier_run(folder);
     output::remove_checkpoints(folder);
     std::error_code error;
     fs::remove(folder / "log", error);
@@ -426,6 +427,7 @@ class LocalJobs {
 bool has_beginning(const Run& run, const fs::path& folder) {
   const store::RunStatus status = store::read_status(folder);
   return status.state == store::RunState::ok && status.key == run.key &&
+         record::is_untouched(record::read_run_json(folder)) &&
          output::find_checkpoint(folder).checkpoint.has_value();
 }
 

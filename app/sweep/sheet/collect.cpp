@@ -1,5 +1,6 @@
 #include "app/sweep/sheet/collect.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <system_error>
@@ -87,13 +88,13 @@ std::string page_name(const std::string& name, std::size_t page) {
 }
 
 void write_sheet_movie(const fs::path& folder, const store::Manifest& manifest,
-                       const std::string& name, const output::MovieStyle& style,
+                       const std::string& name, int last, const output::MovieStyle& style,
                        Progress& progress) {
   if (!style.is_made) return;
   const output::MovieRequest request{folder / name,
                                      output::movie_path(folder, name, style.format),
                                      manifest.first_frame(),
-                                     manifest.last_frame(),
+                                     last,
                                      manifest.fps,
                                      false,
                                      0,
@@ -108,11 +109,20 @@ void write_sheet_movie(const fs::path& folder, const store::Manifest& manifest,
                   "free disk space, and neve sweep collect makes the movie");
 }
 
+/// The last frame of the sweep, or that of its newest picture: after that nothing changes.
+int last_drawn(const store::Manifest& manifest, const std::vector<store::RunResult>& results) {
+  int newest = manifest.first_frame();
+  for (const store::RunResult& result : results)
+    if (!result.frames.empty()) newest = std::max(newest, result.frames.back());
+  return std::min(newest, manifest.last_frame());
+}
+
 void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
-                      std::size_t page, const output::MovieStyle& movie, Progress& progress) {
-  const int first = manifest.first_frame(), last = manifest.last_frame();
+                      std::size_t page, int last, const output::MovieStyle& movie,
+                      Progress& progress) {
+  const int first = manifest.first_frame();
   const std::string name = page_name("sheet", page);
-  output::make_folder(folder / name);
+  output::make_own_folder(folder / name);
   output::remove_abandoned(folder / name);
   output::PictureWriter writer;
   for (int frame = first; frame <= last && !is_interrupted(); ++frame) {
@@ -122,13 +132,14 @@ void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, S
     progress.line(name + " " + std::to_string(frame) + "/" + std::to_string(last));
   }
   writer.finish();
-  if (!is_interrupted() && last > first) write_sheet_movie(folder, manifest, name, movie, progress);
+  if (!is_interrupted() && last > first)
+    write_sheet_movie(folder, manifest, name, last, movie, progress);
 }
 
 void write_sheets(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
-                  const output::MovieStyle& movie, Progress& progress) {
+                  int last, const output::MovieStyle& movie, Progress& progress) {
   for (std::size_t page = 0; page < maker.pages().size(); ++page)
-    write_sheet_page(folder, manifest, maker, page, movie, progress);
+    write_sheet_page(folder, manifest, maker, page, last, movie, progress);
   if (is_interrupted() || manifest.last_frame() == manifest.first_frame()) return;
   output::PictureWriter writer;
   std::size_t page = 0;
@@ -178,7 +189,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie,
   SheetMaker maker(folder, manifest, results, legends, renderer);
   std::vector<std::uint8_t> sheet;
   if (has_pictures(results)) {
-    write_sheets(folder, manifest, maker, movie, progress);
+    write_sheets(folder, manifest, maker, last_drawn(manifest, results), movie, progress);
     if (is_interrupted()) return;
     sheet = output::read_file(folder / "sheet.png");
   }

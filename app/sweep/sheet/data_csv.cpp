@@ -49,6 +49,11 @@ bool looks_like_number(const std::string& text) {
          result.ptr == text.data() + text.size();
 }
 
+/// Spreadsheets would evaluate it.
+bool looks_like_formula(const std::string& text) {
+  return text.find_first_of("=@+-\t\r") == 0;
+}
+
 /// "[0, -5, 0]": its three numbers, or none.
 std::vector<std::string> components(const std::string& value) {
   std::vector<std::string> parts(1);
@@ -81,7 +86,8 @@ std::string cell(const std::string& value, const std::string& type) {
   }
   // A string that looks like a number would give its column another type.
   const std::string text = plan::value_text(value);
-  return looks_like_number(text) || text.empty() ? "'" + text + "'" : text;
+  const bool is_quoted = looks_like_number(text) || text.empty() || looks_like_formula(text);
+  return is_quoted ? "'" + text + "'" : text;
 }
 
 /// Unique names of columns.

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/output/atomic_file.h"
+#include "app/output/read_picture.h"
 #include "app/output/sequence.h"
+#include "app/setup/plan.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/sweep/jobs/outcome.h"
@@ -59,7 +60,7 @@ bool is_late(const Run& run, const store::RunResult& result, int frame) {
 render::Image read_tile(const std::filesystem::path& file, int width, int height,
                         const Rgb& background) {
   try {
-    render::Image image = render::decode_png(output::read_file(file));
+    render::Image image = output::read_picture(file);
     if (image.channels == 4)
       image = render::compose(image.width, image.height, background, {{0, 0, std::move(image)}});
     if (image.width == width && image.height == height) return image;
@@ -78,10 +79,8 @@ render::Image read_tile(const std::filesystem::path& file, int width, int height
 /// The name of a run, or its settings, a line each.
 std::string strip_name(const store::Manifest& manifest, const Run& run) {
   constexpr std::size_t max_lines = 5;
-  store::Manifest own = manifest;
-  if (own.tile_label == "none") own.tile_label = "differences";
   if (!run.label.empty()) return run.label;
-  const std::vector<std::string> lines = tile_words(own, run, false, {1, max_lines});
+  const std::vector<std::string> lines = tile_words(manifest, run, false, {1, max_lines});
   return lines.empty() ? store::run_text(run) : joined(lines, "\n");
 }
 
@@ -119,7 +118,12 @@ SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& mani
       results_(results),
       legends_(legends),
       renderer_(renderer),
-      pages_(layout_pages(manifest, !legends.empty(), renderer.max_size())) {}
+      head_(manifest),
+      named_(manifest),
+      pages_(layout_pages(manifest, !legends.empty(), renderer.max_size())) {
+  head_.runs.clear();
+  if (named_.tile_label == "none") named_.tile_label = "differences";
+}
 
 render::Image SheetMaker::tile_picture(const Tile& tile, int width, int height,
                                        bool is_dark) const {
@@ -177,6 +181,8 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
 }
 
 render::Frame SheetMaker::frame_of(const SheetLayout& layout, const std::string& line) const {
+  setup::check_picture("the sheet", {layout.width, layout.height}, renderer_.max_size(),
+                       folder_.string(), "make its pictures smaller");
   render::Frame words;
   words.width = layout.width;
   words.height = layout.height;
@@ -265,7 +271,7 @@ std::vector<int> SheetMaker::moments() const {
 /// Runs as rows and moments as columns: a sheet of two axes.
 store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames, std::size_t first,
                                        std::size_t count) const {
-  store::Manifest grid = manifest_;
+  store::Manifest grid = head_;
   grid.columns = 1;
   grid.rows = 0;
   grid.tile_width = std::max(160, manifest_.tile_width * 2 / 3);
@@ -277,7 +283,7 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames, std::size
     times.values.push_back(fixed_text(frame / manifest_.fps, 3) + " s");
   grid.runs.clear();
   for (std::size_t r = 0; r < count; ++r) {
-    names.values.push_back(strip_name(manifest_, manifest_.runs[first + r]));
+    names.values.push_back(strip_name(named_, manifest_.runs[first + r]));
     for (std::size_t k = 0; k < frames.size(); ++k)
       grid.runs.emplace_back().coordinates = {static_cast<int>(r), static_cast<int>(k)};
   }

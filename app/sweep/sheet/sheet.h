@@ -58,6 +58,8 @@ class SheetMaker {
   const std::vector<store::RunResult>& results_;
   const std::vector<render::Legend>& legends_;
   render::Renderer& renderer_;
+  store::Manifest head_;   ///< without runs
+  store::Manifest named_;  ///< with a label on each tile
   std::vector<SheetPage> pages_;
 };
 

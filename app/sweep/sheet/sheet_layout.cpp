@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/support/room.h"
+
 namespace neve::app::sweep::sheet {
 
 namespace {
@@ -122,6 +124,12 @@ class Layouter {
     is_wrapped_ = is_wrapped(m_);
     const double aspect = 1.0 * out_.tile_width / out_.tile_height;
     columns_ = is_wrapped_ ? wrap_count(m_, m_.runs.size(), aspect) : sides_.columns.count(m_);
+    if (!is_wrapped_) {
+      column_gaps_ = gaps_of(sides_.columns, columns_);
+      // Runs that are on no axis follow below.
+      row_gaps_ = gaps_of(sides_.rows,
+                          sides_.rows.count(m_) + static_cast<int>(m_.runs.size()) / columns_ + 1);
+    }
     left_ = margin() + (is_wrapped_ ? 0 : row_label_width());
     top_ = static_cast<int>(3.6 * line()) + (is_wrapped_ ? 0 : column_label_height());
     out_.header = static_cast<int>(3.3 * line());
@@ -150,15 +158,22 @@ class Layouter {
   int margin() const { return out_.font_size; }
   int wide_gap() const { return 3 * gap_ + out_.font_size / 2; }
 
+  /// Gaps between groups of columns or rows, up to each of them.
+  std::vector<int> gaps_of(const Side& side, int count) const {
+    std::vector<int> gaps(static_cast<std::size_t>(count), 0);
+    for (std::size_t k = 1; k < gaps.size(); ++k)
+      gaps[k] = gaps[k - 1] + side.level(m_, static_cast<int>(k)) * wide_gap();
+    return gaps;
+  }
+  static int gap_at(const std::vector<int>& gaps, int place) {
+    return gaps.empty() ? 0 : gaps[static_cast<std::size_t>(place)];
+  }
+
   int column_x(int column) const {
-    int x = left_ + column * (out_.tile_width + gap_);
-    for (int k = 1; k <= column && !is_wrapped_; ++k) x += sides_.columns.level(m_, k) * wide_gap();
-    return x;
+    return left_ + column * (out_.tile_width + gap_) + gap_at(column_gaps_, column);
   }
   int row_y(int row) const {
-    int y = top_ + row * (out_.tile_height + gap_);
-    for (int k = 1; k <= row && !is_wrapped_; ++k) y += sides_.rows.level(m_, k) * wide_gap();
-    return y;
+    return top_ + row * (out_.tile_height + gap_) + gap_at(row_gaps_, row);
   }
 
   void put(std::size_t run, int column, int row) {
@@ -288,6 +303,7 @@ class Layouter {
   bool has_legend_;
   Sides sides_;
   bool is_wrapped_ = false;
+  std::vector<int> column_gaps_, row_gaps_;  ///< none where tiles are wrapped
   int columns_ = 1, left_ = 0, top_ = 0, bottom_ = 0, gap_ = 4;
   SheetLayout out_;
 };
@@ -295,7 +311,8 @@ class Layouter {
 }  // namespace
 
 bool fits(const SheetLayout& layout, int largest) {
-  constexpr double max_pixels = 48e6;
+  // The sheet, its overlay and its encoder.
+  const double max_pixels = std::min(48e6, memory_room() / 20);
   return layout.width <= largest && layout.height <= largest &&
          1.0 * layout.width * layout.height <= max_pixels;
 }

@@ -9,6 +9,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
+#include "app/record/run_json.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
@@ -161,6 +162,9 @@ const char* why_no_sweep(const std::filesystem::path& folder) {
   return "is a folder without a sweep in it";
 }
 
+/// More than any sweep makes.
+constexpr std::size_t max_runs = 100'000;
+
 void check(bool is_right, const char* what) {
   if (!is_right) throw std::runtime_error(what);
 }
@@ -200,6 +204,10 @@ void check_values(const Manifest& m) {
   check(is_amount(m.timeout) && is_amount(m.memory), "its limits are invalid");
   check(is_amount(m.seconds_per_work), "its seconds per work are invalid");
   check(!m.runs.empty(), "it has no runs");
+  check(m.runs.size() <= max_runs, "it has too many runs");
+  double places = 1;
+  for (const AxisLabels& axis : m.axes) places *= static_cast<double>(axis.values.size());
+  check(places >= 1 && places <= 10.0 * max_runs, "its axes have no or too many values");
   if (m.beginning) {
     check(is_amount(m.beginning->time), "its fork time is invalid");
     check_run(m, m.beginning->run);
@@ -341,7 +349,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   json["seconds_per_work"] = m.seconds_per_work;
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
-  output::write_file(manifest_path(folder), to_text(json) + "\n");
+  output::write_file(manifest_path(folder), record::with_own_hash(json));
 }
 
 Manifest read_manifest(const std::filesystem::path& folder) {
@@ -355,9 +363,10 @@ Manifest read_manifest(const std::filesystem::path& folder) {
 }
 
 Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& file) {
+  Json json;
+  Manifest m;
   try {
-    const Json json = parse_json(bytes);
-    Manifest m;
+    json = parse_json(bytes);
     m.version = json.at("version").get<std::string>();
     m.sources = json.value("sources", "");
     m.name = json.at("name").get<std::string>();
@@ -394,13 +403,16 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     m.keeps_states = json.value("keeps_states", false);
     m.seconds_per_work = json.value("seconds_per_work", 0.0);
     check_values(m);
-    return m;
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
     throw Error(exit_invalid_scene,
                 fmt::format("{}: error: is not a list of runs: {}", file, error.what()), file,
                 "run the sweep again to rewrite it; finished runs are kept");
   }
+  if (!record::is_untouched(std::move(json)))
+    throw Error(exit_check_failed, file + ": error: is not as neve sweep wrote it", file,
+                "run the sweep again to rewrite it; finished runs are kept");
+  return m;
 }
 
 }  // namespace neve::app::sweep::store

@@ -97,7 +97,7 @@ struct RunFiles {
 /// The key is that of the planned scene: one that was edited by hand is written again. A run that
 /// is drawn again keeps the time that its simulation took.
 void write_run(const fs::path& folder, const RunFiles& files) {
-  output::make_folder(folder);
+  output::make_own_folder(folder);
   if (!has_text(folder / "scene.toml", files.text))
     output::write_file(folder / "scene.toml", files.text);
   const RunStatus before = read_status(folder);
@@ -145,7 +145,7 @@ std::string simulation_key_of(const plan::SweepPlan& plan, const plan::PlannedRu
 }
 
 Manifest prepare_sweep(const plan::SweepPlan& plan, Redrawn* redrawn) {
-  output::make_folder(runs_folder(plan.folder));
+  output::make_own_folder(runs_folder(plan.folder));
   std::vector<std::string> keys;
   for (const plan::PlannedRun& item : plan.runs) keys.push_back(key_of(plan, item));
   const std::vector<std::string> folders = assign_folders(plan, keys, redrawn);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <system_error>
 
 #include "app/output/sequence.h"
 #include "app/record/run_json.h"
@@ -113,6 +114,7 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   RunResult result;
   const std::filesystem::path run_folder = runs_folder(folder) / run.folder;
   result.status = read_status(run_folder);
+  const bool is_damaged = result.status.is_damaged;
   // A folder that was given to another run in the meantime tells nothing about this one.
   if (result.status.key != run.key) result.status = RunStatus{};
   std::vector<record::FrameRecord> frames;
@@ -123,11 +125,15 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
     notes = notes_of(record);
     result.warnings = notes.warnings;
   }
+  std::error_code error;
   // run.json lists a frame before its pictures are written: a run that was killed lacks the last.
   for (const record::FrameRecord& frame : frames)
-    if (std::filesystem::exists(output::frame_path(run_folder, view, frame.frame)))
+    if (std::filesystem::is_regular_file(output::frame_path(run_folder, view, frame.frame), error))
       result.frames.push_back(frame.frame);
-  result.flaws = result.status.key == run.key ? flaws_of_run(folder, run, result.status) : "";
+  if (is_damaged)
+    result.flaws = "status.json is damaged";
+  else if (result.status.key == run.key)
+    result.flaws = flaws_of_run(folder, run, result.status);
   result.metrics = metrics_of(frames, result.status, notes.diverged_at);
   return result;
 }

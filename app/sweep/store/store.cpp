@@ -9,8 +9,10 @@
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
 #include "app/output/sequence.h"
+#include "app/record/run_json.h"
 #include "app/scene/leaf.h"
 #include "app/support/errors.h"
+#include "app/support/version.h"
 
 namespace neve::app::sweep::store {
 
@@ -69,9 +71,12 @@ std::filesystem::path beginning_folder(const std::filesystem::path& sweep) {
 }
 
 RunStatus read_status(const fs::path& run_folder) {
-  RunStatus status;
+  RunStatus status, damaged;
+  std::error_code error;
+  damaged.is_damaged = fs::exists(status_path(run_folder), error);
   try {
     const Json json = parse_json(output::read_file(status_path(run_folder), 1 << 20));
+    if (!record::is_untouched(json)) return damaged;
     const auto found = std::find(states.begin(), states.end(), json.at("state").get<std::string>());
     status.key = json.at("key").get<std::string>();
     status.simulation = json.value("simulation", "");
@@ -84,19 +89,20 @@ RunStatus read_status(const fs::path& run_folder) {
     status.peak_memory = whole_number_or(json, "peak_memory_bytes", std::uint64_t{0});
     status.pid = whole_number_or(json, "pid", 0L);
     status.host = json.value("host", "");
-    if (!(status.seconds >= 0 && status.seconds < 1e12) || status.attempts < 0) return {};
+    if (!(status.seconds >= 0 && status.seconds < 1e12) || status.attempts < 0) return damaged;
     if (found != states.end()) status.state = static_cast<RunState>(found - states.begin());
   } catch (const UnreadableError&) {
     throw;
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
-    return {};
+    return damaged;
   }
   return status;
 }
 
 void write_status(const fs::path& run_folder, const RunStatus& status) {
   Json json;
+  json["version"] = version;
   json["state"] = name(status.state);
   json["key"] = status.key;
   json["simulation"] = status.simulation;
@@ -109,7 +115,7 @@ void write_status(const fs::path& run_folder, const RunStatus& status) {
   json["peak_memory_bytes"] = status.peak_memory;
   json["pid"] = status.pid;
   json["host"] = status.host;
-  output::write_file(status_path(run_folder), to_text(json) + "\n");
+  output::write_file(status_path(run_folder), record::with_own_hash(json));
 }
 
 Retry parse_retry(const std::string& text) {

@@ -38,6 +38,7 @@ struct RunStatus {
   std::uint64_t peak_memory = 0;  ///< bytes
   long pid = 0;                   ///< while it runs
   std::string host;
+  bool is_damaged = false;  ///< there is a file, and it is not as neve wrote it
 };
 
 /// "0007"

@@ -6,7 +6,7 @@
 #include "app/forecast/fast.h"
 #include "app/output/atomic_file.h"
 #include "app/output/named_file.h"
-#include "app/record/picture_record.h"
+#include "app/record/picture_files.h"
 #include "app/record/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/flat.h"
@@ -82,7 +82,7 @@ Opened open_document(const std::string& file, const std::vector<std::string>& ov
     return {Document(file, scene::read_toml_file(file), std::move(parsed), coarsening), overrides};
   // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
   const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
-  return {Document(beside, record::read_picture_record(file).scene, std::move(parsed), coarsening),
+  return {Document(beside, timeline::open_picture(file).scene, std::move(parsed), coarsening),
           overrides};
 }
 

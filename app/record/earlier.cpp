@@ -1,0 +1,82 @@
+#include "app/record/earlier.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "app/output/descriptor.h"
+#include "app/output/file_hash.h"
+#include "app/output/sequence.h"
+#include "app/record/verify.h"
+#include "app/support/errors.h"
+
+namespace neve::app::record {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void remove_file(const fs::path& folder, const fs::path& name) {
+  std::error_code error;
+  if (!fs::remove(folder / name, error) && error)
+    output::fail_writing(folder / name, "cannot remove what an earlier run made", error.value());
+  // Succeeds only when nothing else is left in it.
+  if (name.has_parent_path()) fs::remove(folder / name.parent_path(), error);
+}
+
+}  // namespace
+
+bool has_hash(const fs::path& file, const std::string& hash) {
+  try {
+    return hash_text(output::hash_file(file)) == hash;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+bool is_below(const fs::path& folder, const fs::path& name) {
+  fs::path at = folder;
+  std::error_code error;
+  for (const fs::path& part : name) {
+    const std::string text = part.string();
+    if (text.empty() || text == "." || text == ".." || text == "/") return false;
+    at /= part;
+    if (fs::is_symlink(fs::symlink_status(at, error))) return false;
+  }
+  return !name.empty() && fs::is_regular_file(fs::symlink_status(at, error));
+}
+
+std::size_t remove_listed(const fs::path& folder, const FileHashes& files) {
+  std::size_t removed = 0;
+  for (const auto& [name, hash] : files) {
+    if (!is_below(folder, name) || !has_hash(folder / name, hash)) continue;
+    remove_file(folder, name);
+    ++removed;
+  }
+  return removed;
+}
+
+std::size_t remove_earlier_run(const fs::path& folder) {
+  const Json run = read_run_json(folder);
+  const FileHashes files = file_hashes(run);
+  std::size_t removed = remove_listed(folder, files);
+  const std::optional<Pictures> pictures = listed_pictures(run);
+  if (!pictures) return removed;
+  // The last ones before a kill, and those of earlier versions.
+  const auto remove = [&](const std::string& view, const std::string& name,
+                          const FrameRecord& frame) {
+    if (files.contains(name) || !is_below(folder, name) ||
+        !is_picture_of(folder / name, view, frame))
+      return;
+    remove_file(folder, name);
+    ++removed;
+  };
+  for (const FrameRecord& frame : pictures->frames) {
+    for (const std::string& view : pictures->views)
+      remove(view, picture_name(view, frame.frame), frame);
+    for (const std::string& view : pictures->views_of_passes)
+      remove(view, channels_name(view, frame.frame), frame);
+  }
+  return removed;
+}
+
+}  // namespace neve::app::record

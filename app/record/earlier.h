@@ -1,0 +1,28 @@
+#pragma once
+/// Files of an earlier run in a folder, removed before another one writes there. The list of them
+/// may be anyone's: a file goes only where its bytes say that the run wrote it.
+
+#include <cstddef>
+#include <filesystem>
+
+#include "app/record/run_json.h"
+
+namespace neve::app::record {
+
+/// True for the name of a file below a folder: no absolute path, nothing that leads out of it, no
+/// link on the way.
+bool is_below(const std::filesystem::path& folder, const std::filesystem::path& name);
+
+/// False also for a file that is missing or cannot be read.
+bool has_hash(const std::filesystem::path& file, const std::string& hash);
+
+/// Removes the files of a list that are below the folder and have the bytes that it gives the hash
+/// of, and folders that are empty then. @return how many files @throws IoError
+std::size_t remove_listed(const std::filesystem::path& folder, const FileHashes& files);
+
+/// Removes what DIR/run.json lists: files with their hashes, and pictures without one that say that
+/// they are frames of this run. No run.json, or one that cannot be read: nothing is removed.
+/// @return how many files were removed @throws IoError
+std::size_t remove_earlier_run(const std::filesystem::path& folder);
+
+}  // namespace neve::app::record

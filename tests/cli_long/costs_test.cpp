@@ -1,0 +1,166 @@
+/// What an input of a stranger costs when it is twice as long, for every kind that can be long.
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "app/output/atomic_file.h"
+#include "render/image/image.h"
+#include "tests/support/costly_cli.h"
+
+namespace neve::test {
+namespace {
+
+/// Doubled three times, an input that takes longer than this is worth an exponent.
+constexpr double least_seconds = 0.15;
+/// n log n is 1.1 there; the rest is what measurements of tenths of a second vary by.
+constexpr double largest_exponent = 1.2;
+
+class Costs : public CostlyCli {
+ protected:
+  /// @param write  of an input that is `times` as long @return the command that reads it
+  using Write = std::function<std::string(int times)>;
+
+  void SetUp() override {
+    ASSERT_EQ(neve({"render", "scene.toml", "--frames", "0", "--out", "run", "--quiet"}).exit_code,
+              0);
+  }
+  double seconds_of(const std::string& command) {
+    double least = 1e9;
+    for (int k = 0; k < 2; ++k) least = std::min(least, cost_of(command).seconds);
+    return least;
+  }
+  void expect_flat(const char* kind, const Write& write) {
+    const double none = seconds_of("info run"), first = seconds_of(write(1)) - none,
+                 last = seconds_of(write(8)) - none;
+    const double exponent = last < least_seconds || first <= 0 ? 0 : std::log2(last / first) / 3;
+    std::printf("%-28s %8.3f s %8.3f s   exponent %.2f\n", kind, first, last, exponent);
+    // Where the shortest takes no time, the exponent says nothing.
+    if (first > 0.01) {
+      EXPECT_LE(exponent, largest_exponent) << kind;
+    }
+    EXPECT_LT(last, 20) << kind;
+  }
+  std::string picture_with(const std::string& key, const std::string& value) {
+    const auto bytes = app::output::read_file(folder / "run/particles/0000.png");
+    render::PngText texts = render::read_png_text(bytes);
+    texts["neve:" + key] = value;
+    app::output::write_file(folder / "odd.png",
+                            render::encode_png(render::decode_png(bytes), texts));
+    return "odd.png";
+  }
+  static std::string repeated(int count, const std::function<std::string(int)>& line) {
+    std::string text;
+    for (int k = 0; k < count; ++k) text += line(k);
+    return text;
+  }
+  std::string scene_with(const std::string& more) {
+    folder.write("long.toml", tiny_scene + more);
+    return "long.toml";
+  }
+};
+
+TEST_F(Costs, OfPicturesGrowWithTheirLength) {
+  const auto name = [](int k) { return std::to_string(k); };
+  expect_flat("keys of files", [&](int times) {
+    return "info " + picture_with("files", "{" + repeated(7000 * times, [&](int k) {
+                                             return (k ? ",\"" : "\"") + name(k) + "\":\"0\"";
+                                           }) + "}");
+  });
+  expect_flat("parts of a path", [&](int times) {
+    return "dump " + picture_with("files", "{\"" + repeated(8000 * times, [](int) {
+                                             return std::string("a/");
+                                           }) + "b\":\"0\"}");
+  });
+  expect_flat("changes", [&](int times) {
+    return "dump --at 0 --max-memory 4GB --yes " +
+           picture_with("changes", "[" + repeated(50 * times, [&](int k) {
+                                     return std::string(k ? "," : "") +
+                                            R"({"step":0,"address":"material.snow.hardening",)" +
+                                            R"("value":")" + name(k % 9 + 1) + R"("})";
+                                   }) + "]");
+  });
+}
+
+TEST_F(Costs, OfScenesGrowWithTheirLength) {
+  const auto plan = [](const std::string& file) { return "render --dry-run " + file; };
+  const auto number = [](int k) { return std::to_string(k); };
+  expect_flat("bodies", [&](int times) {
+    return plan(scene_with(repeated(1500 * times, [&](int k) {
+      return "[[body]]\nshape = { sphere = { center = [" + number(k) + ", 1, 0], radius = .1 } }\n";
+    })));
+  });
+  expect_flat("exports", [&](int times) {
+    return plan(scene_with(repeated(2500 * times, [&](int k) {
+      return "[[export]]\nformat = \"ply\"\nname = \"e" + number(k) + "\"\n";
+    })));
+  });
+  expect_flat("strings in one line", [&](int times) {
+    return plan(scene_with("[camera]\nodd = [" +
+                           repeated(15'000 * times, [](int) { return std::string("\"é\","); }) +
+                           "]\n"));
+  });
+  expect_flat("keys of a table", [&](int times) {
+    return plan(scene_with(
+        "[light]\n" + repeated(8000 * times, [&](int k) { return "k" + number(k) + " = 1\n"; })));
+  });
+  expect_flat("mosaics", [&](int times) {
+    return plan(scene_with(
+        repeated(64, [&](int k) { return "[[view]]\nname = \"v" + number(k) + "\"\n"; }) +
+        repeated(250 * times, [&](int k) {
+          return "[[mosaic]]\nname = \"m" + number(k) + "\"\nviews = [" +
+                 repeated(64, [&](int v) { return "\"v" + number(v) + "\","; }) + "]\n";
+        })));
+  });
+  expect_flat("bodies that meet nothing", [&](int times) {
+    return "render --frames 0 --quiet --out o " + scene_with(repeated(100 * times, [&](int k) {
+             return "[[body]]\nshape = { sphere = { center = [" + number(2 * k) +
+                    ", 9, 0], radius = .05 } }\n";
+           }));
+  });
+}
+
+TEST_F(Costs, OfMeshesAndSweepsGrowWithTheirLength) {
+  const auto crescent = [&](int n) {
+    std::vector<std::pair<double, double>> outer, inner;
+    const double step = 2.0 / n, inset = 0.15 * (1 - std::cos(step));
+    for (int k = 0; k < n; ++k) {
+      outer.emplace_back(0.3 * std::cos(k * step), 0.3 * std::sin(k * step));
+      inner.emplace_back((0.3 - inset) * std::cos(k * step), (0.3 - inset) * std::sin(k * step));
+    }
+    std::vector<std::pair<double, double>> base(outer.begin() + n / 2, outer.end());
+    base.insert(base.end(), inner.rbegin(), inner.rend());
+    base.insert(base.end(), outer.begin(), outer.begin() + n / 2);
+    const int m = static_cast<int>(base.size());
+    std::string text;
+    for (const char* z : {" 0\n", " 0.1\n"})
+      for (const auto& [x, y] : base)
+        text += "v " + std::to_string(x) + " " + std::to_string(y) + z;
+    text += "f";
+    for (int k = m; k > 0; --k) text += " " + std::to_string(k);
+    text += "\nf";
+    for (int k = 1; k <= m; ++k) text += " " + std::to_string(m + k);
+    text += "\n";
+    for (int k = 0; k < m; ++k)
+      text += "f " + std::to_string(k + 1) + " " + std::to_string((k + 1) % m + 1) + " " +
+              std::to_string((k + 1) % m + 1 + m) + " " + std::to_string(k + 1 + m) + "\n";
+    return text;
+  };
+  expect_flat("corners of a polygon", [&](int times) {
+    folder.write("crescent.obj", crescent(2000 * times));
+    folder.write("mesh.toml",
+                 "frames = 0\nsolver.cell_size = 0.02\n[[body]]\nshape = { mesh = { file = "
+                 "\"crescent.obj\" } }\n");
+    return std::string("render --dry-run mesh.toml");
+  });
+  expect_flat("values of an axis", [&](int times) {
+    folder.write("axis.toml",
+                 "[sweep]\nscene = \"scene.toml\"\n[limits]\nruns = 100000\n[axis]\n"
+                 "seed = { range = [1, " +
+                     std::to_string(100 * times) + "] }\n");
+    return std::string("sweep axis.toml --dry-run");
+  });
+}
+
+}  // namespace
+}  // namespace neve::test
