@@ -65,7 +65,7 @@ TEST_F(Cli, WordsOfOtherProgramsGetTheWordsOfThisOne) {
       {{"render", "scene.toml", "--max-memory", "16"}, "did you mean 16GiB?"},
       {{"check", "scene.toml", "--set", points + "npz\" } }"}, "it is not a table of points"},
       {{"check", "scene.toml", "--set", points + "vtp\" } }"}, "it is not a table of points"},
-      {{"render", "scene.toml", "--out", "scene.toml"}, "it is a file"}};
+      {{"render", "scene.toml", "--out", "scene.toml"}, "is what the command reads"}};
   for (const auto& [command, expected] : cases) {
     const auto answer = neve(command);
     EXPECT_NE(answer.exit_code, 0) << command.front();

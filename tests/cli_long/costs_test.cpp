@@ -87,7 +87,8 @@ TEST_F(Costs, OfScenesGrowWithTheirLength) {
   const auto number = [](int k) { return std::to_string(k); };
   expect_flat("bodies", [&](int times) {
     return plan(scene_with(repeated(1500 * times, [&](int k) {
-      return "[[body]]\nshape = { sphere = { center = [" + number(k) + ", 1, 0], radius = .1 } }\n";
+      return "[[body]]\nshape = { sphere = { center = [" + number(k) +
+             ", 1, 0], radius = 0.1 } }\n";
     })));
   });
   expect_flat("exports", [&](int times) {
@@ -97,7 +98,7 @@ TEST_F(Costs, OfScenesGrowWithTheirLength) {
   });
   expect_flat("strings in one line", [&](int times) {
     return plan(scene_with("[camera]\nodd = [" +
-                           repeated(15'000 * times, [](int) { return std::string("\"é\","); }) +
+                           repeated(24'000 * times, [](int) { return std::string("\"é\","); }) +
                            "]\n"));
   });
   expect_flat("keys of a table", [&](int times) {
@@ -115,12 +116,17 @@ TEST_F(Costs, OfScenesGrowWithTheirLength) {
   expect_flat("bodies that meet nothing", [&](int times) {
     return "render --frames 0 --quiet --out o " + scene_with(repeated(100 * times, [&](int k) {
              return "[[body]]\nshape = { sphere = { center = [" + number(2 * k) +
-                    ", 9, 0], radius = .05 } }\n";
+                    ", 9, 0], radius = 0.05 } }\n";
            }));
   });
 }
 
 TEST_F(Costs, OfMeshesAndSweepsGrowWithTheirLength) {
+  const auto exact = [](double x) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.12g", x);
+    return std::string(digits);
+  };
   const auto crescent = [&](int n) {
     std::vector<std::pair<double, double>> outer, inner;
     const double step = 2.0 / n, inset = 0.15 * (1 - std::cos(step));
@@ -134,8 +140,7 @@ TEST_F(Costs, OfMeshesAndSweepsGrowWithTheirLength) {
     const int m = static_cast<int>(base.size());
     std::string text;
     for (const char* z : {" 0\n", " 0.1\n"})
-      for (const auto& [x, y] : base)
-        text += "v " + std::to_string(x) + " " + std::to_string(y) + z;
+      for (const auto& [x, y] : base) text += "v " + exact(x) + " " + exact(y) + z;
     text += "f";
     for (int k = m; k > 0; --k) text += " " + std::to_string(k);
     text += "\nf";
@@ -157,7 +162,7 @@ TEST_F(Costs, OfMeshesAndSweepsGrowWithTheirLength) {
     folder.write("axis.toml",
                  "[sweep]\nscene = \"scene.toml\"\n[limits]\nruns = 100000\n[axis]\n"
                  "seed = { range = [1, " +
-                     std::to_string(100 * times) + "] }\n");
+                     std::to_string(20 * times) + "] }\n");
     return std::string("sweep axis.toml --dry-run");
   });
 }
