@@ -40,6 +40,7 @@ sim::SolverSettings bench_settings(BenchMethod method, sim::Precision precision)
   s.cell_size = 0.01;
   s.time_step = sim::TimeStep::fixed;
   s.dt = 1e-4;
+  s.shock_viscosity = 0;  // the naive code has none
   s.precision = precision;
   s.kernel = sim::Kernel::cubic;
   switch (method) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 
 #include "app/forecast/forecast.h"
@@ -24,6 +25,8 @@ constexpr double hardening_ceiling = 20;
 /// change more than 0.85 does, too, and take a seventh less work at impacts: less gain suffices.
 constexpr double fast_beta = 0.5, fast_max_dt = 1e-3, worth_another_step = 0.5,
                  worth_after_longest_steps = 0.57;
+/// Beyond, relative, the snow of a copy presses on colliders or is packed and torn in another way.
+constexpr double alike = 0.1;
 /// A few hundred particles, so that the forecasts take tenths of a second and not longer than a
 /// small scene itself.
 constexpr ForecastBudget forecast_budget{1e9, 3e6, 400};
@@ -38,6 +41,21 @@ double fast_cfl(const scene::Scene& scene) {
       });
   return is_snow && s.kernel == sim::Kernel::cubic ? flip_snow_cfl : flip_cfl;
 }
+
+/// What the coarse copy of a scene tells.
+struct Copied {
+  double work = 0;   ///< in explicit steps
+  double force = 0;  ///< N, the peak on a collider
+  double J_P = 1;    ///< mean
+
+  /// Relative; without a collider there is no force that could change.
+  double force_against(const Copied& other) const {
+    return other.force > 0 ? force / other.force - 1 : 0;
+  }
+  bool is_like(const Copied& other) const {
+    return std::abs(force_against(other)) <= alike && std::abs(J_P / other.J_P - 1) <= alike;
+  }
+};
 
 /// A scene that becomes a faster one, and its changes.
 class Candidate {
@@ -63,7 +81,6 @@ class Candidate {
     set("solver.beta", s.beta, 0);
     if (s.time_step == sim::TimeStep::adaptive)
       set("solver.acoustic_cfl", s.acoustic_cfl, std::max(s.acoustic_cfl, fast_cfl(scene_)));
-    limit_hardening();
   }
 
   void take_semi_implicit_steps() {
@@ -72,15 +89,19 @@ class Candidate {
       set("solver.beta", s.beta, fast_beta);
       set("solver.max_dt", s.max_dt, std::max(s.max_dt, fast_max_dt));
     }
-    limit_hardening();
+  }
+
+  /// Longer steps of the kind that the scene has.
+  void take_longer_steps() {
+    scene_.solver.is_implicit() ? take_semi_implicit_steps() : take_explicit_steps();
   }
 
   /// None if the copy diverges: a broken state foretells nothing.
-  std::optional<double> work(int last) const {
+  std::optional<Copied> run_copy(int last) const {
     const Forecast forecast =
         foresee(scene_, setup::planned_particles(scene_), last, forecast_budget);
     if (!forecast.divergence.empty() || forecast.frames.empty()) return std::nullopt;
-    return forecast.work(0, last).expected;
+    return Copied{forecast.work(0, last).expected, forecast.peak_force, forecast.mean_J_P};
   }
 
   bool is_implicit() const { return scene_.solver.is_implicit(); }
@@ -95,48 +116,58 @@ class Candidate {
 }  // namespace
 
 FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen) {
+  using Copy = std::optional<Copied>;
+  const auto copy_of = [&](const Candidate& candidate) {
+    return std::async(std::launch::async, [&] { return candidate.run_copy(last); });
+  };
+  Candidate same(scene, chosen);
+  same.take_longer_steps();
+  Candidate capped = same;
+  capped.limit_hardening();
+  const bool has_cap = capped.overrides().size() > same.overrides().size();
+  const Candidate unchanged(scene, chosen);
+  std::future<Copy> before_run = copy_of(unchanged), same_run = copy_of(same), capped_run;
+  if (has_cap) capped_run = copy_of(capped);
+  const Copy before = before_run.get();
   FastLook look;
   look.is_implicit = scene.solver.is_implicit();
-  const Candidate before(scene, chosen);
-  Candidate same(scene, chosen), other(scene, chosen);
-  if (look.is_implicit) {
-    same.take_semi_implicit_steps();
-    other.take_explicit_steps();
-  } else {
-    same.take_explicit_steps();
-    if (scene.solver.time_step == sim::TimeStep::adaptive) other.take_semi_implicit_steps();
-  }
-  const bool has_other = other.is_implicit() != scene.solver.is_implicit();
-  const auto forecast = [&](const Candidate& candidate) {
-    return std::async(std::launch::async, [&] { return candidate.work(last); });
-  };
-  using Work = std::optional<double>;
-  std::future<Work> work_before = forecast(before), same_work = forecast(same), other_work;
-  if (has_other) other_work = forecast(other);
-  look.work = look.work_before = work_before.get();
-  const auto take = [&](const Candidate& candidate, const Work& work) {
+  if (before) look.work = look.work_before = before->work;
+  const auto take = [&](const Candidate& candidate, const Copied& copy) {
     look.overrides = candidate.overrides();
-    look.work = work;
+    look.work = copy.work;
     look.is_implicit = candidate.is_implicit();
+    if (before) look.force_change = copy.force_against(*before);
   };
-  if (const Work work = same_work.get();
-      !same.overrides().empty() && work && (!look.work || *work <= *look.work))
-    take(same, work);
-  if (!has_other) return look;
+  const auto is_less = [&](const Copy& copy) {
+    return copy && (!look.work || copy->work <= *look.work);
+  };
+  if (const Copy copy = same_run.get(); !same.overrides().empty() && is_less(copy))
+    take(same, *copy);
+  bool takes_cap = false;
+  if (const Copy copy = has_cap ? capped_run.get() : Copy(); copy) {
+    takes_cap = !before || copy->is_like(*before);
+    if (!takes_cap) look.force_under_cap = copy->force_against(*before);
+    if (takes_cap && is_less(copy)) take(capped, *copy);
+  }
+  if (scene.solver.time_step != sim::TimeStep::adaptive && !scene.solver.is_implicit()) return look;
+  Candidate other(scene, chosen);
+  scene.solver.is_implicit() ? other.take_explicit_steps() : other.take_semi_implicit_steps();
+  if (takes_cap) other.limit_hardening();
+  if (other.is_implicit() == scene.solver.is_implicit()) return look;
   const bool has_longest_steps = !scene.solver.is_implicit() && fast_cfl(scene) == flip_snow_cfl;
   const double worth = has_longest_steps ? worth_after_longest_steps : worth_another_step;
-  if (const Work work = other_work.get(); work && look.work && *work < worth * *look.work)
-    take(other, work);
+  const Copy copy = other.run_copy(last);
+  if (!copy || !look.work || copy->work >= worth * *look.work) return look;
+  // Semi-implicit steps damp: snow that breaks in explicit ones may hold together in them.
+  if (!other.is_implicit() || !before || copy->is_like(*before)) take(other, *copy);
   return look;
 }
 
 std::vector<std::string> longer_steps(const scene::Scene& scene,
                                       const std::vector<std::string>& chosen) {
   Candidate candidate(scene, chosen);
-  if (scene.solver.is_implicit())
-    candidate.take_semi_implicit_steps();
-  else
-    candidate.take_explicit_steps();
+  candidate.take_longer_steps();
+  candidate.limit_hardening();
   return candidate.overrides();
 }
 
@@ -144,8 +175,17 @@ std::string FastLook::sentence() const {
   if (overrides.empty()) return "--fast finds no longer steps for this scene";
   const std::string changes = "--fast sets " + joined(overrides, ", ");
   if (!work || !work_before) return changes;
-  return fmt::format("{}: about {} % of the work", changes,
-                     rough_text(100 * *work / std::max(*work_before, 1.0)));
+  std::string text = fmt::format("{}: about {} % of the work", changes,
+                                 rough_text(100 * *work / std::max(*work_before, 1.0)));
+  constexpr double notable = 0.05;
+  if (std::abs(force_change) > notable)
+    text += fmt::format(", and {} % of the peak force in a coarse copy",
+                        rough_text(100 * (1 + force_change)));
+  if (!force_under_cap) return text;
+  text += fmt::format("; max_hardening stays: a ceiling of {} ", rough_text(hardening_ceiling));
+  if (std::abs(*force_under_cap) <= alike) return text + "packs and tears the snow in another way";
+  text += fmt::format("leaves {} % of that force", rough_text(100 * (1 + *force_under_cap)));
+  return text;
 }
 
 }  // namespace neve::app::forecast

@@ -15,13 +15,18 @@ struct FastLook {
   /// Forecasts of the work of the run, in explicit steps; none if the coarse copy diverges.
   std::optional<double> work, work_before;
   bool is_implicit = false;
+  /// Of the peak force on a collider of the copy, relative: with the overrides, and with a ceiling
+  /// on hardening where it is not taken because of that.
+  double force_change = 0;
+  std::optional<double> force_under_cap;
   /// The changes and what they gain, or why there are none; a sentence.
   std::string sentence() const;
 };
 
 /// Takes longer steps: a ceiling on hardening and a larger acoustic_cfl for the steps that the
 /// scene has, or the other kind of step (semi-implicit, explicit) where a coarse copy needs less
-/// than half of the work that way. The result depends on the scene alone, never on the machine.
+/// than half of the work that way. The ceiling is not taken where the copy's forces change. The
+/// result depends on the scene alone, never on the machine.
 /// @param last  frame of the run
 /// @param chosen  addresses that the user has set, which stay
 FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen);

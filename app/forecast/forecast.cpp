@@ -17,6 +17,7 @@
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
 #include "sim/health/diagnostics.h"
+#include "sim/shapes/variation.h"
 
 namespace neve::app::forecast {
 
@@ -30,7 +31,8 @@ sim::DtChoice allowed(const scene::Scene& scene, const sim::StepLimits& state,
   limits.max_sound_speed = state.max_sound_speed;
   // The same difference of velocity over smaller cells.
   limits.max_strain_rate = state.max_strain_rate * cell_of_state / scene.solver.cell_size;
-  for (const sim::Material& m : scene.materials) sim::include_hardening(m, limits);
+  for (const sim::Material& m : scene.materials)
+    sim::include_hardening(m, limits, sim::shapes::max_factor(m.variation.youngs_modulus));
   return sim::choose_dt(scene.solver, limits, 1e9);
 }
 
@@ -147,6 +149,19 @@ std::vector<Withheld> withheld_by(const scene::Scene& coarse, const sim::Simulat
   return list;
 }
 
+double mean_of(const std::vector<double>& values) {
+  if (values.empty()) return 1;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// N, mean over the time of the report, on the collider that snow presses most.
+double largest_force(const sim::AdvanceReport& report) {
+  double impulse = 0;
+  for (const sim::ColliderLoad& load : report.loads)
+    impulse = std::max(impulse, load.impulse.norm());
+  return report.seconds > 0 ? impulse / report.seconds : 0;
+}
+
 /// A coarse copy that ran.
 struct CopyRun {
   Forecast forecast;
@@ -187,6 +202,7 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
       const double from = simulation.time(), to = frame / scene.fps;
       sim::AdvanceReport report = simulation.advance_to(to, is_interrupted, last_step);
       seconds += seconds_since(before_frame);
+      result.peak_force = std::max(result.peak_force, largest_force(report));
       run.work += static_cast<double>(report.steps) * work_of_step;
       run.particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
@@ -196,9 +212,11 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
         report.steps = static_cast<std::size_t>(
             std::min(max_steps_of_frame,
                      static_cast<double>(report.steps) * (to - from) / (simulation.time() - from)));
+      const sim::ParticleArrays state = simulation.particles();
       frame_forecast =
           foresee_frame(scene, *coarse, frame, worst_of(before, simulation.step_limits()), report,
-                        rarity_of(*coarse, simulation.particles(), particle_count));
+                        rarity_of(*coarse, state, particle_count));
+      result.mean_J_P = mean_of(state.J_P);
       frame_forecast.spread = spread_of(simulation);
       run.reached = frame;
     }

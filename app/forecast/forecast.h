@@ -57,6 +57,8 @@ struct Forecast {
   Spread spread{};                       ///< of the copy at the start
   std::string divergence;                ///< of the copy, a sentence; empty if it holds
   std::vector<Withheld> withheld;        ///< by the copy's emitters
+  double peak_force = 0;  ///< N, on one collider of the copy, mean over a frame; the largest
+  double mean_J_P = 1;    ///< of the copy's particles, in the last frame that it reached
   /// Steps of the run if a single particle is crushed and rules them to the end; 0: none is to be
   /// expected.
   double crushed_steps = 0;

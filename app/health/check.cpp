@@ -87,15 +87,16 @@ void check_crushing(const scene::Scene& scene, Check& check) {
        "20 bounds their number, as --fast does"});
 }
 
-void check_copy(const forecast::Forecast& foreseen, std::vector<Finding>& findings) {
+void check_copy(const scene::Scene& scene, const forecast::Forecast& foreseen,
+                std::vector<Finding>& findings) {
   for (const forecast::Withheld& withheld : foreseen.withheld)
     findings.push_back(
         {Severity::warning, "emitter." + withheld.emitter + ".rate",
          fmt::format("in a coarse copy {} % of its snow finds no room until {} s, because snow "
                      "fills the emitter",
                      rough_text(100 * withheld.share), rough_text(withheld.time)),
-         "use a lower rate, a higher velocity or a wider way out; run.json counts this snow as "
-         "withheld"});
+         fmt::format("use {}; run.json counts this snow as withheld",
+                     remedy_for_clogging(scene, withheld.emitter))});
   if (!foreseen.divergence.empty())
     findings.push_back({Severity::warning, "", foreseen.divergence,
                         "run the scene itself to see if it diverges too"});
@@ -152,7 +153,7 @@ Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, d
   }
   check.foreseen = forecast::foresee(scene, check.plan.particles, scene.frames, coarse_budget);
   check.foreseen.include_spread(spread);
-  check_copy(check.foreseen, check.findings);
+  check_copy(scene, check.foreseen, check.findings);
   check_crushing(scene, check);
   // Emitted particles cannot be timed at the start: count half of them, as in the coarse copy.
   if (plan.emitted > 0 && check.seconds_per_step > 0)

@@ -34,6 +34,9 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings,
 void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings,
                     double coarsening = 1);
 
+/// What lets the snow of an emitter out that finds no room, as in "use ...".
+std::string remedy_for_clogging(const scene::Scene& scene, const std::string& emitter);
+
 /// Sinks that fast snow crosses between two tests. @param speed m/s, of the fastest snow
 void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
 

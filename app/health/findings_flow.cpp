@@ -73,6 +73,18 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
 
 }  // namespace
 
+std::string remedy_for_clogging(const scene::Scene& scene, const std::string& emitter) {
+  const std::string usual = "a lower rate, a higher velocity or a wider way out";
+  for (const sim::seeding::Emitter& e : scene.emitters) {
+    if (e.name != emitter || e.J_P > 1) continue;
+    const sim::Material& material = scene.materials[setup::material_index(scene, e.material)];
+    // Packed snow sticks together and stands in its own way.
+    if (material.model == sim::Model::snow)
+      return fmt::format("loose snow (emitter.{}.J_P = 1.5), {}", emitter, usual);
+  }
+  return usual;
+}
+
 void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening) {
   const double end = scene.frames / scene.fps;
   for (const sim::seeding::Emitter& emitter : scene.emitters) {

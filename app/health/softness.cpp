@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/setup/auto_ranges.h"
 #include "app/support/round_number.h"
@@ -27,6 +28,18 @@ double stiffness_that_holds(const sim::Material& material, double J_P, double sp
   return round_up(std::max(material.youngs_modulus * packed / wanted, shock / pressure_per_E));
 }
 
+namespace {
+
+/// kg/m3, at rest
+double densest_snow(const scene::Scene& scene) {
+  double density = 0;
+  for (const sim::Material& m : scene.materials)
+    if (m.model == sim::Model::snow) density = std::max(density, m.density);
+  return density;
+}
+
+}  // namespace
+
 double load_speed(const scene::Scene& scene) {
   double speed = setup::impact_speed(scene);
   for (const scene::Collider& collider : scene.colliders)
@@ -36,14 +49,27 @@ double load_speed(const scene::Scene& scene) {
 
 std::optional<std::string> softness_warning(const scene::Scene& scene,
                                             const sim::Simulation& simulation) {
+  // A particle in a thousand, squeezed at an edge, is no matter.
+  constexpr double notable = 1e-3;
   const double J_P = simulation.warnings().least_J_P;
-  if (J_P > sim::health::packed_J_P || simulation.divergence()) return std::nullopt;
+  if (simulation.divergence()) return std::nullopt;
+  const bool is_packed = J_P <= sim::health::packed_J_P;
+  if (!is_packed && J_P * sim::ice_density > densest_snow(scene)) return std::nullopt;
+  const double dense = is_packed ? 0 : simulation.summary().denser_than_ice;
+  if (!is_packed && dense < notable) return std::nullopt;
   const auto is_softer = [](const sim::Material& a, const sim::Material& b) {
     return a.youngs_modulus < b.youngs_modulus;
   };
   const sim::Material& snow =
       *std::min_element(scene.materials.begin(), scene.materials.end(), is_softer);
   const double speed = load_speed(scene);
+  if (!is_packed)
+    return fmt::format(
+        "{} % of the snow was packed denser than ice ({} kg/m3): it is too soft for its impact at "
+        "{} m/s; try a larger material.{}.youngs_modulus, or min_J_P = {}, where it yields without "
+        "packing further",
+        rough_text(100 * dense), rough_text(sim::ice_density), rough_text(speed), snow.name,
+        rough_text(std::ceil(1e3 * snow.density / sim::ice_density) / 1e3));
   return fmt::format(
       "snow was packed to J_P = {}, {} kg/m3, and yielded without hardening further: it is too "
       "soft for its impact at {} m/s; try material.{}.youngs_modulus = {}",

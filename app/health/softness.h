@@ -21,8 +21,8 @@ double stiffness_that_holds(const sim::Material& material, double J_P, double sp
 /// m/s, of the fastest body that hits something, or collider.
 double load_speed(const scene::Scene& scene);
 
-/// For a run whose snow was packed to the limit and yielded on. Empty if none was, and if the run
-/// diverged: its diagnosis says more.
+/// For a run whose snow was packed to the limit and yielded on, or is denser than ice. Empty if
+/// none was, and if the run diverged: its diagnosis says more.
 std::optional<std::string> softness_warning(const scene::Scene& scene,
                                             const sim::Simulation& simulation);
 

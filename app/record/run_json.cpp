@@ -78,6 +78,7 @@ Json to_json(const FrameRecord& frame) {
   json["max_speed"] = number_or_null(s.max_speed);
   json["min_J_P"] = number_or_null(s.min_J_P);
   json["max_J_P"] = number_or_null(s.max_J_P);
+  json["denser_than_ice"] = number_or_null(s.denser_than_ice);
   json["max_depth"] = number_or_null(s.max_depth);
   json["max_depth_cells"] = number_or_null(frame.metrics.max_depth_cells);
   json["spread"] = number_or_null(frame.metrics.spread);
@@ -161,6 +162,8 @@ FrameRecord frame_record(const Json& json) {
   s.max_speed = output::number_or_nan(json.at("max_speed"));
   s.min_J_P = output::number_or_nan(json.at("min_J_P"));
   s.max_J_P = output::number_or_nan(json.at("max_J_P"));
+  if (json.contains("denser_than_ice"))
+    s.denser_than_ice = output::number_or_nan(json.at("denser_than_ice"));
   frame.state_hash = std::stoull(json.at("state_hash").get<std::string>(), nullptr, 16);
   // Runs of earlier versions have none.
   if (!json.contains("spread")) return frame;

@@ -1,5 +1,6 @@
 #include "app/run/step_warnings.h"
 
+#include "app/health/findings.h"
 #include "app/health/softness.h"
 #include "app/picture/snapshot.h"
 #include "app/support/text.h"
@@ -41,8 +42,8 @@ std::vector<std::string> step_warnings(const scene::Scene& scene,
   for (std::size_t k = 0; k < withheld.size(); ++k)
     if (withheld[k] > 0)
       list.push_back("emitter." + scene.emitters[k].name + ": " + std::to_string(withheld[k]) +
-                     " particles found no room, because snow fills the emitter; use a lower rate, "
-                     "a higher velocity or a wider way out");
+                     " particles found no room, because snow fills the emitter; use " +
+                     health::remedy_for_clogging(scene, scene.emitters[k].name));
   if (const auto softness = health::softness_warning(scene, simulation)) list.push_back(*softness);
   return list;
 }

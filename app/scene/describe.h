@@ -90,6 +90,9 @@ void describe(V& visit, sim::SolverSettings& s) {
       "Share of its own velocity that moves other snow of asflip: 1 lets it separate, 0 is aflip.");
   visit("separation_J_E", s.separation_J_E, unit::none, between(0.5, 2), live,
         "Elastic volume ratio below which snow of asflip counts as compressed.");
+  visit("shock_viscosity", s.shock_viscosity, unit::none, between(0, 4), live,
+        "Viscosity of snow that is being compressed: without it (0: the paper) impacts pack it too "
+        "far.");
   visit(
       "contact_at", s.contact_at, unit::none, anything, live,
       "particles: snow touches colliders; nodes: the paper's contact, which leaves a gap of up to "

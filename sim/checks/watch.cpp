@@ -7,6 +7,7 @@
 
 #include "sim/checks/places.h"
 #include "sim/health/diagnostics.h"
+#include "sim/health/shock.h"
 #include "sim/staged.h"
 #include "sim/types/number_text.h"
 #include "sim/types/time_step.h"
@@ -101,16 +102,38 @@ void measure_sums(const SolverSettings& settings, const ParticleArrays& p, const
   out[WatchCheck::torque] = share(turn.norm(), sum_turn);
 }
 
-/// Forces, the update of F_E and the energy belong together.
+/// What the stress of snow that is being compressed has beyond its law: a pressure, and no larger
+/// than the shock viscosity of the fastest compression. Pa, negative; 0 for others.
+class ShockStress {
+ public:
+  ShockStress(const SolverSettings& settings, const Simulation& simulation)
+      : share_(settings.shock_viscosity), h_(settings.cell_size), tau_(simulation.kirchhoff()) {
+    const StepLimits limits = simulation.step_limits();
+    rate_ = 3 * limits.max_strain_rate;
+    c_ = limits.max_sound_speed;
+  }
+
+  double operator()(std::size_t q, const Material& m, const Mat3d& tau_of_law) const {
+    if (m.model != Model::snow) return 0;
+    const double largest = health::shock_pressure(share_, m.density, h_, rate_, c_);
+    return std::clamp((tau_[q] - tau_of_law).trace() / 3, -largest, 0.0);
+  }
+
+ private:
+  double share_, h_, rate_ = 0, c_ = 0;
+  std::vector<Mat3d> tau_;
+};
+
+/// Forces, the update of F_E and the energy belong together; what the viscosity takes is lost.
 void measure_work(const std::vector<Material>& materials, bool is_float, const ParticleArrays& p,
-                  const StagedStep& step, double dt, WatchValues& out) {
+                  const StagedStep& step, const ShockStress& shock, double dt, WatchValues& out) {
   const NodeFields& n = step.nodes;
   double force_work = 0, size = 0;
   for (std::size_t i = 0; i < n.mass.size(); ++i) {
     force_work += dt * n.force[i].dot(n.v_new[i]);
     size += dt * std::abs(n.force[i].dot(n.v_new[i]));
   }
-  double stress_work = 0, trial_work = 0, energy = 0, stresses = 0;
+  double stress_work = 0, trial_work = 0, lost = 0, energy = 0, stresses = 0;
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     const Material material = p.material_of(q, materials);
     const Mat3d change = step.F_E_trial[q] - p.F_E[q];
@@ -120,12 +143,14 @@ void measure_work(const std::vector<Material>& materials, bool is_float, const P
     stress_work += p.V0[q] * now.first_piola.cwiseProduct(change).sum();
     trial_work += p.V0[q] * trial.first_piola.cwiseProduct(change).sum();
     energy += p.V0[q] * (trial.energy_density - now.energy_density);
+    const double pressure = shock(q, material, now.first_piola * p.F_E[q].transpose());
+    lost += dt * p.V0[q] * pressure * step.grad_v[q].trace();
     stresses += p.V0[q] * now.first_piola.norm();
   }
   // The change of F_E is a difference of rounded numbers.
   size += 100 * stresses * (is_float ? 6e-8 : 1.1e-16);
-  out[WatchCheck::power] = share(std::abs(force_work + stress_work), size);
-  out[WatchCheck::work] = share(std::abs(energy - 0.5 * (trial_work - force_work)), size);
+  out[WatchCheck::power] = share(std::abs(force_work + stress_work + lost), size);
+  out[WatchCheck::work] = share(std::abs(energy - 0.5 * (trial_work - force_work - lost)), size);
 }
 
 }  // namespace
@@ -218,7 +243,8 @@ WatchValues Watch::measure(const Simulation& simulation) const {
     out[WatchCheck::strain_step] =
         std::max(out[WatchCheck::strain_step], dt * grad_v.cwiseAbs().maxCoeff());
   measure_sums(settings_, p, centre_of_mass(p), step, dt, out);
-  measure_work(materials_, settings_.precision == Precision::single, p, step, dt, out);
+  measure_work(materials_, settings_.precision == Precision::single, p, step,
+               ShockStress(settings_, simulation), dt, out);
   return out;
 }
 

@@ -174,6 +174,8 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
     s.min_J_P = q == begin ? J_P : std::min(s.min_J_P, J_P);
     s.max_J_P = q == begin ? J_P : std::max(s.max_J_P, J_P);
     if (J_P <= health::packed_J_P) s.packed += m;
+    const bool is_snow = static_cast<kernels::ModelKind>(p.model()) == kernels::ModelKind::snow;
+    if (is_snow && m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
   }
   return s;
 }
@@ -200,6 +202,7 @@ Summary StateReader<Real>::summary() const {
     all.min_J_P = c == 0 ? s.min_J_P : std::min(all.min_J_P, s.min_J_P);
     all.max_J_P = c == 0 ? s.max_J_P : std::max(all.max_J_P, s.max_J_P);
     all.packed += s.packed;
+    all.denser_than_ice += s.denser_than_ice;
   }
   const AtSurfaces surfaces = at_surfaces();
   all.max_depth = surfaces.max_depth;
@@ -213,6 +216,7 @@ Summary StateReader<Real>::summary() const {
   if (all.mass > 0) {
     all.centre_of_mass /= all.mass;
     all.packed /= all.mass;
+    all.denser_than_ice /= all.mass;
   }
   return all;
 }

@@ -44,6 +44,7 @@ struct StepConstants {
   /// from separating_J_E on. FLIP's are equal.
   Real beta_min, beta_max;
   Real separating_J_E;
+  Real shock_quadratic, shock_linear;  ///< coefficients of the shock viscosity, see shock_pressure
   Real gravity[3];
   bool moves_with_grid;  ///< advect = pic
   double h_double;       ///< for placing colliders exactly

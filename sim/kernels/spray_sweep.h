@@ -174,10 +174,8 @@ struct SprayFor {
   NEVE_INLINE static void note_copies(const I& has_copies, const Batch& p, const V& wave_modulus,
                                       typename Base::ReportLanes& report) {
     Batch copies;
-    copies.V0 = p.V0;
-    copies.m = p.m;
     copies.J_P = has_copies ? p.J_P : all<V>(1);
-    report.note_material(copies, has_copies ? wave_modulus : V{});
+    report.note_material(copies, (has_copies ? wave_modulus : V{}) * p.V0 / p.m);
   }
 
   /// Steps 7 to 10.
@@ -194,7 +192,7 @@ struct SprayFor {
       if constexpr (is_aflip) f.carrier[q / W] = carrier_velocity(p, g, c);
       strain(p.F_E, g.grad_v, c.dt);
     }
-    Base::project(f.group, f.batch, c, update, report, true,
+    Base::project(f.group, f.batch, gathered, c, update, report, true,
                   [&](int k, const Batch& p, const V& wave_modulus) NEVE_INLINE_BODY {
                     note_copies(load_lanes<I>(f.has_copies + k * W), p, wave_modulus, report);
                   });

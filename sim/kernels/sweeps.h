@@ -1,6 +1,7 @@
 #pragma once
 /// The sweeps over blocks that the drivers are made of; instantiated once per instruction set.
 
+#include "sim/kernels/shock.h"
 #include "sim/kernels/stages.h"
 
 namespace neve::sim::kernels {
@@ -331,7 +332,7 @@ struct SweepsFor {
           if constexpr (is_aflip) carrier[q / W] = carrier_velocity(p, g, c);
           strain(p.F_E, g.grad_v, c.dt);
         }
-        project(group, batch, c, update, report);
+        project(group, batch, gathered, c, update, report);
         for (int q = 0; q < group.count; q += W) {
           Batch& p = batch[q / W];
           const Gathered<V>& g = gathered[q / W];
@@ -459,13 +460,15 @@ struct SweepsFor {
   static void deformation(const Args& a, Index begin, Index end) {
     MaterialUpdate<Real, Set, gather_group / W> update;
     Batch batch[gather_group / W];
+    Gathered<V> gathered[gather_group / W];
     for (Index b = begin; b < end; ++b) {
       ReportLanes report;
       each_group<gather_group>(a, a.blocks[b], [&](const Group<gather_group>& group) {
         for (int q = 0; q < group.count; q += W) {
           Batch& p = batch[q / W];
           load_whole(p, group.record + q);
-          const Gathered<V> g = gathered_lanes(a, group, q);
+          Gathered<V>& g = gathered[q / W];
+          g = gathered_lanes(a, group, q);
           report.note_strain_rate(g);
           strain(p.F_E, g.grad_v, a.constants.dt);
           each_lane(group, q, [&](int l, Index storage) {
@@ -474,7 +477,7 @@ struct SweepsFor {
                   p.F_E[k][l];
           });
         }
-        project(group, batch, a.constants, update, report);
+        project(group, batch, gathered, a.constants, update, report);
         for (int q = 0; q < group.count; q += W) keep(batch[q / W], group, q);
       });
       a.reports[b] = report.reduced();
@@ -587,7 +590,7 @@ struct SweepsFor {
       }
       for (int q = group.count; q % W != 0; ++q) group.record[q] = group.record[group.count - 1];
       for (int q = 0; q < group.count; q += W) load_whole(batch[q / W], group.record + q);
-      project(group, batch, a.constants, update, report, is_projected);
+      project(group, batch, nullptr, a.constants, update, report, is_projected);
       for (int q = 0; q < group.count; q += W) {
         Batch& p = batch[q / W];
         keep(p, group, q);
@@ -610,8 +613,8 @@ struct SweepsFor {
     BlockReport<Real> sum;
     V speed_squared{}, sound_squared{}, strain_rate{}, min_J_P = all<V>(1), max_J_P = all<V>(1);
 
-    NEVE_INLINE void note_material(const Batch& p, const V& wave_modulus) {
-      sound_squared = larger_lanes(sound_squared, wave_modulus * p.V0 / p.m);
+    NEVE_INLINE void note_material(const Batch& p, const V& sound_squared_now) {
+      sound_squared = larger_lanes(sound_squared, sound_squared_now);
       min_J_P = smaller_lanes(min_J_P, p.J_P);
       max_J_P = larger_lanes(max_J_P, p.J_P);
     }
@@ -686,18 +689,27 @@ struct SweepsFor {
   }
 
   /// Step 7, second half: projection and stress of a group, and what the report wants to know of
-  /// them. @param look  see MaterialUpdate
+  /// them.
+  /// @param gathered  of the step, for the viscosity of snow; null: the stress of a state
+  /// @param look      see MaterialUpdate
   template <class Look>
   NEVE_INLINE static void project(const Group<gather_group>& group, Batch* batch,
-                                  const StepConstants<Real>& c,
+                                  const Gathered<V>* gathered, const StepConstants<Real>& c,
                                   MaterialUpdate<Real, Set, gather_group / W>& update,
                                   ReportLanes& report, bool is_projected, const Look& look) {
     V wave_modulus[gather_group / W];
     unsigned inverted[gather_group / W];
     const auto model = static_cast<ModelKind>(group.record[0]->model());
     update(batch, group.count, model, c.materials, is_projected, wave_modulus, inverted, look);
+    const bool is_viscous = gathered && model == ModelKind::snow && c.shock_linear > 0;
     for (int k = 0; k * W < group.count; ++k) {
-      report.note_material(batch[k], wave_modulus[k]);
+      Batch& p = batch[k];
+      const V sound_squared = wave_modulus[k] * p.V0 / p.m;
+      report.note_material(p, sound_squared);
+      if (is_viscous) {
+        const V pressure = shock_pressure(p, gathered[k].grad_v, sound_squared, c);
+        for (int axis = 0; axis < 3; ++axis) p.tau[axis] -= pressure;
+      }
       if (inverted[k] == 0) continue;
       const auto count = static_cast<std::uint32_t>(__builtin_popcount(inverted[k]));
       report.sum.inverted += count;
@@ -705,10 +717,10 @@ struct SweepsFor {
     }
   }
   NEVE_INLINE static void project(const Group<gather_group>& group, Batch* batch,
-                                  const StepConstants<Real>& c,
+                                  const Gathered<V>* gathered, const StepConstants<Real>& c,
                                   MaterialUpdate<Real, Set, gather_group / W>& update,
                                   ReportLanes& report, bool is_projected = true) {
-    project(group, batch, c, update, report, is_projected, Nothing{});
+    project(group, batch, gathered, c, update, report, is_projected, Nothing{});
   }
   struct Nothing {
     NEVE_INLINE void operator()(int, const Batch&, const V&) const {}

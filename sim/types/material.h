@@ -32,6 +32,9 @@ struct Material {
   bool yields = false;
 };
 
+/// Of ice without air, kg/m3: no snow is denser.
+inline constexpr double ice_density = 917;
+
 /// Lame parameters at rest: mu = E/(2(1+nu)), lambda = E nu/((1+nu)(1-2nu)), Pa.
 struct Lame {
   double mu, lambda;

@@ -36,6 +36,8 @@ struct SolverSettings {
   /// ASFLIP: shares of a particle's own velocity that it moves with, compressed and separating, and
   /// J_E from which it separates.
   double separation_min = 0, separation_max = 1, separation_J_E = 0.999;
+  /// Share of the artificial viscosity that spreads shocks in snow over cells; 0: the paper.
+  double shock_viscosity = 1;
   ContactAt contact_at = ContactAt::particles;
   TimeStep time_step = TimeStep::adaptive;
   double dt = 2e-4;                  ///< s; used by fixed steps

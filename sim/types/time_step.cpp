@@ -15,8 +15,9 @@ double ratio(double numerator, double denominator) {
 }
 
 /// dt so that sound crosses acoustic_cfl cells. Snow that hits something at speed v compresses by
-/// up to 0.7 v dt/h within the step (the steepest slope of the cubic weights) and hardens by e^(xi
-/// 0.7 v dt/h), but no more than its material lets it: the step is shortened until sound still
+/// up to 0.7 v dt/h within the step (the steepest slope of the cubic weights), snow that a collider
+/// hits by v dt/h (its particles move by less than a kernel). It hardens by e^(xi v dt/h), but no
+/// more than its material lets it: the step is shortened until sound still
 /// crosses less than a cell afterwards.
 double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
   const double h = s.cell_size, stretch = acoustic_stretch(s);
@@ -24,8 +25,9 @@ double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
                c_hardest = limits.max_hardened_speed / stretch;
   double dt = ratio(s.acoustic_cfl * h, c);
   if (!(dt < unlimited)) return dt;
+  const double v = std::max(0.7 * limits.max_speed, limits.max_collider_speed);
   for (int round = 0; round < 40; ++round) {
-    const double squeeze = 0.7 * limits.max_speed * dt / h;
+    const double squeeze = v * dt / h;
     const double hardened = c * std::exp(0.5 * limits.max_xi * squeeze);
     const double c_after = std::min(hardened, std::max(c, c_hardest));
     if (c_after * dt <= std::max(1.0, s.acoustic_cfl) * h) break;
@@ -36,10 +38,11 @@ double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
 
 }  // namespace
 
-void include_hardening(const Material& material, StateLimits& limits) {
+void include_hardening(const Material& material, StateLimits& limits, double stiffest) {
   limits.max_xi = std::max(limits.max_xi, material.hardening);
-  limits.max_hardened_speed = std::max(limits.max_hardened_speed,
-                                       sound_speed(material) * std::sqrt(material.max_hardening));
+  limits.max_hardened_speed =
+      std::max(limits.max_hardened_speed,
+               sound_speed(material) * std::sqrt(stiffest * material.max_hardening));
 }
 
 DtChoice choose_dt(const SolverSettings& s, const StateLimits& limits, double remaining,

@@ -54,6 +54,7 @@ constexpr int steps_between_looks = 7;
 /// nodes, since particles that are to follow such an edge would be crushed.
 SolverSettings with_held_nodes(SolverSettings s = {}) {
   s.transfer = Transfer::flip;
+  s.shock_viscosity = 0;
   s.contact_at = ContactAt::nodes;
   s.cfl = 2;
   return s;
@@ -144,6 +145,7 @@ DeepScene quick_edge() {
                   box_of_snow({-0.1, 0, -0.06}, {0.1, 0.12, 0.06}, cell / 2),
                   0.006};
   scene.snow.youngs_modulus = 5e3;
+  scene.snow.max_hardening = 30;  // or steps look ahead, and the edge moves by a third of a cell
   return scene;
 }
 

@@ -12,6 +12,7 @@
 
 #include "app/run/render_job.h"
 #include "app/scene/read.h"
+#include "app/setup/seed_scene.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/plan/sweep_plan.h"
 #include "tests/support/temporary_folder.h"
@@ -113,6 +114,59 @@ TEST(Fast, CopiesThatDivergeForetellNothing) {
   const forecast::FastLook look = look_at(falling_ball("", "", 14));
   EXPECT_FALSE(look.work_before) << *look.work_before;
   EXPECT_EQ(look.sentence().find('%'), std::string::npos) << look.sentence();
+}
+
+/// Packed snow carries its load by what it hardens: bounded, a press has a part of its force.
+TEST(Fast, TheCeilingOnHardeningIsNotTakenWhereItChangesForces) {
+  const std::string press = R"(
+frames = 12
+[solver]
+cell_size = 0.02
+[[body]]
+shape = { box = { center = [0, 0.1, 0], size = [0.2, 0.2, 0.2] } }
+[[collider]]
+shape = { plane = {} }
+[[collider]]
+shape = { box = { center = [0, 0.25, 0], size = [0.4, 0.1, 0.4] } }
+velocity = [0, -0.25, 0]
+)";
+  const forecast::FastLook look = look_at(press, {}, 12);
+  EXPECT_EQ(look.overrides, Lines({"solver.acoustic_cfl=0.85"})) << look.sentence();
+  ASSERT_TRUE(look.force_under_cap);
+  EXPECT_LT(*look.force_under_cap, -0.1);
+  EXPECT_LT(std::abs(look.force_change), 0.1);
+  EXPECT_NE(look.sentence().find("max_hardening stays: a ceiling of 20 leaves"), std::string::npos)
+      << look.sentence();
+}
+
+/// Plates that meet snow at rest: the limits look ahead by the speed of the plate.
+TEST(Fast, PlatesOfAnySpeedRun) {
+  for (const double speed : {2.0, 10.0, 30.0, 60.0, 80.0}) {
+    const std::string text = fmt::format(R"(
+frames = 4
+fps = {}
+[solver]
+cell_size = 0.03
+[[body]]
+shape = {{ box = {{ center = [0, 0.15, 0], size = [0.3, 0.3, 0.3] }} }}
+[[collider]]
+shape = {{ plane = {{}} }}
+[[collider]]
+shape = {{ box = {{ center = [-0.3, 0.3, 0], size = [0.2, 0.6, 0.6] }} }}
+velocity = [{}, 0, 0]
+)",
+                                         20 * speed, speed);
+    scene::Scene scene = scene::read_scene_text(text, "plate.toml");
+    std::vector<scene::Override> changes;
+    for (const std::string& change : look_at(text, {}, 4).overrides)
+      changes.push_back(scene::parse_override(change));
+    scene = scene::read_scene_text(text, "plate.toml", "", changes);
+    sim::Simulation simulation =
+        setup::make_simulation(scene, setup::seed_scene(scene).particles, 1);
+    simulation.advance_to(4 / scene.fps);
+    EXPECT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
+    EXPECT_GT(simulation.summary().centre_of_mass[0], 0);
+  }
 }
 
 TEST(Fast, TheChoiceDependsOnTheSceneAlone) {

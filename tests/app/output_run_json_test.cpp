@@ -47,6 +47,7 @@ TEST(RunJson, RunJsonHasTheFieldsOfTheContract) {
                                           "max_speed",
                                           "min_J_P",
                                           "max_J_P",
+                                          "denser_than_ice",
                                           "max_depth",
                                           "max_depth_cells",
                                           "spread",

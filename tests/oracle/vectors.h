@@ -96,6 +96,7 @@ inline Setup setup(const Json& scene, neve::sim::Precision precision) {
   using namespace neve::sim;
   Setup s;
   s.settings.precision = precision;
+  s.settings.shock_viscosity = 0;  // the reference is the paper alone
   s.settings.cell_size = scene["grid"]["h"].get<double>();
   const Vec3d origin = vec3(scene["grid"]["origin"]) / s.settings.cell_size;
   for (int a = 0; a < 3; ++a) s.first_node[a] = static_cast<int>(std::lround(origin[a]));

@@ -28,6 +28,7 @@ SolverSettings affine_settings(Transfer transfer, Kernel kernel, double alpha) {
   s.flip_reference_dt = 0;
   s.separation_min = 0.2;
   s.separation_max = 0.9;
+  s.shock_viscosity = 0;  // the twin has none
   return s;
 }
 

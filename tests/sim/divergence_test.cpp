@@ -54,10 +54,11 @@ Material soft_snow() {
 }
 
 /// Held nodes make the hardest impact. With the paper's transfer less than a tenth of the snow is
-/// crushed; what moves as it is strained is crushed as a whole.
+/// crushed; what moves as it is strained is crushed as a whole, and viscosity keeps it from that.
 SolverSettings with_held_nodes() {
   SolverSettings s;
   s.transfer = Transfer::flip;
+  s.shock_viscosity = 0;
   s.cell_size = 0.03;
   s.contact_at = ContactAt::nodes;
   return s;

@@ -62,8 +62,8 @@ inline constexpr Folder folders[] = {
     {"app/options",
      "render/gl app/support app/scene/toml app/advice app/scene app/output app/setup"},
     {"app/forecast",
-     "sim/base sim/types sim/seeding sim/health sim app/support app/scene/toml app/scene "
-     "app/setup"},
+     "sim/base sim/types sim/shapes sim/seeding sim/health sim app/support app/scene/toml "
+     "app/scene app/setup"},
     {"app/health",
      "sim/base sim/types sim/shapes sim/seeding sim/health sim app/support app/scene/toml "
      "app/scene app/output app/setup app/forecast"},

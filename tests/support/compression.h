@@ -30,6 +30,7 @@ class Press {
   Press(const sim::Material& m, sim::Precision precision) : material_(m) {
     settings_.cell_size = 1;
     settings_.transfer = Transfer::apic;
+    settings_.shock_viscosity = 0;  // the law alone
     settings_.precision = precision;
     settings_.gravity.setZero();
     particles_ = lattice(Vec3d::Zero(), Vec3d::Constant(2), {4, 4, 4}, m.density);
