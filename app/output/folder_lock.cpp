@@ -49,8 +49,9 @@ bool is_ours(int fd) {
   if (count <= 0) return true;
   const std::string_view text(bytes, static_cast<std::size_t>(count));
   // A power cut may leave zeros, or a part of it.
-  return text.find_first_not_of('\0') == text.npos || text.starts_with("neve ") ||
-         text.find(", process ") != text.npos;
+  constexpr std::string_view start = "neve ";
+  return text.find_first_not_of('\0') == text.npos ||
+         start.starts_with(text.substr(0, start.size())) || text.find(", process ") != text.npos;
 }
 
 Descriptor open_lock(const fs::path& file) {
