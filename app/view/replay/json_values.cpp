@@ -28,9 +28,7 @@ bool is_between_tokens(char c) {
 /// The tokens of valid JSON, one after the other.
 class Tokens {
  public:
-  explicit Tokens(std::string_view text) : text_(text) {
-    text_ = without_mark(text_);
-  }
+  explicit Tokens(std::string_view text) : text_(text) { text_ = without_mark(text_); }
 
   /// @return where the next token begins
   Location next() {
