@@ -25,8 +25,9 @@ struct FastLook {
 
 /// Takes longer steps: a ceiling on hardening and a larger acoustic_cfl for the steps that the
 /// scene has, or the other kind of step (semi-implicit, explicit) where a coarse copy needs less
-/// than half of the work that way. The ceiling is not taken where the copy's forces change. The
-/// result depends on the scene alone, never on the machine.
+/// than half of the work that way. Neither the ceiling nor semi-implicit steps are taken where
+/// they change the copy's peak force or mean J_P by more than a tenth. The result depends on the
+/// scene alone, never on the machine.
 /// @param last  frame of the run
 /// @param chosen  addresses that the user has set, which stay
 FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen);

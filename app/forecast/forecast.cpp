@@ -154,14 +154,6 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// N, mean over the time of the report, on the collider that snow presses most.
-double largest_force(const sim::AdvanceReport& report) {
-  double impulse = 0;
-  for (const sim::ColliderLoad& load : report.loads)
-    impulse = std::max(impulse, load.impulse.norm());
-  return report.seconds > 0 ? impulse / report.seconds : 0;
-}
-
 /// A coarse copy that ran.
 struct CopyRun {
   Forecast forecast;
@@ -202,7 +194,7 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
       const double from = simulation.time(), to = frame / scene.fps;
       sim::AdvanceReport report = simulation.advance_to(to, is_interrupted, last_step);
       seconds += seconds_since(before_frame);
-      result.peak_force = std::max(result.peak_force, largest_force(report));
+      result.peak_force = std::max(result.peak_force, report.max_force());
       run.work += static_cast<double>(report.steps) * work_of_step;
       run.particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());

@@ -1,7 +1,6 @@
 #include "app/output/read_picture.h"
 
 #include "app/output/atomic_file.h"
-#include "app/support/room.h"
 
 namespace neve::app::output {
 
@@ -11,14 +10,7 @@ render::Image read_picture(const std::filesystem::path& file) {
 
 render::Image decode_picture(std::span<const std::uint8_t> bytes,
                              const std::filesystem::path& file) {
-  try {
-    return render::decode_png(bytes, memory_room());
-  } catch (const render::ImageSizeError& error) {
-    require_room(error.bytes, error.what(), file.string());
-    throw;
-  } catch (const render::ImageError& error) {
-    throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string());
-  }
+  return decoded(file, "", [&] { return render::decode_png(bytes, memory_room()); });
 }
 
 }  // namespace neve::app::output

@@ -4,10 +4,29 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 
+#include "app/support/errors.h"
+#include "app/support/room.h"
 #include "render/image/image.h"
 
 namespace neve::app::output {
+
+/// What decode() makes of the bytes of a file, whose errors then name it.
+/// @throws Error with the advice, for bytes that are no whole picture; LimitError for one that
+/// becomes more than memory_room()
+template <class Decode>
+auto decoded(const std::filesystem::path& file, const std::string& advice, const Decode& decode) {
+  try {
+    return decode();
+  } catch (const render::ImageSizeError& error) {
+    require_room(error.bytes, error.what(), file.string());
+    throw;
+  } catch (const render::ImageError& error) {
+    throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string(),
+                advice);
+  }
+}
 
 /// @throws IoError; Error for bytes that are no whole PNG; LimitError for one that becomes more
 /// than memory_room()

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/output/atomic_file.h"
+#include "app/output/read_picture.h"
 #include "app/record/picture_files.h"
 #include "app/support/errors.h"
 #include "app/support/room.h"
@@ -75,17 +76,11 @@ render::Image rgb_of(const std::vector<std::uint8_t>& bytes, const std::filesyst
   const auto begins = [&](std::initializer_list<std::uint8_t> start) {
     return bytes.size() > start.size() && std::equal(start.begin(), start.end(), bytes.begin());
   };
-  try {
+  return output::decoded(file, "a plate is a PNG, a JPEG or an OpenEXR file", [&] {
     if (begins({0x76, 0x2f, 0x31, 0x01})) return rgb_of_exr(bytes);
     if (begins({0xff, 0xd8, 0xff})) return as_rgb(render::decode_jpeg(bytes, memory_room()), 0);
     return as_rgb(render::decode_png(bytes, memory_room()), render::read_png_gamma(bytes));
-  } catch (const render::ImageSizeError& error) {
-    require_room(error.bytes, error.what(), file.string());
-    throw;
-  } catch (const render::ImageError& error) {
-    throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string(),
-                "a plate is a PNG, a JPEG or an OpenEXR file");
-  }
+  });
 }
 
 }  // namespace

@@ -22,6 +22,13 @@ void SolveReport::add(const SolveReport& other) {
   given_up += other.given_up;
 }
 
+double AdvanceReport::max_force() const {
+  double max = 0;
+  if (seconds > 0)
+    for (const ColliderLoad& load : loads) max = std::max(max, load.impulse.norm() / seconds);
+  return max;
+}
+
 void AdvanceReport::append(const AdvanceReport& later) {
   if (later.steps == 0) return;
   dt_min = steps == 0 ? later.dt_min : std::min(dt_min, later.dt_min);

@@ -82,6 +82,7 @@ struct AdvanceReport {
   std::optional<SolveReport> solve;                 ///< the worst; empty in explicit steps
   double seconds = 0;                               ///< of all steps
   std::vector<ColliderLoad> loads;                  ///< per collider; empty before the first step
+  double max_force() const;  ///< N, mean over the steps, on the collider that snow presses most
   /// Adds the steps that followed in the same frame.
   void append(const AdvanceReport& later);
 };

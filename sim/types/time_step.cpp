@@ -17,8 +17,8 @@ double ratio(double numerator, double denominator) {
 /// dt so that sound crosses acoustic_cfl cells. Snow that hits something at speed v compresses by
 /// up to 0.7 v dt/h within the step (the steepest slope of the cubic weights), snow that a collider
 /// hits by v dt/h (its particles move by less than a kernel). It hardens by e^(xi v dt/h), but no
-/// more than its material lets it: the step is shortened until sound still
-/// crosses less than a cell afterwards.
+/// more than its material lets it: the step is shortened until sound still crosses less than a cell
+/// afterwards.
 double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
   const double h = s.cell_size, stretch = acoustic_stretch(s);
   const double c = limits.max_sound_speed / stretch,

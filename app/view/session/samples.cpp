@@ -14,15 +14,6 @@ double largest(const std::vector<double>& pressures) {
   return pressures.empty() ? 0 : *std::max_element(pressures.begin(), pressures.end());
 }
 
-/// N, on the collider that snow presses most.
-double largest_force(const sim::AdvanceReport& advance) {
-  double max = 0;
-  if (advance.seconds > 0)
-    for (const sim::ColliderLoad& load : advance.loads)
-      max = std::max(max, load.impulse.norm() / advance.seconds);
-  return max;
-}
-
 RunSample sample_of(const record::FrameRecord& frame) {
   const sim::Summary& s = frame.summary;
   RunSample sample{
@@ -60,7 +51,7 @@ void Samples::note(const timeline::Timeline& timeline, const sim::Summary& s) {
   while (!list.empty() && list.back().time >= s.time) list.pop_back();
   list.push_back({s.time, s.kinetic_energy, s.elastic_energy, s.momentum, s.max_speed, s.min_J_P,
                   s.max_J_P, choice.dt, choice.limit, s.max_depth, largest(s.max_pressure),
-                  largest_force(timeline.here().advance)});
+                  timeline.here().advance.max_force()});
   if (list.size() <= max_samples) return;
   std::size_t kept = 0;  // every other one: the plot covers the whole run with half the detail
   for (std::size_t k = 0; k < list.size(); k += 2) list[kept++] = list[k];
