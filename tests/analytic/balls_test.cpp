@@ -22,4 +22,8 @@ TEST(ElasticBalls, BallsGainNothingWithAflipAndAsflip) {
     check_that_balls_gain_nothing({.transfer = transfer});
 }
 
+TEST(ElasticBalls, BallsReboundWithoutDampingByTheDefaultTransfer) {
+  check_undamped_rebound({.transfer = Transfer::asflip});
+}
+
 }  // namespace

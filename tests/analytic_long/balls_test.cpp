@@ -16,6 +16,11 @@ TEST(ElasticBallsLong, BallsReboundAsInTheReferenceWithEveryTransfer) {
               {.kinetic_at_rest = 0.001, .elastic = 0.864, .total = 0.725, .rebound = 0.850});
 }
 
+TEST(ElasticBallsLong, BallsReboundWithoutDampingWhereTheGridMovesThem) {
+  check_undamped_rebound({.transfer = Transfer::aflip});
+  check_undamped_rebound({.advect = Advect::pic});
+}
+
 TEST(ElasticBallsLong, BallsFallApartWithUndampedFlip) {
   // Known of FLIP with alpha = 1: velocities that the grid does not see are never damped.
   check_that_balls_gain_nothing({.flip_ratio = 1});

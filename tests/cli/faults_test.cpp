@@ -72,7 +72,7 @@ TEST_F(Faults, EveryWriteOfARunFailsOnceAndTheSameCommandEndsWithTheSameBits) {
   ASSERT_EQ(neve({"render", "scene.toml", "--out", "whole", "--frames", "0-2"}).exit_code, 0);
   const RunFiles whole = files_of(folder / "whole");
   for (const char* operation : {"write", "rename", "fsync"})
-    for (int skip = 0; skip < 100; skip += skip < 6 ? 1 : 3) {
+    for (int skip = 0; skip < 100; skip += skip < 3 ? 1 : 5) {
       std::filesystem::remove_all(folder / "out");
       const auto result = failing(fault(operation, skip % 2 ? ENOSPC : EIO, "out/", skip), render);
       if (result.exit_code == 0) {

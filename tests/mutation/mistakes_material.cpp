@@ -147,8 +147,7 @@ std::vector<Mistake> stress_mistakes() {
         zero_J_P,
         stress_times("J / J")},
        {},
-       "J_P is stored instead of F_P; 1/J cancels a factor J",
-       true},
+       "J_P is stored instead of F_P; 1/J cancels a factor J"},
       {"F_P_starts_at_0",
        "F_P starts at 0, F_E = I",
        {zero_J_P},
@@ -159,12 +158,7 @@ std::vector<Mistake> stress_mistakes() {
 
 std::vector<Mistake> plasticity_mistakes() {
   return {
-      {"hardening_sign",
-       "hardening e^(ξ (J_P − 1))",
-       hardening_by("J_P() - Real(1)"),
-       {},
-       {},
-       true},
+      {"hardening_sign", "hardening e^(ξ (J_P − 1))", hardening_by("J_P() - Real(1)")},
       {"hardening_of_J_P", "hardening e^(ξ J_P)", hardening_by("J_P()")},
       {"hardening_of_all_of_F", "hardening with J of F instead of F_P",
        hardening_by("Real(1) - J_P() * determinant(F())")},

@@ -43,10 +43,7 @@ std::vector<Mistake> run_mistakes() {
       {"births_in_occupied_space",
        "births where there is no room",
        {{"sim/engine/room.cpp", "return filled <= birth.room * std::pow(radius / wanted, 3);",
-         "return filled >= 0;"}},
-       {},
-       {},
-       true},
+         "return filled >= 0;"}}},
   };
 }
 

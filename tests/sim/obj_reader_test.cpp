@@ -132,7 +132,7 @@ std::string mutated(std::string text, std::uint64_t& state) {
 TEST(ObjReader, MutatedFilesAreReadOrRefused) {
   std::uint64_t state = 1;
   std::size_t closed = 0, refused = 0;
-  for (int k = 0; k < 20000; ++k) {
+  for (int k = 0; k < 6000; ++k) {
     try {
       const auto solid = sim::shapes::make_mesh_solid(
           sim::shapes::solid_mesh(sim::files::parse_obj(mutated(tetrahedron, state), "m"), "m"));
@@ -144,8 +144,8 @@ TEST(ObjReader, MutatedFilesAreReadOrRefused) {
       ++refused;
     }
   }
-  EXPECT_GT(closed, 200u);  // both ways were walked
-  EXPECT_GT(refused, 5000u);
+  EXPECT_GT(closed, 60u);  // both ways were walked
+  EXPECT_GT(refused, 1500u);
 }
 
 }  // namespace

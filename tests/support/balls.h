@@ -10,11 +10,13 @@ struct BallsCase {
   Kernel kernel = Kernel::cubic;
   double flip_ratio = 0.95;
   sim::Precision precision = sim::Precision::real64;
+  sim::Advect advect = sim::Advect::particle;
 
   std::string label() const {
     const bool has_ratio = transfer != Transfer::apic && transfer != Transfer::mls;
     return name(transfer) + (has_ratio ? (flip_ratio == 1 ? " 1.0" : " 0.95") : "") + ", " +
-           name(kernel) + (precision == sim::Precision::single ? ", float" : "");
+           name(kernel) + (advect == sim::Advect::pic ? ", moved by the grid" : "") +
+           (precision == sim::Precision::single ? ", float" : "");
   }
 };
 
@@ -39,6 +41,7 @@ inline BallsHistory collide_balls(const BallsCase& c) {
   s.transfer = c.transfer;
   s.kernel = c.kernel;
   s.flip_ratio = c.flip_ratio;
+  s.advect = c.advect;
   s.flip_reference_dt = 0;
   s.precision = c.precision;
   s.gravity.setZero();

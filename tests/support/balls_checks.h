@@ -18,6 +18,14 @@ inline BallsHistory recorded_balls(const BallsCase& c) {
   return h;
 }
 
+/// Undamped, they rebound nearly as fast as they came where what strains them moves them: nine
+/// tenths (Sulsky et al. 1994, two discs), the rest rings in them and spins off at their rims.
+inline void check_undamped_rebound(BallsCase c) {
+  c.flip_ratio = 1;
+  verify_near({"balls", c.label(), "speed of rebound / of approach"}, 0.9,
+              recorded_balls(c).rebound, 0.1);
+}
+
 /// For cases without a reference: momentum must hold, and energy must not come from nowhere.
 inline void check_that_balls_gain_nothing(const BallsCase& c) {
   const BallsHistory h = recorded_balls(c);
