@@ -335,6 +335,12 @@ Hypothesis shock(const Case& c) {
       c.at("youngs_modulus")};
 }
 
+std::string hardening_text(const sim::Material& m) {
+  const bool is_clay = m.model == sim::Model::cam_clay;
+  return is_clay ? "consolidation_hardening = " + rough_text(m.consolidation_hardening)
+                 : "hardening = " + rough_text(m.hardening);
+}
+
 Hypothesis too_soft(const Case& c) {
   if (!c.is_crushed()) return std::nullopt;
   const double speed = std::max(c.d.start.max_speed, load_speed(c.scene));
@@ -344,9 +350,9 @@ Hypothesis too_soft(const Case& c) {
                   rough_text(stiffness_that_holds(c.material, c.d.J_P, speed)));
   return Diagnosis{
       Cause::too_soft,
-      fmt::format("snow of youngs_modulus = {} and hardening = {} is too soft for its impact at {} "
-                  "m/s: it was packed to {} kg/m3",
-                  rough_text(c.material.youngs_modulus), rough_text(c.material.hardening),
+      fmt::format("snow of youngs_modulus = {} and {} is too soft for its impact at {} m/s: it was "
+                  "packed to {} kg/m3",
+                  rough_text(c.material.youngs_modulus), hardening_text(c.material),
                   rough_text(speed), rough_text(c.material.density / c.d.J_P)),
       c.material.min_J_P < usual.min_J_P
           ? fmt::format("{}, or {} = {}, where snow yields without hardening further", stiffer,

@@ -8,8 +8,10 @@
 #include "app/health/softness.h"
 #include "app/setup/auto_ranges.h"
 #include "app/support/text.h"
+#include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
+#include "sim/shapes/variation.h"
 
 namespace neve::app::health {
 
@@ -43,14 +45,36 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
     const sim::Material& m = scene.materials[k];
     const sim::Lame lame = sim::lame(m.youngs_modulus, m.poisson_ratio);
     density_ = std::max(density_, m.density);
+    loosest_ = std::max(loosest_, m.max_J_P);
     lightest_density_ = std::min(lightest_density_, m.density);
+    if (m.model == sim::Model::cam_clay) {
+      include_surface(m);
+      continue;
+    }
     compression_ = std::max(compression_, m.critical_compression);
     stretch_ = std::max(stretch_, m.critical_stretch);
-    loosest_ = std::max(loosest_, m.max_J_P);
     stiffest_ = std::max(stiffest_, 2 * lame.mu + 3 * lame.lambda);
     hardened_ = std::max(hardened_, sim::health::hardening_factor(m, min_J_P_));
-    is_bounded_ = is_bounded_ && m.model == sim::Model::snow;
+    is_bounded_ = is_bounded_ && sim::is_snow(m.model);
   }
+}
+
+/// Stresses and strains that the yield surface of cam clay holds, where it is largest.
+void Expected::include_surface(const sim::Material& m) {
+  sim::Material strongest = m;
+  strongest.youngs_modulus *= sim::shapes::max_factor(m.variation.youngs_modulus);
+  strongest.consolidation_pressure *= sim::shapes::max_factor(m.variation.youngs_modulus);
+  strongest.strength = sim::shapes::max_factor(m.variation.thresholds);
+  const auto limits = sim::health::cam_clay::limits(strongest, min_J_P_);
+  const double p = std::max(limits.pressure, limits.tension);
+  surface_stress_ =
+      std::max(surface_stress_, std::sqrt(3 * p * p + 2.0 / 3 * limits.deviator * limits.deviator));
+  // A principal deviator of q is 2 q/3 at most, and mu ln s'^2 in small strain; more in a large
+  // one.
+  const double mu = sim::lame(strongest.youngs_modulus, m.poisson_ratio).mu;
+  const double turn = limits.deviator / (3 * mu);
+  compression_ = std::max(compression_, 1 - std::cbrt(limits.min_J) * std::exp(-turn));
+  stretch_ = std::max(stretch_, std::cbrt(limits.max_J) * std::exp(turn) - 1);
 }
 
 double Expected::negligible_share() {
@@ -79,12 +103,12 @@ Expectation Expected::momentum() const {
 double Expected::stress_limit() const {
   if (!is_bounded_) return no_limit;
   const double strain = std::max(compression_, stretch_) * (1 + stretch_);
-  return std::sqrt(3.0) * stiffest_ * strain * hardened_;
+  return std::max(std::sqrt(3.0) * stiffest_ * strain * hardened_, surface_stress_);
 }
 
 Expectation Expected::stress() const {
   return {{0, stress_limit()},
-          is_bounded_ ? "thresholds and moduli, hardened to J_P = " + rough_text(min_J_P_)
+          is_bounded_ ? "what yields, hardened to J_P = " + rough_text(min_J_P_)
                       : "elastic models have no limit"};
 }
 
@@ -121,7 +145,7 @@ Expectation Expected::stretch() const {
   // Singular values in the arithmetic of the solver.
   constexpr double rounding = 1e-5;
   return {{1 - compression_ - rounding, 1 + stretch_ + rounding},
-          "1 - critical_compression to 1 + critical_stretch"};
+          "1 - critical_compression to 1 + critical_stretch, or the yield surface of cam_clay"};
 }
 
 Expectation Expected::J_E() const {

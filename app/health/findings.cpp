@@ -12,7 +12,9 @@
 #include "app/scene/toml/value.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
+#include "app/support/round_number.h"
 #include "app/support/text.h"
+#include "sim/health/cam_clay.h"
 #include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/solid.h"
 #include "sim/types/time_step.h"
@@ -100,6 +102,21 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
                         fmt::format("youngs_modulus {} Pa makes sound run at {} m/s", modulus,
                                     rough_text(sim::sound_speed(m))),
                         "steps shorten with its square root; the paper's snow has 1.4e5"});
+}
+
+/// Cam clay bears no more pressure than K/2.
+void check_consolidation(const sim::Material& m, std::vector<Finding>& findings) {
+  if (m.model != sim::Model::cam_clay) return;
+  const double K = sim::health::cam_clay::bulk_modulus(m);
+  if (m.consolidation_pressure < 0.4 * K) return;
+  findings.push_back(
+      {Severity::warning, "material." + m.name + ".consolidation_pressure",
+       fmt::format("{} Pa is more than snow of youngs_modulus {} Pa can bear ({} Pa): it is "
+                   "squeezed like rubber before it packs",
+                   rough_text(m.consolidation_pressure), rough_text(m.youngs_modulus),
+                   rough_text(0.5 * K)),
+       fmt::format("a youngs_modulus of {} or more",
+                   rough_text(round_up(10 * m.youngs_modulus * m.consolidation_pressure / K)))});
 }
 
 /// Index of a grid cell.
@@ -272,7 +289,9 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
     const bool is_used =
         std::any_of(pieces.begin(), pieces.end(),
                     [&](const setup::SnowPiece& piece) { return piece.material == &material; });
-    if (is_used) check_material_units(material, findings);
+    if (!is_used) continue;
+    check_material_units(material, findings);
+    check_consolidation(material, findings);
   }
   const double g = scene.solver.gravity.norm();
   if (g > line(Law::gravity))

@@ -79,7 +79,7 @@ std::string remedy_for_clogging(const scene::Scene& scene, const std::string& em
     if (e.name != emitter || e.J_P > 1) continue;
     const sim::Material& material = scene.materials[setup::material_index(scene, e.material)];
     // Packed snow sticks together and stands in its own way.
-    if (material.model == sim::Model::snow)
+    if (sim::is_snow(material.model))
       return fmt::format("loose snow (emitter.{}.J_P = 1.5), {}", emitter, usual);
   }
   return usual;

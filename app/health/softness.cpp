@@ -8,6 +8,7 @@
 #include "app/setup/auto_ranges.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
+#include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
 
@@ -15,6 +16,12 @@ namespace neve::app::health {
 
 double stiffness_that_holds(const sim::Material& material, double J_P, double speed) {
   constexpr double kept = 0.25, focus = 3, min_threshold = 0.005;
+  if (material.model == sim::Model::cam_clay) {
+    // The most pressure that its volume law can bear is K/2.
+    const double shock = focus * material.density * speed * speed / (1 - kept);
+    const double K = sim::health::cam_clay::bulk_modulus(material) / material.youngs_modulus;
+    return round_up(std::max(2 * material.youngs_modulus, 2 * shock / K));
+  }
   sim::Material unit = material;
   unit.youngs_modulus = 1;
   const double s = 1 - std::max(min_threshold, material.critical_compression), J = kept * s;
@@ -34,7 +41,7 @@ namespace {
 double densest_snow(const scene::Scene& scene) {
   double density = 0;
   for (const sim::Material& m : scene.materials)
-    if (m.model == sim::Model::snow) density = std::max(density, m.density);
+    if (sim::is_snow(m.model)) density = std::max(density, m.density);
   return density;
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/picture/snapshot.h"
 #include "app/setup/auto_ranges.h"
+#include "sim/health/diagnostics.h"
 
 namespace neve::app::picture {
 
@@ -25,6 +26,11 @@ double rho_0(const scene::Scene& scene, const Snapshot& s, std::size_t p) {
   if (!s.particles.V0.empty() && s.particles.V0[p] > 0) return s.particles.m[p] / s.particles.V0[p];
   const int material = s.particles.material.empty() ? 0 : s.particles.material[p];
   return scene.materials[static_cast<std::size_t>(material)].density;
+}
+
+sim::Material material_of(const scene::Scene& scene, const Snapshot& s, std::size_t p) {
+  return s.particles.material.empty() ? scene.materials[0]
+                                      : s.particles.material_of(p, scene.materials);
 }
 
 /// Cauchy stress from Kirchhoff stress: sigma = tau / J.
@@ -54,6 +60,12 @@ double attribute(const scene::Scene& scene, scene::ColorBy color_by, const Snaps
       return -sigma(s, p).trace() / 3;
     case scene::ColorBy::von_mises:
       return von_mises(sigma(s, p));
+    case scene::ColorBy::p0:
+      return sim::health::consolidation_pressure(material_of(scene, s, p), J_P(s, p));
+    case scene::ColorBy::yield:
+      return s.particles.F_E.empty() ? 0
+                                     : sim::health::nearness_to_yield(
+                                           material_of(scene, s, p), s.particles.F_E[p], J_P(s, p));
     case scene::ColorBy::id:
       return s.particles.id_of(p);
   }
@@ -78,6 +90,10 @@ AttributeName attribute_name(scene::ColorBy color_by) {
       return {"pressure", "Pa"};
     case scene::ColorBy::von_mises:
       return {"von Mises stress", "Pa"};
+    case scene::ColorBy::p0:
+      return {"p0, pressure that packs", "Pa"};
+    case scene::ColorBy::yield:
+      return {"nearness to yielding", ""};
     case scene::ColorBy::id:
       return {"particle", ""};
   }

@@ -82,6 +82,16 @@ std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& chan
   return override_lines(texts);
 }
 
+/// What the snow bears.
+std::string strength_line(const sim::Material& m) {
+  if (m.model == sim::Model::cam_clay)
+    return "cam clay, " + rough_text(m.friction_angle) + " degrees, cohesion " +
+           rough_text(m.cohesion) + ", p0 " + rough_text(m.consolidation_pressure) +
+           " Pa, hardening " + rough_text(m.consolidation_hardening);
+  return "hardening " + rough_text(m.hardening) + ", theta " + rough_text(m.critical_compression) +
+         " and " + rough_text(m.critical_stretch);
+}
+
 }  // namespace
 
 FrameBuilder::FrameBuilder(const scene::Scene& scene, const setup::SeededScene& seeded,
@@ -327,9 +337,7 @@ std::vector<std::string> FrameBuilder::slate() const {
                   std::to_string(scene_.seed));
   for (const sim::Material& m : scene_.materials)
     lines.push_back(m.name + ": " + rough_text(m.density) + " kg/m3, E " +
-                    rough_text(m.youngs_modulus) + " Pa, hardening " + rough_text(m.hardening) +
-                    ", theta " + rough_text(m.critical_compression) + " and " +
-                    rough_text(m.critical_stretch));
+                    rough_text(m.youngs_modulus) + " Pa, " + strength_line(m));
   for (std::string& line : override_lines(options_.overrides)) lines.push_back(std::move(line));
   return lines;
 }

@@ -150,7 +150,8 @@ void describe(V& visit, sim::Variation& v) {
   visit("youngs_modulus", v.youngs_modulus, unit::none, between(0, 2), restart,
         "Relative standard deviation of the particles' stiffness.");
   visit("thresholds", v.thresholds, unit::none, between(0, 2), restart,
-        "Relative standard deviation of theta_c and theta_s, which vary together.");
+        "Relative standard deviation of theta_c and theta_s, which vary together, or of the "
+        "strength of cam_clay.");
   visit("size", v.size, unit::metre, at_least(1e-6).at_most_or_0(1e6), restart,
         "Size of the lumps that differ; 0: each particle differs on its own.");
 }
@@ -171,6 +172,14 @@ void describe_snow_numbers(V& visit, sim::Material& m) {
         "The paper's theta_c: compression at which snow yields.");
   visit("critical_stretch", m.critical_stretch, unit::none, between(0, 100), live,
         "The paper's theta_s: stretch at which snow breaks.");
+  visit("friction_angle", m.friction_angle, unit::degrees, above(0).below(90), live,
+        "cam_clay: angle of friction of snow that flows at constant volume.");
+  visit("cohesion", m.cohesion, unit::none, between(0, 10), live,
+        "cam_clay: tension that snow bears, as a share of its consolidation pressure.");
+  visit("consolidation_pressure", m.consolidation_pressure, unit::pascal, between(1e-3, 1e12), live,
+        "cam_clay: pressure that the snow of the start bears before it packs.");
+  visit("consolidation_hardening", m.consolidation_hardening, unit::none, between(1e-3, 1e3), live,
+        "cam_clay: rate at which snow that packs gains consolidation pressure.");
 }
 
 template <class V>
@@ -179,7 +188,8 @@ void describe(V& visit, sim::Material& m) {
       "preset", preset_of(m), [&m](Preset preset) { use_preset(m, preset); },
       "Named kind of snow: sets the density and the numbers below it, unless they are given.");
   visit("model", m.model, unit::none, anything, Change::live,
-        "Elastic law; all harden when compacted, only snow also yields.");
+        "Law of the material: the paper's snow, cam_clay (snow whose stiffness stays while its "
+        "strength grows), or an elastic one.");
   describe_snow_numbers(visit, m);
   visit("min_J_P", m.min_J_P, unit::none, above(0).at_most(1), Change::live,
         "Smallest plastic volume ratio: snow packed further keeps yielding but hardens no more.");

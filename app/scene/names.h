@@ -58,7 +58,7 @@ constexpr auto names(sim::Precision) {
 constexpr auto names(sim::Model) {
   using enum sim::Model;
   return std::array{Name{snow, "snow"}, Name{corotated, "corotated"},
-                    Name{neo_hookean, "neo_hookean"}};
+                    Name{neo_hookean, "neo_hookean"}, Name{cam_clay, "cam_clay"}};
 }
 constexpr auto names(Preset) {
   using enum Preset;
@@ -71,7 +71,8 @@ constexpr auto names(Preset) {
                     Name{powder, "powder"},
                     Name{wet, "wet"},
                     Name{packed, "packed"},
-                    Name{icy, "icy"}};
+                    Name{icy, "icy"},
+                    Name{quick, "quick"}};
 }
 constexpr auto names(sim::seeding::Sampling) {
   using enum sim::seeding::Sampling;
@@ -107,13 +108,21 @@ constexpr auto names(ColorBy) {
                     Name{J_P, "J_P"},
                     Name{pressure, "pressure"},
                     Name{von_mises, "von_mises"},
+                    Name{p0, "p0"},
+                    Name{yield, "yield"},
                     Name{id, "id"}};
 }
 constexpr auto names(ScalarField) {
   using enum ScalarField;
-  return std::array{
-      Name{mass, "mass"}, Name{speed, "speed"},       Name{density, "density"},    Name{J_E, "J_E"},
-      Name{J_P, "J_P"},   Name{pressure, "pressure"}, Name{von_mises, "von_mises"}};
+  return std::array{Name{mass, "mass"},
+                    Name{speed, "speed"},
+                    Name{density, "density"},
+                    Name{J_E, "J_E"},
+                    Name{J_P, "J_P"},
+                    Name{pressure, "pressure"},
+                    Name{von_mises, "von_mises"},
+                    Name{p0, "p0"},
+                    Name{yield, "yield"}};
 }
 constexpr auto names(VectorField) {
   using enum VectorField;

@@ -8,8 +8,9 @@ namespace neve::app::scene {
 
 namespace {
 
-/// Density (kg/m3), Young's modulus (Pa), Poisson ratio, hardening, critical compression, critical
-/// stretch.
+/// Density (kg/m3), Young's modulus (Pa), Poisson ratio; of the paper's snow hardening, critical
+/// compression and stretch; of cam clay friction angle (degrees), cohesion, consolidation pressure
+/// (Pa) and its hardening.
 ///
 /// The six of the paper are those of its figure of parameter variations. The other four follow what
 /// the paper says of its parameters: small thresholds make dry powder and large ones wet, chunky
@@ -21,24 +22,34 @@ namespace {
 /// are as short as sound is fast.
 struct Row {
   Preset preset;
-  double numbers[6];
+  double numbers[10];
 };
 constexpr std::array rows{
-    Row{Preset::paper, {400, 1.4e5, 0.2, 10, 0.025, 0.0075}},
-    Row{Preset::lower_hardening, {400, 1.4e5, 0.2, 5, 0.025, 0.0075}},
-    Row{Preset::lower_youngs_modulus, {400, 4.8e4, 0.2, 10, 0.025, 0.0075}},
-    Row{Preset::lower_critical_compression, {400, 1.4e5, 0.2, 10, 0.019, 0.0075}},
-    Row{Preset::lower_critical_stretch, {400, 1.4e5, 0.2, 10, 0.025, 0.005}},
-    Row{Preset::lower_compression_and_stretch, {400, 1.4e5, 0.2, 10, 0.019, 0.005}},
-    Row{Preset::powder, {150, 4e4, 0.2, 7, 0.015, 0.002}},
-    Row{Preset::wet, {500, 1e5, 0.2, 5, 0.04, 0.015}},
-    Row{Preset::packed, {500, 4e5, 0.2, 10, 0.025, 0.0075}},
-    Row{Preset::icy, {700, 1.4e6, 0.3, 20, 0.02, 0.004}},
+    Row{Preset::paper, {400, 1.4e5, 0.2, 10, 0.025, 0.0075, 39, 0.3, 3300, 1}},
+    Row{Preset::lower_hardening, {400, 1.4e5, 0.2, 5, 0.025, 0.0075, 39, 0.3, 3300, 1}},
+    Row{Preset::lower_youngs_modulus, {400, 4.8e4, 0.2, 10, 0.025, 0.0075, 39, 0.3, 3300, 1}},
+    Row{Preset::lower_critical_compression, {400, 1.4e5, 0.2, 10, 0.019, 0.0075, 39, 0.3, 3300, 1}},
+    Row{Preset::lower_critical_stretch, {400, 1.4e5, 0.2, 10, 0.025, 0.005, 39, 0.3, 3300, 1}},
+    Row{Preset::lower_compression_and_stretch,
+        {400, 1.4e5, 0.2, 10, 0.019, 0.005, 39, 0.3, 3300, 1}},
+    Row{Preset::powder, {150, 4e4, 0.2, 7, 0.015, 0.002, 39, 0.3, 3300, 1}},
+    Row{Preset::wet, {500, 1e5, 0.2, 5, 0.04, 0.015, 39, 0.3, 3300, 1}},
+    Row{Preset::packed, {500, 4e5, 0.2, 10, 0.025, 0.0075, 39, 0.3, 3300, 1}},
+    Row{Preset::icy, {700, 1.4e6, 0.3, 20, 0.02, 0.004, 39, 0.3, 3300, 1}},
+    Row{Preset::quick, {400, 5e4, 0.2, 10, 0.025, 0.0075, 39, 0.3, 3300, 1}},
 };
 
-std::array<double*, 6> numbers_of(sim::Material& m) {
-  return {&m.density,   &m.youngs_modulus,       &m.poisson_ratio,
-          &m.hardening, &m.critical_compression, &m.critical_stretch};
+std::array<double*, 10> numbers_of(sim::Material& m) {
+  return {&m.density,
+          &m.youngs_modulus,
+          &m.poisson_ratio,
+          &m.hardening,
+          &m.critical_compression,
+          &m.critical_stretch,
+          &m.friction_angle,
+          &m.cohesion,
+          &m.consolidation_pressure,
+          &m.consolidation_hardening};
 }
 
 }  // namespace

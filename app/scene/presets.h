@@ -14,6 +14,7 @@
 namespace neve::app::scene {
 
 /// The first six are the paper's variations; `paper` is its reference snow, and the default.
+/// `quick` is that of cam clay with the fewest steps.
 enum class Preset {
   paper,
   lower_hardening,
@@ -24,7 +25,8 @@ enum class Preset {
   powder,
   wet,
   packed,
-  icy
+  icy,
+  quick
 };
 
 /// The snow of a preset; its name and model say nothing.

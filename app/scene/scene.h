@@ -16,9 +16,9 @@
 
 namespace neve::app::scene {
 
-enum class ColorBy { snow, speed, density, J_E, J_P, pressure, von_mises, id };
+enum class ColorBy { snow, speed, density, J_E, J_P, pressure, von_mises, p0, yield, id };
 /// Fields on the nodes of the grid. All but mass and speed are means of the particles around.
-enum class ScalarField { mass, speed, density, J_E, J_P, pressure, von_mises };
+enum class ScalarField { mass, speed, density, J_E, J_P, pressure, von_mises, p0, yield };
 /// The names of design and paper: velocity is what is rasterised (v_old).
 enum class VectorField { velocity, momentum, force, v_free, v_star, v_new };
 enum class Layer {

@@ -6,6 +6,8 @@
 
 #include "app/setup/snow_pieces.h"
 #include "app/support/round_number.h"
+#include "sim/health/cam_clay.h"
+#include "sim/health/diagnostics.h"
 #include "sim/shapes/placed_points.h"
 #include "sim/types/time_step.h"
 
@@ -77,15 +79,25 @@ double largest(const std::vector<sim::Material>& materials, double (*of)(const s
 
 /// Compression by theta_c in each direction, the elastic limit of undeformed snow.
 double yield_pressure(const sim::Material& m) {
+  if (m.model == sim::Model::cam_clay) return m.consolidation_pressure;
   const sim::Lame l = sim::lame(m.youngs_modulus, m.poisson_ratio);
   const double theta = std::clamp(m.critical_compression, 0.001, 0.5);
   return (3 * l.lambda + 2 * l.mu) * theta;
 }
 
 double yield_shear(const sim::Material& m) {
+  if (m.model == sim::Model::cam_clay) return sim::health::cam_clay::limits(m, 1).deviator;
   const sim::Lame l = sim::lame(m.youngs_modulus, m.poisson_ratio);
   const double theta = std::clamp(m.critical_compression + m.critical_stretch, 0.001, 0.5);
   return 2 * l.mu * theta;
+}
+
+/// Largest change of J_E: three directions at the threshold, as in J = (1 + theta)^3.
+double elastic_reach(const sim::Material& m) {
+  if (m.model != sim::Model::cam_clay)
+    return std::max(3 * m.critical_compression, 3 * m.critical_stretch);
+  const auto limits = sim::health::cam_clay::limits(m, 1);
+  return std::max(1 - limits.min_J, limits.max_J - 1);
 }
 
 /// Pressure of snow at impact, rho v^2: below the elastic limit, and well above its own weight.
@@ -154,13 +166,7 @@ scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
     case scene::ColorBy::density:
       return density_range(scene);
     case scene::ColorBy::J_E: {
-      // Three directions at the threshold, as in J = (1 + theta)^3.
-      const double compression = 3 * largest(scene.materials, [](const sim::Material& m) {
-                                   return m.critical_compression;
-                                 });
-      const double stretch =
-          3 * largest(scene.materials, [](const sim::Material& m) { return m.critical_stretch; });
-      const double reach = std::clamp(round_up(std::max(compression, stretch)), 0.01, 0.8);
+      const double reach = std::clamp(round_up(largest(scene.materials, elastic_reach)), 0.01, 0.8);
       return {1 - reach, 1 + reach};
     }
     case scene::ColorBy::J_P:
@@ -173,6 +179,14 @@ scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
     case scene::ColorBy::von_mises:
       return {0, round_up(std::min(hardened * largest(scene.materials, yield_shear),
                                    stagnation_pressure(scene)))};
+    case scene::ColorBy::p0: {
+      const double p0 = hardened * largest(scene.materials, [](const sim::Material& m) {
+                          return sim::health::consolidation_pressure(m, 1);
+                        });
+      return {0, p0 > 0 ? round_up(p0) : 1};
+    }
+    case scene::ColorBy::yield:
+      return {0, 1};
     case scene::ColorBy::id:
       return {0, static_cast<double>(std::max<std::size_t>(particle_count, 2) - 1)};
   }
@@ -214,6 +228,10 @@ scene::ColorBy attribute_of(scene::ScalarField field) {
       return scene::ColorBy::pressure;
     case scene::ScalarField::von_mises:
       return scene::ColorBy::von_mises;
+    case scene::ScalarField::p0:
+      return scene::ColorBy::p0;
+    case scene::ScalarField::yield:
+      return scene::ColorBy::yield;
   }
   return scene::ColorBy::density;
 }

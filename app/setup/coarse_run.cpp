@@ -39,6 +39,7 @@ scene::Scene coarsened(const scene::Scene& scene, Substitute substitute) {
     const double c = sim::sound_speed(material);
     if (c > max_sound_speed) material.youngs_modulus *= max_sound_speed * max_sound_speed / (c * c);
     if (substitute == Substitute::uncrushed) {
+      if (material.model == sim::Model::cam_clay) material.model = sim::Model::snow;
       material.hardening = 0;
       material.critical_compression = 0.9;
     }

@@ -6,6 +6,7 @@
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 
 namespace neve::app::timeline {

@@ -34,7 +34,10 @@ bool same_law(const Material& a, const Material& b) {
          a.poisson_ratio == b.poisson_ratio && a.hardening == b.hardening &&
          a.critical_compression == b.critical_compression &&
          a.critical_stretch == b.critical_stretch && a.min_J_P == b.min_J_P &&
-         a.max_J_P == b.max_J_P && a.max_hardening == b.max_hardening;
+         a.max_J_P == b.max_J_P && a.max_hardening == b.max_hardening &&
+         a.friction_angle == b.friction_angle && a.cohesion == b.cohesion &&
+         a.consolidation_pressure == b.consolidation_pressure &&
+         a.consolidation_hardening == b.consolidation_hardening;
 }
 
 /// The collider that continues as `after`, which has number k: the one of its name, of several the

@@ -174,8 +174,8 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
     s.min_J_P = q == begin ? J_P : std::min(s.min_J_P, J_P);
     s.max_J_P = q == begin ? J_P : std::max(s.max_J_P, J_P);
     if (J_P <= health::packed_J_P) s.packed += m;
-    const bool is_snow = static_cast<kernels::ModelKind>(p.model()) == kernels::ModelKind::snow;
-    if (is_snow && m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
+    const bool packs = kernels::is_plastic(static_cast<kernels::ModelKind>(p.model()));
+    if (packs && m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
   }
   return s;
 }

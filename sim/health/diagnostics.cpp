@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/health/cam_clay.h"
 #include "sim/health/limits.h"
 #include "sim/kernels/constitutive.h"
 #include "sim/types/number_text.h"
@@ -111,11 +112,13 @@ std::string what(const Divergence& d, double acoustic_cfl) {
 }  // namespace
 
 double hardening_factor(const Material& material, double J_P) {
+  if (!hardens(material.model)) return 1;
   return std::clamp(std::exp(material.hardening * (1 - J_P)), kernels::min_hardening,
                     material.max_hardening);
 }
 
 double energy_density(const Material& material, const Mat3d& F_E, double J_P) {
+  if (material.model == Model::cam_clay) return cam_clay::energy_density(material, F_E);
   const Lame l = hardened(material, J_P);
   if (material.model == Model::neo_hookean) {
     const double J = F_E.determinant();
@@ -129,14 +132,21 @@ double energy_density(const Material& material, const Mat3d& F_E, double J_P) {
 std::array<double, 4> energy_densities(const std::array<const Material*, 4>& materials,
                                        const std::array<Mat3d, 4>& F_E,
                                        const std::array<double, 4>& J_P) {
+  std::array<double, 4> out;
+  const auto takes_stretches = [](const Material* m) {
+    return m->model == Model::snow || m->model == Model::corotated;
+  };
+  if (std::none_of(materials.begin(), materials.end(), takes_stretches)) {
+    for (std::size_t l = 0; l < 4; ++l) out[l] = energy_density(*materials[l], F_E[l], J_P[l]);
+    return out;
+  }
   Quad<double> rows[9];
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
       for (std::size_t l = 0; l < 4; ++l) rows[3 * a + b][l] = F_E[l](a, b);
   const kernels::SignedSvd<Quad<double>> svd = kernels::signed_svd_lanes(rows);
-  std::array<double, 4> out;
   for (std::size_t l = 0; l < 4; ++l)
-    out[l] = materials[l]->model == Model::neo_hookean
+    out[l] = !takes_stretches(materials[l])
                  ? energy_density(*materials[l], F_E[l], J_P[l])
                  : corotated_energy(hardened(*materials[l], J_P[l]),
                                     Vec3d(svd.s[0][l], svd.s[1][l], svd.s[2][l]));
@@ -144,6 +154,7 @@ std::array<double, 4> energy_densities(const std::array<const Material*, 4>& mat
 }
 
 Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
+  if (material.model == Model::cam_clay) return cam_clay::first_piola(material, F_E);
   const Lame l = hardened(material, J_P);
   if (material.model == Model::neo_hookean) {
     const Mat3d inverse_transposed = F_E.inverse().transpose();
@@ -154,7 +165,7 @@ Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
 }
 
 ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P) {
-  if (material.model == Model::neo_hookean)
+  if (material.model == Model::neo_hookean || material.model == Model::cam_clay)
     return {energy_density(material, F_E, J_P), first_piola(material, F_E, J_P)};
   const Lame l = hardened(material, J_P);
   const Principal p = decompose(F_E);
@@ -162,9 +173,24 @@ ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, dou
 }
 
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0) {
+  if (material.model == Model::cam_clay)
+    return std::sqrt(cam_clay::wave_modulus(material, F_E) / rho0);
   const Lame l = hardened(material, J_P);
   const double stretch = F_E.jacobiSvd().singularValues()[0], J = F_E.determinant();
   return std::sqrt((2 * l.mu * stretch * stretch + l.lambda * J * J) / rho0);
+}
+
+double consolidation_pressure(const Material& material, double J_P) {
+  return material.model == Model::cam_clay ? cam_clay::p0(material, J_P) : 0;
+}
+
+double nearness_to_yield(const Material& material, const Mat3d& F_E, double J_P) {
+  if (material.model == Model::cam_clay) return cam_clay::nearness_to_yield(material, F_E, J_P);
+  if (material.model != Model::snow) return 0;
+  const Vec3d s = decompose(F_E).s;
+  constexpr double least = 1e-9;
+  return std::max((s.maxCoeff() - 1) / std::max(material.critical_stretch, least),
+                  (1 - s.minCoeff()) / std::max(material.critical_compression, least));
 }
 
 void find_culprits(const ParticleArrays& particles, const SolverSettings& settings,

@@ -34,9 +34,18 @@ struct ElasticResponse {
 };
 ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P);
 
-/// sqrt((2 mu s_max^2 + lambda J_E^2) e^(xi (1 - J_P)) / rho0): speed of the fastest elastic wave,
-/// as the acoustic limit sees it, m/s. @param rho0 mass / initial volume, kg/m3
+/// sqrt((2 mu s_max^2 + lambda J_E^2) e^(xi (1 - J_P)) / rho0), or that of the law: speed of the
+/// fastest elastic wave, as the acoustic limit sees it, m/s. @param rho0 mass / initial volume,
+/// kg/m3
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0);
+
+/// Pressure that packs cam clay, Pa; 0 for other laws.
+double consolidation_pressure(const Material& material, double J_P);
+
+/// 1 where the material yields, below inside, 0 at rest in the middle: of cam clay on rays from the
+/// middle of its ellipse, of the paper's snow the largest stretch over its threshold; 0 for elastic
+/// laws.
+double nearness_to_yield(const Material& material, const Mat3d& F_E, double J_P);
 
 /// Fills in the culprit of the rule that d names, its state, and the sentence for the user.
 void find_culprits(const ParticleArrays& particles, const SolverSettings& settings,

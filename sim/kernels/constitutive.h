@@ -5,6 +5,7 @@
 /// factor held between min_hardening and the material's max_hardening. Stress is the Kirchhoff
 /// stress tau = P F_E^T: the force of a particle is -V0 tau grad_w, J cancels.
 
+#include "sim/kernels/cam_clay.h"
 #include "sim/kernels/decompose.h"
 #include "sim/kernels/particle_lanes.h"
 #include "sim/kernels/row.h"
@@ -15,18 +16,6 @@ namespace neve::sim::kernels {
 /// rounding of its weight, but no product of them is so small that processors slow down
 /// (denormals).
 inline constexpr double min_hardening = 1e-12;
-
-/// No bound on a number, in float and in double.
-inline constexpr double no_bound = 3e38;
-
-/// A row of the material table as kernels see it. By default J_P and hardening have no bounds.
-template <class Real>
-struct MaterialConstants {
-  Real mu0, lambda0;  ///< Pa
-  Real xi;
-  Real theta_c, theta_s;
-  Real min_J_P = 0, max_J_P = Real(no_bound), max_hardening = Real(no_bound);
-};
 
 /// Eigenvalues of b = F_E F_E^T between which its own decomposition is good to a few units in the
 /// last place; outside, F_E itself is decomposed.
@@ -278,6 +267,14 @@ class MaterialUpdate {
   NEVE_NOINLINE void operator()(ParticleLanes<Real, W>* batch, int count, ModelKind model,
                                 const MaterialConstants<Real>* table, bool is_projected,
                                 V* wave_modulus, unsigned* is_inverted, const Look& look) {
+    if (model == ModelKind::cam_clay) {
+      for (int k = 0; k * W < count; ++k) {
+        const unsigned used = lane_bits(first_lanes<MaskOf<V>>(count - k * W));
+        is_inverted[k] = used & by_invariants(batch[k], table, is_projected, wave_modulus[k]);
+        look(k, batch[k], wave_modulus[k]);
+      }
+      return;
+    }
     const bool is_plastic = is_projected && model == ModelKind::snow;
     unsigned rest[max_batches];
     int packed = 0;
@@ -323,6 +320,13 @@ class MaterialUpdate {
   NEVE_INLINE static void keep_stress(M& m, ParticleLanes<Real, W>& p, V& wave_modulus) {
     for (int q = 0; q < 6; ++q) p.tau[q] = m.word[M::word_tau + q];
     wave_modulus = m.wave_modulus();
+  }
+
+  /// Laws that need no decomposition.
+  NEVE_NOINLINE static unsigned by_invariants(ParticleLanes<Real, W>& p,
+                                              const MaterialConstants<Real>* table,
+                                              bool is_projected, V& wave_modulus) {
+    return cam_clay(p, table, is_projected, wave_modulus);
   }
 
   /// N batches of packed particles from the q-th.

@@ -7,6 +7,8 @@
 ///   corotated    D = 2 mu (G V - [w]x) V + lambda J (2 J - 1) tr G I - lambda J (J - 1) G^T,
 ///                dR = [w]x R, (tr V I - V) w = axial(G V - V G^T)
 ///   neo-Hookean  D = mu (G b + G^T) + lambda (tr G I - ln J G^T)
+///   cam clay     D = a (G b + t G^T - 2/3 tr(G b) I - 2/3 tr G (b - t I)) + K J^2 tr G I
+///                    - K/2 (J^2 - 1) G^T,   a = mu J^(-2/3), t = tr b/3, at a fixed plastic state
 /// Source: derivatives of the stresses of constitutive.h; dR as in the paper's technical report.
 
 #include "sim/kernels/constitutive.h"
@@ -16,8 +18,8 @@ namespace neve::sim::kernels {
 /// Data kept of a particle during a solve: two quads.
 template <class V>
 struct Elasticity {
-  Sym3<V> shape;       ///< V of snow and corotated, b of neo-Hookean
-  V V0_mu, V0_lambda;  ///< hardened, J
+  Sym3<V> shape;       ///< V of snow and corotated, b of the others
+  V V0_mu, V0_lambda;  ///< hardened, J; of cam clay mu and K
 };
 
 /// U diag(s) U^T, U row by row.
@@ -63,6 +65,10 @@ NEVE_INLINE Sym3<V> left_stretch(const V* F) {
 template <class V, class I>
 NEVE_INLINE Elasticity<V> elasticity(const Record<V, I>& p, ModelKind model,
                                      const MaterialConstants<ElementOf<V>>* table) {
+  if (model == ModelKind::cam_clay) {
+    const CamClayLanes<V> m = take_cam_clay(p, table);
+    return {left_cauchy_green(p.F_E), p.V0 * m.mu, p.V0 * m.K};
+  }
   MaterialLanes<V> m;
   take_lanes(p, table, m);
   V mu, lambda;
@@ -114,7 +120,19 @@ NEVE_INLINE void stress_change(const Elasticity<V>& e, ModelKind model, const V*
   using Real = ElementOf<V>;
   const V trace = G[0] + G[4] + G[8];
   V on_transpose, on_identity;
-  if (model == ModelKind::neo_hookean) {
+  if (model == ModelKind::cam_clay) {
+    const Sym3<V>& b = e.shape;
+    times(G, b, D);
+    const V t = (b.xx + b.yy + b.zz) * Real(1.0 / 3), along = D[0] + D[4] + D[8];
+    constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-12) : Real(1e-24);
+    const V J_squared = larger_lanes(determinant(b), all<V>(tiny));
+    const V a = e.V0_mu * inverse_cube_root(J_squared), spread = Real(-2.0 / 3) * trace;
+    const V b_row[9] = {b.xx, b.xy, b.xz, b.xy, b.yy, b.yz, b.xz, b.yz, b.zz};
+    for (int q = 0; q < 9; ++q) D[q] = a * fused(spread, b_row[q], D[q]);
+    on_transpose = fused(a, t, Real(-0.5) * e.V0_lambda * (J_squared - Real(1)));
+    on_identity =
+        fused(e.V0_lambda * J_squared, trace, -a * fused(spread, t, Real(2.0 / 3) * along));
+  } else if (model == ModelKind::neo_hookean) {
     times(G, e.shape, D);
     // J^2 = det b; held where neo_hookean() holds it.
     const V log_J =

@@ -1,5 +1,5 @@
 #pragma once
-/// Layout of a particle record.
+/// Layout of a particle record and of the material table.
 
 #include <cstdint>
 
@@ -7,7 +7,12 @@
 
 namespace neve::sim::kernels {
 
-enum class ModelKind : std::uint8_t { snow = 0, corotated = 1, neo_hookean = 2 };
+enum class ModelKind : std::uint8_t { snow = 0, corotated = 1, neo_hookean = 2, cam_clay = 3 };
+
+/// Laws that return what is turned inside out.
+NEVE_INLINE constexpr bool is_plastic(ModelKind model) {
+  return model == ModelKind::snow || model == ModelKind::cam_clay;
+}
 
 enum ParticleFlag : std::uint8_t {
   needs_volume = 1,  ///< V0 is to be estimated in the next step
@@ -29,7 +34,7 @@ struct Record {
   I cell[3];
   I kind;       ///< material | model << 16 | flags << 24
   R stiffness;  ///< factor on mu and lambda
-  R threshold;  ///< factor on theta_c and theta_s
+  R threshold;  ///< factor on theta_c and theta_s, or on p0
   I id;
   R C[9];  ///< 1/s, affine velocity of all transfers but FLIP, row by row
 
@@ -47,5 +52,18 @@ NEVE_INLINE Integer<Real> kind_of(std::uint16_t material, ModelKind model, unsig
 template <class Real>
 using Particle = Record<Real, Integer<Real>>;
 static_assert(sizeof(Particle<float>) == 160 && sizeof(Particle<double>) == 320);
+
+/// No bound on a number, in float and in double.
+inline constexpr double no_bound = 3e38;
+
+/// A row of the material table. By default J_P and hardening have no bounds.
+template <class Real>
+struct MaterialConstants {
+  Real mu0, lambda0;  ///< Pa
+  Real xi;
+  Real theta_c, theta_s;
+  Real min_J_P = 0, max_J_P = Real(no_bound), max_hardening = Real(no_bound);
+  Real M = 1, beta = 0, xi_p0 = 1, alpha0 = 0;  ///< of cam clay
+};
 
 }  // namespace neve::sim::kernels

@@ -701,7 +701,7 @@ struct SweepsFor {
     unsigned inverted[gather_group / W];
     const auto model = static_cast<ModelKind>(group.record[0]->model());
     update(batch, group.count, model, c.materials, is_projected, wave_modulus, inverted, look);
-    const bool is_viscous = gathered && model == ModelKind::snow && c.shock_linear > 0;
+    const bool is_viscous = gathered && is_plastic(model) && c.shock_linear > 0;
     for (int k = 0; k * W < group.count; ++k) {
       Batch& p = batch[k];
       const V sound_squared = wave_modulus[k] * p.V0 / p.m;
@@ -713,7 +713,7 @@ struct SweepsFor {
       if (inverted[k] == 0) continue;
       const auto count = static_cast<std::uint32_t>(__builtin_popcount(inverted[k]));
       report.sum.inverted += count;
-      if (model != ModelKind::snow) report.sum.inverted_unprojected += count;
+      if (!is_plastic(model)) report.sum.inverted_unprojected += count;
     }
   }
   NEVE_INLINE static void project(const Group<gather_group>& group, Batch* batch,

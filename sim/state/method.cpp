@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/shock.h"
 #include "sim/kernels/simd.h"
@@ -38,22 +39,35 @@ OwnShares own_shares(const SolverSettings& s) {
 }
 
 template <class Real>
-std::vector<kernels::MaterialConstants<Real>> constants_of(const std::vector<Material>& materials) {
-  std::vector<kernels::MaterialConstants<Real>> constants;
+std::vector<kernels::MaterialConstants<Real>> table_of(const std::vector<Material>& materials) {
+  std::vector<kernels::MaterialConstants<Real>> table;
   for (const Material& m : materials) {
     if (m.yields && materials.size() > 1)
       throw std::invalid_argument("material " + m.name +
                                   " yields besides snow: it must be the only material");
-    const Lame rest = lame(m.youngs_modulus, m.poisson_ratio);
-    constants.push_back({static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
-                         static_cast<Real>(m.hardening), static_cast<Real>(m.critical_compression),
-                         static_cast<Real>(m.critical_stretch), static_cast<Real>(m.min_J_P),
-                         static_cast<Real>(m.max_J_P), static_cast<Real>(m.max_hardening)});
+    table.push_back(constants_of<Real>(m));
   }
-  return constants;
+  return table;
 }
 
 }  // namespace
+
+template <class Real>
+kernels::MaterialConstants<Real> constants_of(const Material& m) {
+  const Lame rest = lame(m.youngs_modulus, m.poisson_ratio);
+  return {.mu0 = static_cast<Real>(rest.mu),
+          .lambda0 = static_cast<Real>(rest.lambda),
+          .xi = static_cast<Real>(m.hardening),
+          .theta_c = static_cast<Real>(m.critical_compression),
+          .theta_s = static_cast<Real>(m.critical_stretch),
+          .min_J_P = static_cast<Real>(m.min_J_P),
+          .max_J_P = static_cast<Real>(m.max_J_P),
+          .max_hardening = static_cast<Real>(m.max_hardening),
+          .M = static_cast<Real>(health::cam_clay::critical_slope(m.friction_angle)),
+          .beta = static_cast<Real>(m.cohesion),
+          .xi_p0 = static_cast<Real>(m.consolidation_hardening),
+          .alpha0 = static_cast<Real>(health::cam_clay::alpha0(m))};
+}
 
 template <class Real>
 Method<Real>::Method(const SolverSettings& given, const std::vector<Material>& materials_given,
@@ -69,7 +83,7 @@ Method<Real>::Method(const SolverSettings& given, const std::vector<Material>& m
 template <class Real>
 void Method<Real>::change(const SolverSettings& given,
                           const std::vector<Material>& materials_given) {
-  material_constants = constants_of<Real>(materials_given);
+  material_constants = table_of<Real>(materials_given);
   settings = given;
   materials = materials_given;
   half_spacing.clear();
@@ -165,6 +179,8 @@ std::array<double, 4> Method<Real>::elastic_energies(
   return energy;
 }
 
+template kernels::MaterialConstants<float> constants_of(const Material&);
+template kernels::MaterialConstants<double> constants_of(const Material&);
 template struct Method<float>;
 template struct Method<double>;
 

@@ -14,6 +14,10 @@
 
 namespace neve::sim::engine {
 
+/// A material as kernels see it.
+template <class Real>
+kernels::MaterialConstants<Real> constants_of(const Material& material);
+
 template <class Real>
 struct Method {
   /// @throws std::invalid_argument for materials or a period that cannot be

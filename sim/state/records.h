@@ -19,6 +19,8 @@ inline kernels::ModelKind model_kind(Model model) {
       return kernels::ModelKind::corotated;
     case Model::neo_hookean:
       return kernels::ModelKind::neo_hookean;
+    case Model::cam_clay:
+      return kernels::ModelKind::cam_clay;
     default:
       return kernels::ModelKind::snow;
   }

@@ -14,6 +14,8 @@ Material scaled(const Material& material, double stiffness, double threshold) {
   out.youngs_modulus *= stiffness;
   out.critical_compression *= threshold;
   out.critical_stretch *= threshold;
+  out.consolidation_pressure *= stiffness;  // alpha0 stays
+  out.strength *= threshold;
   return out;
 }
 

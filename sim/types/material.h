@@ -5,12 +5,22 @@
 
 namespace neve::sim {
 
-enum class Model { snow, corotated, neo_hookean };
+/// snow: the paper's. cam_clay: sim/kernels/cam_clay.h. The others are elastic.
+enum class Model { snow, corotated, neo_hookean, cam_clay };
+
+/// Laws that pack, tear and can be packed again.
+constexpr bool is_snow(Model model) {
+  return model == Model::snow || model == Model::cam_clay;
+}
+/// Laws whose moduli grow by e^(xi (1 - J_P)) as they pack.
+constexpr bool hardens(Model model) {
+  return model != Model::cam_clay;
+}
 
 /// Variation between particles: relative standard deviations.
 struct Variation {
   double density = 0, youngs_modulus = 0;
-  double thresholds = 0;  ///< theta_c and theta_s together
+  double thresholds = 0;  ///< theta_c and theta_s together; p0 of cam clay
   double size = 0.05;     ///< m, of stiffer and softer lumps; 0: each particle on its own
 };
 
@@ -23,6 +33,12 @@ struct Material {
   double hardening = 10.0;              ///< xi
   double critical_compression = 0.025;  ///< theta_c
   double critical_stretch = 0.0075;     ///< theta_s
+  /// Cam clay: its yield surface is an ellipse over the pressure, from -beta p0 to p0.
+  double friction_angle = 39;            ///< degrees, of the critical state; M = 1.6
+  double cohesion = 0.3;                 ///< beta
+  double consolidation_pressure = 3300;  ///< p0 of the start, Pa
+  double consolidation_hardening = 1;    ///< xi of p0
+  double strength = 1;                   ///< factor of a particle on p0; no scene key
   /// Range of J_P, and the largest factor of hardening. The paper bounds none of them. Beyond 20
   /// snow is single particles, and their J_P only says for how long they have been alone.
   double min_J_P = 0.1, max_J_P = 20, max_hardening = 1e4;

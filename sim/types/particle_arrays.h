@@ -22,7 +22,7 @@ struct ParticleArrays {
   std::vector<Mat3d> C;           ///< 1/s, all transfers but FLIP, default 0
   std::vector<int> material;      ///< index, default 0
   std::vector<double> stiffness;  ///< factor on mu and lambda, default 1
-  std::vector<double> threshold;  ///< factor on theta_c and theta_s, default 1
+  std::vector<double> threshold;  ///< factor on theta_c and theta_s, or p0; default 1
   std::vector<std::uint32_t> id;  ///< increasing; default 0, 1, 2, ...
 
   std::uint32_t id_of(std::size_t index) const {

@@ -15,6 +15,7 @@
 
 #include <Eigen/Geometry>
 
+#include "sim/health/cam_clay.h"
 #include "sim/simulation.h"
 
 namespace oracle {
@@ -83,6 +84,54 @@ inline neve::sim::shapes::Collider collider(const Json& j) {
   return c;
 }
 
+/// False for a law, or a flow rule, that is not here.
+inline bool is_known(const Json& material) {
+  if (!material.contains("model")) return true;
+  const std::string model = material["model"];
+  if (model == "cam_clay") return material["flow"] == "radial" && material["plastic"].get<bool>();
+  return model == "corotated" || model == "neo_hookean";
+}
+
+/// The reference starts from alpha0, we from the pressure that belongs to it.
+inline neve::sim::Material cam_clay_material(const Json& j) {
+  namespace cam_clay = neve::sim::health::cam_clay;
+  neve::sim::Material m;
+  m.model = neve::sim::Model::cam_clay;
+  m.youngs_modulus = j["E"].get<double>();
+  m.poisson_ratio = j["nu"].get<double>();
+  m.friction_angle = cam_clay::friction_angle(j["M"].get<double>());
+  m.cohesion = j["beta"].get<double>();
+  m.consolidation_hardening = j["xi"].get<double>();
+  m.consolidation_pressure = cam_clay::bulk_modulus(m) *
+                             (j["small"].get<double>() +
+                              std::sinh(-m.consolidation_hardening * j["alpha0"].get<double>()));
+  m.min_J_P = 1e-9, m.max_J_P = 1e9;  // the reference bounds nothing
+  return m;
+}
+
+inline neve::sim::Material material(const Json& j) {
+  using namespace neve::sim;
+  if (j["model"] == "cam_clay") return cam_clay_material(j);
+  Material m;
+  const bool is_plastic = j["plastic"].get<bool>();
+  m.model = j["model"] == "neo_hookean" ? Model::neo_hookean
+            : is_plastic                ? Model::snow
+                                        : Model::corotated;
+  m.youngs_modulus = j["E"].get<double>();
+  m.poisson_ratio = j["nu"].get<double>();
+  m.hardening = j["xi"].get<double>();
+  m.critical_compression = j["theta_c"].get<double>();
+  m.critical_stretch = j["theta_s"].get<double>();
+  m.yields = m.model == Model::neo_hookean && is_plastic;
+  return m;
+}
+
+/// F_E as far as the law knows it: cam clay's is known up to a rotation on the right, so b.
+inline Mat3d strain_of(const neve::sim::Material& material, const Mat3d& F_E) {
+  if (material.model != neve::sim::Model::cam_clay) return F_E;
+  return F_E * F_E.transpose();
+}
+
 /// A scene of the reference as settings of ours. Nodes of the reference are ours plus `first_node`.
 struct Setup {
   neve::sim::SolverSettings settings;
@@ -112,16 +161,7 @@ inline Setup setup(const Json& scene, neve::sim::Precision precision) {
   s.settings.time_step = TimeStep::fixed;
   s.settings.gravity = vec3(scene["gravity"]);
   s.dt = s.settings.dt = scene["dt"].get<double>();
-  const Json& m = scene["material"];
-  const bool is_plastic = m["plastic"].get<bool>();
-  s.material.model = m["model"] == "neo_hookean" ? Model::neo_hookean
-                     : is_plastic                ? Model::snow
-                                                 : Model::corotated;
-  s.material.youngs_modulus = m["E"].get<double>();
-  s.material.poisson_ratio = m["nu"].get<double>();
-  s.material.hardening = m["xi"].get<double>();
-  s.material.critical_compression = m["theta_c"].get<double>();
-  s.material.critical_stretch = m["theta_s"].get<double>();
+  s.material = material(scene["material"]);
   for (const Json& c : scene["colliders"]) s.colliders.push_back(collider(c));
   s.settings.beta = scene["beta"].get<double>();
   s.settings.collide_after_solve = scene["collide_after_solve"].get<bool>();
@@ -129,11 +169,19 @@ inline Setup setup(const Json& scene, neve::sim::Precision precision) {
   s.settings.solve_tolerance = precision == Precision::real64 ? 1e-13 : 1e-6;
   s.settings.solve_iterations = 1000;
   s.settings.resting_mass = scene["mass_epsilon"].get<double>();
-  s.material.yields = s.material.model == Model::neo_hookean && is_plastic;
   return s;
 }
 
-inline neve::sim::ParticleArrays particles(const Json& j) {
+/// J_P of particles. The files choose alpha apart from F_P; here it is alpha0 + ln J_P.
+inline std::vector<double> plastic_volumes(const Json& j, const neve::sim::Material& material) {
+  if (material.model != neve::sim::Model::cam_clay)
+    return list(j["FP"], [](const Json& F) { return mat3(F).determinant(); });
+  const double alpha0 = neve::sim::health::cam_clay::alpha0(material);
+  return list(j["alpha"],
+              [&](const Json& alpha) { return std::exp(alpha.get<double>() - alpha0); });
+}
+
+inline neve::sim::ParticleArrays particles(const Json& j, const neve::sim::Material& material) {
   neve::sim::ParticleArrays p;
   p.x = list(j["x"], vec3);
   p.v = list(j["v"], vec3);
@@ -142,7 +190,8 @@ inline neve::sim::ParticleArrays particles(const Json& j) {
   const auto has = [&](const char* key) { return j.contains(key) && !j[key].is_null(); };
   if (has("volume0")) p.V0 = j["volume0"].get<std::vector<double>>();
   if (has("FE")) p.F_E = list(j["FE"], mat3);
-  if (has("FP")) p.J_P = list(j["FP"], [](const Json& F) { return mat3(F).determinant(); });
+  const bool is_clay = material.model == neve::sim::Model::cam_clay;
+  if (has(is_clay ? "alpha" : "FP")) p.J_P = plastic_volumes(j, material);
   if (has("C")) p.C = list(j["C"], mat3);
   return p;
 }

@@ -15,20 +15,21 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-std::vector<Material> three_materials() {
-  std::vector<Material> m(3);
+std::vector<Material> all_materials() {
+  std::vector<Material> m(4);
   m[1].model = Model::corotated;
   m[1].youngs_modulus = 3e4;
   m[2].model = Model::neo_hookean;
   m[2].youngs_modulus = 5e4;
   m[2].hardening = 0;
+  m[3].model = Model::cam_clay;
   return m;
 }
 
 /// Materials that change from particle to particle.
 void mix_materials(ParticleArrays& p) {
   std::mt19937 random(5);
-  for (std::size_t q = 0; q < p.x.size(); ++q) p.material.push_back(static_cast<int>(random() % 3));
+  for (std::size_t q = 0; q < p.x.size(); ++q) p.material.push_back(static_cast<int>(random() % 4));
 }
 
 /// A ball of 7000 particles, enough for seven threads, in the middle of hitting everything.
@@ -68,7 +69,7 @@ TEST(EveryCombination, EveryCombinationGivesTheSameBitsAnywhere) {
       s.cell_size = 0.02;
       combination.apply_to(s);
       const auto run = [&](int threads, const neve::sim::Vec3i& origin) {
-        Simulation simulation(s, three_materials(), three_colliders(), p, threads, origin);
+        Simulation simulation(s, all_materials(), three_colliders(), p, threads, origin);
         for (int k = 0; k < 4; ++k) simulation.step(simulation.choose_dt(1).dt);
         return simulation.state_hash();
       };
@@ -98,7 +99,7 @@ TEST(EveryCombination, EveryCombinationConservesMassMomentumAndApicAndMlsAngular
       SolverSettings s;
       s.cell_size = 0.05;
       combination.apply_to(s);
-      Simulation simulation(s, three_materials(), {}, p, 1);
+      Simulation simulation(s, all_materials(), {}, p, 1);
       const Summary start = simulation.summary();
       constexpr int steps = 10;
       constexpr double dt = 1e-4;
@@ -134,7 +135,7 @@ TEST(EveryCombination, EveryCombinationFallsFreelyWithoutStrain) {
       SolverSettings s;
       s.cell_size = 0.05;
       combination.apply_to(s);
-      Simulation simulation(s, three_materials(), {}, p, 1);
+      Simulation simulation(s, all_materials(), {}, p, 1);
       constexpr int steps = 40;  // past a sorting of storage
       constexpr double dt = 1e-3;
       for (int k = 0; k < steps; ++k) simulation.step(dt);

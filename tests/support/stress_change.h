@@ -3,6 +3,8 @@
 
 #include "sim/health/diagnostics.h"
 #include "sim/kernels/differential.h"
+#include "sim/state/method.h"
+#include "sim/state/records.h"
 #include "tests/support/elastic.h"
 
 namespace neve::test {
@@ -12,14 +14,8 @@ template <class Real>
 Mat3d stress_change_of(const sim::Material& material, const Mat3d& F_E, double J_P,
                        const Mat3d& G) {
   using V = Quad<Real>;
-  const sim::Lame rest = sim::lame(material.youngs_modulus, material.poisson_ratio);
-  const sim::kernels::MaterialConstants<Real> table[] = {
-      {static_cast<Real>(rest.mu), static_cast<Real>(rest.lambda),
-       static_cast<Real>(material.hardening), 0, 0, static_cast<Real>(material.min_J_P),
-       static_cast<Real>(material.max_J_P), static_cast<Real>(material.max_hardening)}};
-  const sim::kernels::ModelKind model = material.model == sim::Model::neo_hookean
-                                            ? sim::kernels::ModelKind::neo_hookean
-                                            : sim::kernels::ModelKind::corotated;
+  const sim::kernels::MaterialConstants<Real> table[] = {sim::engine::constants_of<Real>(material)};
+  const sim::kernels::ModelKind model = sim::engine::model_kind(material.model);
   sim::kernels::Record<V, Lanes<Integer<Real>, 4>> p{};
   V G_lanes[9], D[9];
   for (int q = 0; q < 9; ++q)

@@ -1,0 +1,247 @@
+#pragma once
+/// Cohesive Cam Clay in lanes: snow whose moduli stay and whose yield surface grows.
+///
+/// With b = F_E F_E^T, J = det F_E, b' = J^(-2/3) b and K = lambda + 2/3 mu:
+///   psi = mu/2 (tr b' - 3) + K/2 ((J^2 - 1)/2 - ln J)
+///   tau = mu dev b' + K/2 (J^2 - 1) I,   p = K/2 (1 - J^2),   q = sqrt(3/2) mu |dev b'|
+///   y = (1 + 2 beta) q^2 + M^2 (p + beta p0)(p - p0) <= 0
+///   p0 = K (1e-5 + sinh(xi max(-alpha, 0))),   alpha = alpha0 + ln J_P
+/// An ellipse from -beta p0 to p0. Beyond its tips the state goes to the tip; else along the line
+/// to its centre, so that snow packs (and hardens) right of the centre and opens (and softens) left
+/// of it. p0 is that from before the step. Sources: Gaume et al. 2018, Dynamic anticrack
+/// propagation in snow, Nature Communications 9; Wolper et al. 2019, CD-MPM, ACM Transactions on
+/// Graphics 38 (surface, hardening). They keep p where the deviator yields; here p goes with it, so
+/// that ln J_P is the whole history, and sheared snow packs.
+///
+/// The step needs b and no singular values: the return scales dev b', and the mean of b' follows
+/// from det b' = 1. F_E is any F with F F^T = b.
+
+#include "sim/kernels/decompose.h"
+#include "sim/kernels/particle_lanes.h"
+
+namespace neve::sim::kernels {
+
+/// p0/K of snow without strength, so that the ellipse never shrinks to a point.
+inline constexpr double min_strength = 1e-5;
+/// xi |alpha| counts up to here: sinh of it is 2e8.
+inline constexpr double max_consolidation = 20;
+/// J^2 of the state that the deviator yields to is at least this.
+inline constexpr double min_J_squared = 0.01;
+/// Below this |det F_E| the directions of F_E are rounding: they are forgotten.
+inline constexpr double crushed_J = 1e-3;
+
+/// Inputs of cam clay for particles in lanes, and what the return finds.
+template <class V>
+struct CamClayLanes {
+  V mu, K;  ///< Pa
+  V p0;     ///< Pa, before the step
+  V M, beta;
+  V min_J_P, max_J_P;
+};
+
+/// sinh x for 0 <= x <= 20.
+template <class V>
+NEVE_INLINE V hyperbolic_sine(V x) {
+  using Real = ElementOf<V>;
+  constexpr Real reach = sizeof(Real) == 4 ? Real(0.5) : Real(0.1);
+  const V x2 = x * x;
+  V series = fused(x2, all<V>(Real(1.0 / 362880)), all<V>(Real(1.0 / 5040)));
+  series = fused(x2, series, all<V>(Real(1.0 / 120)));
+  series = fused(x2, series, all<V>(Real(1.0 / 6)));
+  series = fused(x * x2, series, x);
+  const auto is_far = x > all<V>(reach);
+  if (!any_lane(is_far)) return series;
+  const V e = exponential_lanes(x);
+  return is_far ? Real(0.5) * (e - Real(1) / e) : series;
+}
+
+/// x^(-1/3) for normal x > 0. In float an estimate from the exponent (relative error 3.5 %) is
+/// sharpened by two cubic steps.
+template <class V>
+NEVE_INLINE V inverse_cube_root(V x) {
+  using Real = ElementOf<V>;
+  if constexpr (sizeof(Real) == 4) {
+    using I = MaskOf<V>;
+    const V bits = __builtin_convertvector(reinterpret_cast<I>(x), V);
+    V y = reinterpret_cast<V>(0x54a2fa8c - __builtin_convertvector(bits * (1.0f / 3), I));
+    for (int step = 0; step < 2; ++step) {
+      const V r = fused_negative(x * y, y * y, all<V>(1));
+      y = fused(y * r, fused(r, all<V>(2.0f / 9), all<V>(1.0f / 3)), y);
+    }
+    return y;
+  } else {
+    return exponential_lanes(logarithm_lanes(x) * Real(-1.0 / 3));
+  }
+}
+
+template <class V, class I>
+NEVE_INLINE CamClayLanes<V> take_cam_clay(const Record<V, I>& p,
+                                          const MaterialConstants<ElementOf<V>>* table) {
+  using Real = ElementOf<V>;
+  constexpr int constants = 8;
+  V k[constants];
+  const I material = p.material();
+  const auto numbers = [](const MaterialConstants<Real>& row, Real* out) NEVE_INLINE_BODY {
+    out[0] = row.mu0, out[1] = row.lambda0 + Real(2.0 / 3) * row.mu0, out[2] = row.xi_p0;
+    out[3] = row.alpha0, out[4] = row.M, out[5] = row.beta;
+    out[6] = row.min_J_P, out[7] = row.max_J_P;
+  };
+  Real number[constants];
+  if (!any_lane(material != all<I>(material[0]))) {
+    numbers(table[material[0]], number);
+    for (int q = 0; q < constants; ++q) k[q] = all<V>(number[q]);
+  } else {
+    for (int l = 0; l < lane_count<V>; ++l) {
+      numbers(table[material[l]], number);
+      for (int q = 0; q < constants; ++q) k[q][l] = number[q];
+    }
+  }
+  const V packed = larger_lanes(-(k[3] + logarithm_lanes(p.J_P)), V{});
+  const V x = smaller_lanes(k[2] * packed, all<V>(Real(max_consolidation)));
+  CamClayLanes<V> m;
+  m.mu = p.stiffness * k[0];
+  m.K = p.stiffness * k[1];
+  m.p0 = p.threshold * m.K * (hyperbolic_sine(x) + Real(min_strength));
+  m.M = k[4], m.beta = k[5];
+  m.min_J_P = k[6], m.max_J_P = k[7];
+  return m;
+}
+
+/// What the surface makes of a trial state.
+template <class V>
+struct CamClayReturn {
+  V k;          ///< factor on the deviator
+  V J_squared;  ///< after the step
+  MaskOf<V> yields;
+};
+/// @param J_squared, size  of the trial state: det b and |dev b'|^2
+template <class V>
+NEVE_INLINE CamClayReturn<V> cam_clay_return(const CamClayLanes<V>& m, const V& J_squared,
+                                             const V& size) {
+  using Real = ElementOf<V>;
+  const V one = all<V>(1), scale = one / m.K;
+  // All pressures over K.
+  const V p = Real(0.5) * (one - J_squared), p0 = m.p0 * scale, tip = -m.beta * p0;
+  const V q_squared = Real(1.5) * (m.mu * scale) * (m.mu * scale) * size;
+  const V centre = Real(0.5) * (p0 + tip), half = Real(0.5) * (p0 - tip);
+  const V across = m.M * (p - centre), reach = m.M * half;
+  const V r_squared =
+      fused(across, across, fused(m.beta, Real(2) * q_squared, q_squared)) / (reach * reach);
+  const auto is_packed = p > p0, is_open = p < tip;
+  CamClayReturn<V> out;
+  out.yields = is_packed | is_open | (r_squared > one);
+  out.k = one / square_root_lanes(larger_lanes(r_squared, one));
+  const V pulled = fused(-Real(2) * (p - centre), out.k, one - Real(2) * centre);
+  V J = larger_lanes(pulled, all<V>(Real(min_J_squared)));
+  J = is_packed ? one - Real(2) * p0 : J;
+  J = is_open ? one - Real(2) * tip : J;
+  out.J_squared = out.yields ? J : J_squared;
+  out.k = is_packed | is_open ? V{} : out.k;
+  return out;
+}
+
+/// The mean m of a matrix m I + k d with determinant 1 and positive eigenvalues, d of trace 0: the
+/// largest root of a cubic, by Newton from a chord above it (m is convex in k).
+/// @param t  m for k = 1
+template <class V>
+NEVE_INLINE V unit_determinant_mean(const V& k, const V& t, const V& size, const V& det_d) {
+  using Real = ElementOf<V>;
+  constexpr int steps = sizeof(Real) == 4 ? 4 : 6;
+  const V A = Real(0.5) * k * k * size, C = fused(k * k * k, det_d, all<V>(-1));
+  V m = fused(k, t - Real(1), all<V>(1));
+  for (int step = 0; step < steps; ++step) {
+    const V m2 = m * m;
+    m -= fused(m, m2 - A, C) / fused(all<V>(3), m2, -A);
+  }
+  return m;
+}
+
+/// F becomes F' with F' F'^T = s^2 b_new for F F^T ~ b_old, both of determinant 1, by their
+/// triangular factors: F' = s L_new L_old^-1 F turns no further than F did.
+template <class V>
+NEVE_INLINE void take_stretch(V* F, const Sym3<V>& b_old, const Sym3<V>& b_new, const V& s) {
+  const V one = all<V>(1);
+  const V o2 = fused_negative(b_old.xy, b_old.xy, b_old.xx * b_old.yy);
+  const V n2 = fused_negative(b_new.xy, b_new.xy, b_new.xx * b_new.yy);
+  // Four reciprocals for the price of one.
+  const V old_pair = b_old.xx * o2, new_pair = b_new.xx * n2;
+  const V inverse = one / (old_pair * new_pair);
+  const V by_old = inverse * new_pair, by_new = inverse * old_pair;
+  const V io1 = by_old * o2, io2 = by_old * b_old.xx, in1 = by_new * n2, in2 = by_new * b_new.xx;
+  const V o21 = b_old.xy * io1, o31 = b_old.xz * io1;
+  const V o32 = fused_negative(b_old.xy, b_old.xz, b_old.xx * b_old.yz) * io2;
+  const V n21 = b_new.xy * in1, n31 = b_new.xz * in1;
+  const V n32 = fused_negative(b_new.xy, b_new.xz, b_new.xx * b_new.yz) * in2;
+  // Roots of the ratios of the pivots, whose product is 1.
+  const V a = b_new.xx * io1, c = n2 * io2;
+  const V root_a = inverse_square_root(a), root_c = inverse_square_root(c);
+  const V r1 = s * a * root_a, r2 = s * c * root_c * root_a, r3 = s * root_c;
+  for (int column = 0; column < 3; ++column) {
+    const V x = F[column], y = F[3 + column], z = F[6 + column];
+    const V gx = r1 * x, gy = r2 * fused_negative(o21, x, y);
+    const V gz = r3 * (fused(fused(o21, o32, -o31), x, fused_negative(o32, y, z)));
+    F[column] = gx;
+    F[3 + column] = fused(n21, gx, gy);
+    F[6 + column] = fused(n31, gx, fused(n32, gy, gz));
+  }
+}
+
+/// Step 7 and stress of a batch.
+/// @param is_projected  false leaves F_E and J_P as they are
+/// @param wave_modulus  out: rho0 c^2 of the fastest wave, K (1 + J^2)/2 + mu (5/9 tr b' -
+/// b'_min/3),
+///                      with b'_min from below
+/// @return lanes with det F_E <= 0 before
+template <class V, class I>
+NEVE_INLINE unsigned cam_clay(Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
+                              bool is_projected, V& wave_modulus) {
+  using Real = ElementOf<V>;
+  constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-12);
+  const CamClayLanes<V> m = take_cam_clay(p, table);
+  const V one = all<V>(1), signed_J = determinant(p.F_E);
+  const V J = larger_lanes(absolute_lanes(signed_J), all<V>(tiny)), J_squared = J * J;
+  const Sym3<V> b = inverse_cube_root(J_squared) * left_cauchy_green(p.F_E);
+  const V t = (b.xx + b.yy + b.zz) * Real(1.0 / 3);
+  const Sym3<V> d = add_identity(b, -t);
+  const V size = fused(d.xx, d.xx, fused(d.yy, d.yy, d.zz * d.zz)) +
+                 Real(2) * fused(d.xy, d.xy, fused(d.xz, d.xz, d.yz * d.yz));
+  CamClayReturn<V> found{one, J_squared, MaskOf<V>{}};
+  if (is_projected) found = cam_clay_return(m, J_squared, size);
+  const MaskOf<V> is_positive = signed_J > V{};
+  const MaskOf<V> is_changed = found.yields | ~is_positive;
+  if (is_projected && any_lane(is_changed)) {
+    const V det_d = fused(d.xx, fused_negative(d.yz, d.yz, d.yy * d.zz),
+                          fused(d.xy, fused_negative(d.xy, d.zz, d.xz * d.yz),
+                                d.xz * fused_negative(d.yy, d.xz, d.xy * d.yz)));
+    const V mean = unit_determinant_mean(found.k, t, size, det_d);
+    // A body turned inside out is mirrored back; one without directions gets new ones.
+    const MaskOf<V> is_crushed = J < all<V>(Real(crushed_J));
+    V F[9];
+    for (int q = 0; q < 9; ++q) {
+      const V mirrored = q % 3 == 2 ? (is_positive ? p.F_E[q] : -p.F_E[q]) : p.F_E[q];
+      F[q] = is_crushed ? (q % 4 == 0 ? one : V{}) : mirrored;
+    }
+    const Sym3<V> old{is_crushed ? one : b.xx, is_crushed ? one : b.yy, is_crushed ? one : b.zz,
+                      is_crushed ? V{} : b.xy, is_crushed ? V{} : b.xz, is_crushed ? V{} : b.yz};
+    const V growth = found.J_squared / (is_crushed ? one : J_squared);
+    take_stretch(F, old, add_identity(found.k * d, mean),
+                 inverse_square_root(inverse_cube_root(growth)));
+    V J_P = p.J_P * (J * inverse_square_root(found.J_squared));
+    J_P = J_P < m.min_J_P ? m.min_J_P : J_P;
+    J_P = J_P > m.max_J_P ? m.max_J_P : J_P;
+    p.J_P = found.yields ? J_P : p.J_P;
+    for (int q = 0; q < 9; ++q) p.F_E[q] = is_changed ? F[q] : p.F_E[q];
+  }
+  const V shear = m.mu * found.k, squeeze = Real(0.5) * m.K * (found.J_squared - one);
+  const Sym3<V> tau = add_identity(shear * d, squeeze);
+  p.tau[0] = tau.xx, p.tau[1] = tau.yy, p.tau[2] = tau.zz;
+  p.tau[3] = tau.xy, p.tau[4] = tau.xz, p.tau[5] = tau.yz;
+  const V mean = fused(found.k, t - one, one);
+  const V spread = Real(0.81649658092772603) * found.k * square_root_lanes(size);
+  const V least = larger_lanes(mean - spread, V{});
+  wave_modulus = fused(m.K, Real(0.5) * (one + found.J_squared),
+                       m.mu * (Real(5.0 / 3) * mean - Real(1.0 / 3) * least));
+  return lane_bits(~is_positive);
+}
+
+}  // namespace neve::sim::kernels
