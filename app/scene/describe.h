@@ -187,9 +187,10 @@ void describe(V& visit, sim::Material& m) {
   visit.shorthand(
       "preset", preset_of(m), [&m](Preset preset) { use_preset(m, preset); },
       "Named kind of snow: sets the density and the numbers below it, unless they are given.");
-  visit("model", m.model, unit::none, anything, Change::live,
-        "Law of the material: the paper's snow, cam_clay (snow whose stiffness stays while its "
-        "strength grows), or an elastic one.");
+  visit(
+      "model", m.model, unit::none, anything, Change::live,
+      "The paper's snow; cam_clay, snow whose stiffness stays as its strength grows; or an elastic "
+      "law.");
   describe_snow_numbers(visit, m);
   visit("min_J_P", m.min_J_P, unit::none, above(0).at_most(1), Change::live,
         "Smallest plastic volume ratio: snow packed further keeps yielding but hardens no more.");

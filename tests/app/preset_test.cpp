@@ -56,7 +56,8 @@ TEST(Preset, EveryPresetHasDistinctValidNumbers) {
 TEST(Preset, PresetSetsEveryNumberOfTheSnowAndNothingElse) {
   app::scene::Scene before = preset_scene("");
   sim::Material& m = before.materials[0];
-  m.density = m.youngs_modulus = m.hardening = 3;
+  m.density = m.youngs_modulus = m.hardening = m.consolidation_pressure = 3;
+  m.friction_angle = m.cohesion = m.consolidation_hardening = 2;
   m.poisson_ratio = m.critical_compression = m.critical_stretch = 0.123;
   m.model = sim::Model::corotated;
   app::scene::Scene after = before;
@@ -65,7 +66,7 @@ TEST(Preset, PresetSetsEveryNumberOfTheSnowAndNothingElse) {
   for (const app::scene::Difference& difference : app::scene::differences(before, after))
     changed.push_back(difference.address);
   EXPECT_EQ(changed, app::scene::addresses_set_by("material.snow.preset"));
-  EXPECT_EQ(changed.size(), 6u);
+  EXPECT_EQ(changed.size(), 10u);
 }
 
 TEST(Preset, NumbersBesideAPresetOverrideIt) {
