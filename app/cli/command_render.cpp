@@ -73,7 +73,8 @@ void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json
             << "\n"
             << "memory     about " << bytes_text(plan.memory) << " of "
             << bytes_text(plan.memory_limit) << " allowed\n"
-            << "frames     " << plan.frames.first << " to " << plan.frames.last << "\n";
+            << "frames     " << plan.first_number + plan.frames.first << " to "
+            << plan.first_number + plan.frames.last << "\n";
   for (const scene::View& view : job.scene.views) {
     const scene::PictureSize size = setup::size_of(job.scene, view);
     std::cout << "view       " << view.name << ", " << size.width << "x" << size.height << "\n";
@@ -111,7 +112,8 @@ void check_picture_sizes(const scene::Scene& scene, setup::Quality quality, int 
 void check_plates(const run::RenderJob& job) {
   if (job.plate.empty()) return;
   for (const scene::View& view : job.scene.views)
-    run::read_plate(job, job.frames.first, view.name, setup::size_of(job.scene, view));
+    run::read_plate(job, scene::number_of(job.scene, job.frames.first), view.name,
+                    setup::size_of(job.scene, view));
 }
 
 /// @return the exit code; leaves DIR/difference.png when the pictures differ
@@ -225,10 +227,11 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
       job.coarsening > 1 ? fmt::format(", coarsened {}", scene::coarsening_text(job.coarsening))
                          : "";
   if (job.fast) progress.note(job.fast->sentence());
-  if (job.frames.last > job.scene.frames)
+  if (job.frames.last > scene::last_frame(job.scene))
     progress.note(
         fmt::format("frame {} is after the last frame of the scene, {}: the run continues",
-                    job.frames.last, job.scene.frames));
+                    scene::number_of(job.scene, job.frames.last),
+                    scene::number_of(job.scene, scene::last_frame(job.scene))));
   progress.note(fmt::format("{}: {} particles{}, about {} of memory{}", job.scene_file, particles,
                             to_come, bytes_text(plan.memory), coarsened));
 }

@@ -167,7 +167,7 @@ void describe_export(Command& visit, ExportCommand& o) {
   describe_formats(visit, o);
   SurfaceFlags flags{visit};
   scene::describe(flags, o.common);
-  visit("--frames", o.run.frames, options::frames(), "Frames to write: A-B, or N for 0-N");
+  visit("--frames", o.run.frames, options::frames(), "Frames to write: A-B, or N for all up to N");
   visit("--out", o.run.out, options::folder("ply/0000.ply"),
         "Write to DIR/<format>/0000.<ext> instead of out/<scene name>/exports");
   run::describe_agreement(visit, o.run.is_agreed);
@@ -190,7 +190,7 @@ void describe_strip(Command& visit, run::StripOptions& o) {
   visit("--tiles", o.tiles, count(1, "1 to 200 moments"),
         "Number of moments, evenly spread over the frames; default: 6");
   visit("--frames", o.run.frames, options::frames(),
-        "Frames over which the moments are spread: A-B, or N for 0-N");
+        "Frames over which the moments are spread: A-B, or N for all up to N");
   visit("--at", o.at, options::times(), "Times in seconds, instead of --tiles")
       .excludes({"--frames", "--tiles"}, "give the times alone");
   visit("--columns", o.columns, count(0, "1 to 200, or 0 for about a screen"),
@@ -229,7 +229,8 @@ void describe_compare(Command& visit, CompareOptions& o) {
   visit("--mode", pictures.modes, options::choice<compare::Mode>("NAME"),
         "How --out shows both (repeatable for a folder): " +
             joined(scene::choices<compare::Mode>(), ", "));
-  visit("--frames", pictures.frames, options::frames(), "Frames to draw: A-B, or N for 0-N");
+  visit("--frames", pictures.frames, options::frames(),
+        "Frames to draw: A-B, or N for all up to N");
   visit("--view", pictures.view, options::text("NAME", "smoke"),
         "View of A to draw; default: the first");
   visit("--size", pictures.size, options::size(), "Size of the picture of one run");

@@ -82,7 +82,7 @@ class PairRun {
 
  private:
   PairMoment moment(int frame) const {
-    return moment_of(frame, pair_.a.job.scene.fps, pair_.a.job.run_frames, pair_.b.job.run_frames);
+    return moment_of(frame, pair_.a.job.scene, pair_.a.job.run_frames, pair_.b.job.run_frames);
   }
 
   void list_moments() {
@@ -102,7 +102,7 @@ class PairRun {
     refuse_mode(options_, Mode::displacement, id_problem(pair_, a.seeded(), b.seeded()), target_,
                 result_);
     target_.begin();
-    progress_.start(frames.last);
+    progress_.start(frames.last, scene::number_of(pair_.a.job.scene, 0));
     for (int frame = frames.first; frame <= frames.last; ++frame) {
       if (!advance(a, pair_.a, frame) || !advance(b, pair_.b, frame)) {
         result_.is_whole = false;
@@ -111,7 +111,8 @@ class PairRun {
       result_.moments.push_back(moment(frame));
       painter.take(a, b, target_.modes(), result_.moments.back());
       for (const Mode mode : target_.modes())
-        if (mode != Mode::metrics) target_.add(mode, frame, painter.draw(mode));
+        if (mode != Mode::metrics)
+          target_.add(mode, result_.moments.back().frame, painter.draw(mode));
     }
   }
 

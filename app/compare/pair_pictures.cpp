@@ -104,7 +104,7 @@ void PairPainter::take(const timeline::Timeline& a, const timeline::Timeline& b,
                        const std::vector<Mode>& modes, PairMoment& moment) {
   a_ = take_side(a, modes);
   b_ = take_side(b, modes);
-  a_.snapshot.frame = b_.snapshot.frame = moment.frame;
+  a_.snapshot.frame = b_.snapshot.frame = scene::frame_of(a_.scene, moment.frame);
   if (has_mode(modes, Mode::displacement)) {
     displacement_ = displacement(a_.snapshot.particles, b_.snapshot.particles);
     moment.displacement = displacement_;
@@ -143,7 +143,8 @@ std::array<StripWords, 2> words_of(const Pair& pair) {
 
 std::string PairPainter::line_for(Mode mode) const {
   std::string line =
-      fmt::format("frame {}   t = {} s", a_.snapshot.frame, fixed_text(a_.snapshot.time, 3));
+      fmt::format("frame {}   t = {} s", scene::number_of(a_.scene, a_.snapshot.frame),
+                  fixed_text(a_.snapshot.time, 3));
   if (mode == Mode::displacement)
     line += fmt::format("   displaced by {} m on average, {} m at most",
                         rough_text(displacement_.mean), rough_text(displacement_.largest));

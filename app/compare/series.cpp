@@ -121,11 +121,12 @@ render::Image draw_panel(const std::vector<PairMoment>& moments, std::size_t met
 
 }  // namespace
 
-PairMoment moment_of(int frame, double fps, const std::vector<record::FrameRecord>& a,
+PairMoment moment_of(int frame, const scene::Scene& scene_a,
+                     const std::vector<record::FrameRecord>& a,
                      const std::vector<record::FrameRecord>& b) {
   PairMoment moment;
-  moment.frame = frame;
-  moment.time = frame / fps;
+  moment.frame = scene::number_of(scene_a, frame);
+  moment.time = frame / scene_a.fps;
   moment.metrics = {metrics_at(frame, a), metrics_at(frame, b)};
   return moment;
 }

@@ -15,7 +15,7 @@ namespace neve::app::compare {
 
 /// Both runs at one frame.
 struct PairMoment {
-  int frame = 0;
+  int frame = 0;                               ///< its number in A
   double time = 0;                             ///< s
   std::array<std::vector<double>, 2> metrics;  ///< of A and B, in the order of metric names; empty
                                                ///< where run.json does not list the frame
@@ -23,8 +23,9 @@ struct PairMoment {
   std::optional<std::array<double, 2>> mass;   ///< kg, more in A and more in B
 };
 
-/// The metrics of a frame, as run.json lists them.
-PairMoment moment_of(int frame, double fps, const std::vector<record::FrameRecord>& a,
+/// The metrics of a frame, counted from 0, as run.json lists them.
+PairMoment moment_of(int frame, const scene::Scene& scene_a,
+                     const std::vector<record::FrameRecord>& a,
                      const std::vector<record::FrameRecord>& b);
 
 /// A row a frame: "frame,time,spread_a,spread_b,...".

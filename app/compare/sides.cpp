@@ -31,7 +31,8 @@ Side read_side(const std::string& path) {
   return side;
 }
 
-std::string range_text(const setup::FrameRange& frames) {
+std::string range_text(const Side& side, const setup::FrameRange& counted) {
+  const setup::FrameRange frames = setup::numbers_of(side.job.scene, counted);
   return frames.count() == 1 ? fmt::format("frame {}", frames.first)
                              : fmt::format("frames {} to {}", frames.first, frames.last);
 }
@@ -80,15 +81,18 @@ void find_differences(Pair& pair) {
 setup::FrameRange common_frames(const PairOptions& options, const Pair& pair) {
   const setup::FrameRange a = pair.a.job.frames, b = pair.b.job.frames;
   const setup::FrameRange both{std::max(a.first, b.first), std::min(a.last, b.last)};
-  const std::string found = fmt::format("{} has {} and {} has {}", pair.a.job.scene_file,
-                                        range_text(a), pair.b.job.scene_file, range_text(b));
+  const std::string found =
+      fmt::format("{} has {} and {} has {}", pair.a.job.scene_file, range_text(pair.a, a),
+                  pair.b.job.scene_file, range_text(pair.b, b));
   if (both.first > both.last)
     throw UsageError("", found + ": they have no frame in common",
                      "compare runs, or pictures of one moment");
   if (!options.frames) return both;
-  if (options.frames->first < both.first || options.frames->last > both.last)
-    throw UsageError("--frames", found, "expected frames that both have: " + range_text(both));
-  return *options.frames;
+  const setup::FrameRange wanted = setup::frames_of(pair.a.job.scene, *options.frames);
+  if (wanted.first < both.first || wanted.last > both.last)
+    throw UsageError("--frames", found,
+                     "expected frames that both have: " + range_text(pair.a, both));
+  return wanted;
 }
 
 std::string count_text(std::size_t a, std::size_t b, const std::string& body) {
@@ -112,8 +116,9 @@ Pair read_pair(const PairOptions& options) {
   const bool is_shorter = pair.a.job.frames.last != pair.b.job.frames.last && !options.frames;
   if (is_shorter)
     pair.warnings.push_back(fmt::format("{} has {} and {} has {}: {} are compared", options.a,
-                                        range_text(pair.a.job.frames), options.b,
-                                        range_text(pair.b.job.frames), range_text(pair.frames)));
+                                        range_text(pair.a, pair.a.job.frames), options.b,
+                                        range_text(pair.b, pair.b.job.frames),
+                                        range_text(pair.a, pair.frames)));
   find_differences(pair);
   return pair;
 }

@@ -123,7 +123,7 @@ void Target::begin() {
 }
 
 void Target::add(Mode mode, int frame, const render::Image& image) {
-  if (first_ < 0) first_ = frame;
+  if (!first_) first_ = frame;
   last_ = frame;
   fs::path file = out_;
   if (kind_ == TargetKind::folder) file = output::frame_path(out_, name(mode), frame);
@@ -137,13 +137,13 @@ std::vector<std::string> Target::add_movies(double fps) {
   // One picture is no movie, unless it was asked for.
   const bool has_movie =
       kind_ == TargetKind::movie || (kind_ == TargetKind::folder && movie_.is_made);
-  if (!has_movie || first_ < 0 || (first_ == last_ && kind_ == TargetKind::folder)) return warnings;
+  if (!has_movie || !first_ || (first_ == last_ && kind_ == TargetKind::folder)) return warnings;
   for (const Mode mode : modes_) {
     if (mode == Mode::metrics) continue;
     const fs::path file =
         kind_ == TargetKind::movie ? out_ : output::movie_path(out_, name(mode), movie_.format);
     const output::MovieResult movie =
-        output::write_movie({folder_of(mode), file, first_, last_, fps, false, 0, movie_});
+        output::write_movie({folder_of(mode), file, *first_, last_, fps, false, 0, movie_});
     if (movie.outcome == output::MovieOutcome::written) {
       files_.push_back({file, output::hash_file(file)});
       continue;

@@ -54,7 +54,8 @@ class Target {
   output::MovieStyle movie_;
   std::optional<output::FolderLock> lock_;
   std::filesystem::path scratch_;  ///< pictures of a movie that is alone
-  int first_ = -1, last_ = -1;     ///< frames that were added
+  std::optional<int> first_;       ///< number of the first frame that was added
+  int last_ = 0;                   ///< of the last one
   std::vector<output::WrittenFile> files_;
 };
 

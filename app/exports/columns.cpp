@@ -117,7 +117,7 @@ std::vector<double> values_of(ExportAttribute attribute, const ColumnSource& s) 
     case ExportAttribute::id:
       return each([&](std::size_t p) { return double(a.id_of(p)); });
     case ExportAttribute::x:
-      return each([&](std::size_t p) { return s.axes.scaled(a.x[p]); });
+      return each([&](std::size_t p) { return s.axes.placed(a.x[p]); });
     case ExportAttribute::v:
       return each([&](std::size_t p) { return s.axes.scaled(a.v[p]); });
     case ExportAttribute::m:
@@ -236,7 +236,7 @@ const std::vector<double>& Table::places() const {
 Table make_table(const scene::Scene& scene, const scene::Export& e, const Origins& origins,
                  const Carried& carried, const State& state) {
   const std::vector<std::size_t> rows = rows_of(scene, e, origins, state.particles);
-  const ColumnSource source{scene, origins, state, Axes(e), rows};
+  const ColumnSource source{scene, origins, state, Axes(scene, e), rows};
   Table table = empty_table(scene, e, carried);
   table.rows = rows.size();
   for (Column& column : table.columns)

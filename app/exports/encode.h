@@ -14,8 +14,8 @@ struct ExportMoment {
   const State& state;
   const Table& table;
 
-  /// Time in frames of the scene.
-  double frame() const { return state.time * scene.fps; }
+  /// Time in frames of the scene, with the numbers of its files.
+  double frame() const { return state.time * scene.fps + scene::number_of(scene, 0); }
 };
 
 /// Binary little endian; a property per number: x y z vx vy vz F_E_xx ... Vertices of a surface

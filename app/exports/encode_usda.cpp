@@ -35,12 +35,19 @@ UsdProperty property_of(const Column& column, UsdPrim prim) {
   return {scalars[column.numbers.index()], "primvars:" + usd_name(column.name), true};
 }
 
+constexpr const char* masses = "physics:masses";
+
+/// Solvers of USD look for masses there, in single precision. A mesh has none.
+bool has_masses(const Column& column, UsdPrim prim) {
+  return prim == UsdPrim::points && column.attribute == ExportAttribute::m;
+}
+
 /// USD has places, velocities and widths in single precision; widths are diameters.
 template <class Number>
 void append_usd_number(const std::string& property, Number number, std::string& text) {
   if (property == "widths")
     append_text(static_cast<float>(2 * number), text);
-  else if (property == "points" || property == "velocities")
+  else if (property == "points" || property == "velocities" || property == masses)
     append_text(static_cast<float>(number), text);
   else
     append_text(number, text);
@@ -105,11 +112,14 @@ std::string usd_list(RowRange rows, const Append& append) {
 std::string usd_columns(const Table& table, UsdPrim prim, RowRange rows, const std::string& time) {
   std::string text = usd_sample("float3[]", "extent", time, extent_of(table, rows));
   for (const Column& column : table.columns) {
+    const auto add = [&](const std::string& type, const std::string& name) {
+      text += usd_sample(type, name, time, usd_list(rows, [&](std::size_t row, std::string& list) {
+                           append_usd_row(column, name, row, list);
+                         }));
+    };
     const UsdProperty property = property_of(column, prim);
-    text += usd_sample(property.type, property.name, time,
-                       usd_list(rows, [&](std::size_t row, std::string& list) {
-                         append_usd_row(column, property.name, row, list);
-                       }));
+    add(property.type, property.name);
+    if (has_masses(column, prim)) add("float[]", masses);
   }
   return text;
 }
@@ -144,6 +154,7 @@ std::string usd_declarations(const Table& columns, UsdPrim prim, const std::stri
             "normal3f[] normals (\n" + indent + "    interpolation = \"vertex\"\n" + indent + ")\n";
   for (const Column& column : columns.columns) {
     const UsdProperty property = property_of(column, prim);
+    if (has_masses(column, prim)) text += indent + "float[] " + masses + "\n";
     text += indent + property.type + " " + property.name;
     if (property.is_primvar || property.name == "widths") {
       text += " (\n";
@@ -160,8 +171,8 @@ std::string encode_usda(const ExportMoment& moment) {
   const double frame = moment.frame();
   const std::string indent(8, ' '), time = usd_number(frame);
   const Table& table = moment.table;
-  std::string text =
-      usd_header(moment.scene, moment.spec, frame, frame) + "def Xform \"neve\"\n{\n";
+  std::string text = usd_header(moment.scene, moment.spec, frame, frame) +
+                     "def Xform \"neve\"\n{\n" + usd_world(moment.scene, moment.spec);
   for (const auto& [prim, name] : usd_prims(moment.spec)) {
     const bool is_mesh = prim == UsdPrim::mesh;
     const std::size_t middle = table.mesh ? table.mesh->vertices : 0;

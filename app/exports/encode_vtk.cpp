@@ -116,7 +116,7 @@ DenseGrid dense_grid(const sim::RasterizedNodes& nodes, const Axes& axes) {
   DenseGrid grid;
   grid.size = is_z_up ? Vec3i(box.size.x(), box.size.z(), box.size.y()) : box.size;
   grid.spacing = axes.scale() * nodes.spacing;
-  grid.origin = axes.scaled(nodes.spacing * corner.cast<double>());
+  grid.origin = axes.placed(nodes.spacing * corner.cast<double>());
   const auto count = static_cast<std::size_t>(grid.size.x()) *
                      static_cast<std::size_t>(grid.size.y()) *
                      static_cast<std::size_t>(grid.size.z());
@@ -171,7 +171,7 @@ std::string encode_vtp(const ExportMoment& moment) {
 }
 
 std::string encode_vti(const ExportMoment& moment) {
-  const DenseGrid grid = dense_grid(*moment.state.nodes, Axes(moment.spec));
+  const DenseGrid grid = dense_grid(*moment.state.nodes, Axes(moment.scene, moment.spec));
   AppendedArrays arrays;
   std::string extent;
   for (int a = 0; a < 3; ++a) extent += (a > 0 ? " 0 " : "0 ") + std::to_string(grid.size[a] - 1);

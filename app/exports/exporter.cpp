@@ -75,14 +75,17 @@ bool Exporter::is_due(int frame) const {
 std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& colliders,
                                           const sim::Simulation& simulation, int number,
                                           bool is_frame) {
+  const auto is_due = [&](const Job& job) {
+    return !is_frame || scene::frame_of(scene_, number) % job.record.spec.every == 0;
+  };
   std::vector<scene::Export> due;
   for (const Job& job : jobs_)
-    if (!is_frame || number % job.record.spec.every == 0) due.push_back(job.record.spec);
+    if (is_due(job)) due.push_back(job.record.spec);
   std::vector<Work> works;
   if (due.empty()) return works;
   const std::shared_ptr<const State> state = read_state(due, colliders, simulation);
   for (Job& job : jobs_)
-    if (!is_frame || number % job.record.spec.every == 0) works.push_back(work(job, state, number));
+    if (is_due(job)) works.push_back(work(job, state, number));
   return works;
 }
 

@@ -40,7 +40,7 @@ class Exporter {
   /// while this object lives
   /// @param colliders  of the scene, followed to this moment
   /// @param number     of the files
-  /// @param is_frame   only exports whose `every` divides the number
+  /// @param is_frame   only exports whose `every` divides the frame, counted from 0
   std::vector<Work> add(const std::vector<scene::Collider>& colliders,
                         const sim::Simulation& simulation, int number, bool is_frame);
 

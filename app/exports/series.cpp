@@ -68,11 +68,17 @@ std::string joined_numbers(const std::vector<std::uint32_t>& numbers) {
   return text + "]";
 }
 
+/// Frames, with the numbers that files have.
+double stage_time(const scene::Scene& scene, const Sample& sample) {
+  return sample.time * scene.fps + scene::number_of(scene, 0);
+}
+
 std::string stage_times(const scene::Scene& scene, const std::vector<Sample>& samples,
                         const auto& value) {
   std::string text;
   for (const Sample& sample : samples)
-    text += "                " + usd_number(sample.time * scene.fps) + ": " + value(sample) + ",\n";
+    text +=
+        "                " + usd_number(stage_time(scene, sample)) + ": " + value(sample) + ",\n";
   return text;
 }
 
@@ -153,7 +159,7 @@ std::string usd_camera(const scene::Scene& scene, const Axes& axes,
   constexpr double height = 24;  // tenths of a unit, as film has millimetres
   const double width = height * scene.size.width / scene.size.height;
   const auto place_at = [&](const Sample& sample) {
-    return setup::camera_at(*scene.camera, sample.time, scene.frames / scene.fps);
+    return setup::camera_at(*scene.camera, sample.time, scene::duration(scene));
   };
   const auto focal_length = [&](const Sample& sample) {
     const double half = 0.5 * place_at(sample).fov * std::numbers::pi / 180;
@@ -186,7 +192,7 @@ std::string usd_clips(const scene::Scene& scene, const scene::Export& spec, cons
   const std::string folder = "./" + scene::folder_of(spec) + "/";
   std::string paths, active, times;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const std::string between = k > 0 ? ", " : "", time = usd_number(samples[k].time * scene.fps);
+    const std::string between = k > 0 ? ", " : "", time = usd_number(stage_time(scene, samples[k]));
     paths += between + "@" + folder + file_name(spec, samples[k].number) + "@";
     active += between + "(" + time + ", " + std::to_string(k) + ")";
     times += between + "(" + time + ", " + time + ")";
@@ -236,8 +242,8 @@ std::string encode_pvd(const scene::Export& spec, const std::vector<Sample>& sam
 std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, const Table& columns,
                          const std::vector<Sample>& samples) {
   const Axes axes(spec);
-  const double first = samples.empty() ? 0 : samples.front().time * scene.fps;
-  const double last = samples.empty() ? 0 : samples.back().time * scene.fps;
+  const double first = samples.empty() ? 0 : stage_time(scene, samples.front());
+  const double last = samples.empty() ? 0 : stage_time(scene, samples.back());
   std::string snow;
   for (const auto& [prim, name] : usd_prims(spec)) {
     const std::string indent(8, ' ');
@@ -245,8 +251,8 @@ std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, c
             usd_clips(scene, spec, name, samples) + "    )\n    {\n" + usd_fixed(prim, indent) +
             usd_declarations(columns, prim, indent) + "    }\n";
   }
-  return usd_header(scene, spec, first, last) + "def Xform \"neve\"\n{\n" + snow +
-         usd_colliders(scene, axes, samples) + usd_camera(scene, axes, samples) +
+  return usd_header(scene, spec, first, last) + "def Xform \"neve\"\n{\n" + usd_world(scene, spec) +
+         snow + usd_colliders(scene, axes, samples) + usd_camera(scene, axes, samples) +
          usd_light(scene, axes) + "}\n";
 }
 

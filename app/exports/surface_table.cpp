@@ -75,7 +75,7 @@ std::vector<double> mixed_places(const Axes& axes, const Surface& surface,
   std::vector<double> places;
   places.reserve(3 * (surface.mesh.position.size() + surface.spray.size()));
   for (const Vec3f& x : surface.mesh.position) {
-    const sim::Vec3d place = axes.scaled(vector_of(x));
+    const sim::Vec3d place = axes.placed(vector_of(x));
     places.insert(places.end(), place.data(), place.data() + 3);
   }
   for (const std::size_t p : surface.spray)
@@ -130,7 +130,7 @@ render::surface::Settings surface_settings(const scene::Scene& scene, const scen
 
 Table surface_table(const scene::Scene& scene, const scene::Export& e, const State& state,
                     std::span<const std::size_t> rows, const Table& particles) {
-  const Axes axes(e);
+  const Axes axes(scene, e);
   const SnowGrains grains = grains_of(scene, state.particles, rows);
   const render::surface::Settings settings = surface_settings(scene, e);
   const Surface surface = make_surface(grains, settings, e);

@@ -2,6 +2,8 @@
 
 #include <cctype>
 
+#include "app/exports/axes.h"
+#include "app/scene/read.h"
 #include "app/support/version.h"
 
 namespace neve::app::exports {
@@ -44,6 +46,15 @@ std::string usd_header(const scene::Scene& scene, const scene::Export& spec, dou
          (spec.up == scene::UpAxis::z ? "Z" : "Y") + "\"\n    timeCodesPerSecond = " + fps +
          "\n    framesPerSecond = " + fps + "\n    startTimeCode = " + usd_number(first) +
          "\n    endTimeCode = " + usd_number(last) + "\n)\n\n";
+}
+
+std::string usd_world(const scene::Scene& scene, const scene::Export& spec) {
+  const std::optional<sim::Vec3d> offset = scene::world_offset(scene);
+  if (!offset) return {};
+  const sim::Vec3d moved = Axes(spec).scaled(*offset);
+  return "    double3 xformOp:translate = (" + usd_number(moved.x()) + ", " +
+         usd_number(moved.y()) + ", " + usd_number(moved.z()) +
+         ")\n    uniform token[] xformOpOrder = [\"xformOp:translate\"]\n\n";
 }
 
 }  // namespace neve::app::exports

@@ -28,6 +28,10 @@ std::string usd_name(const std::string& name);
 std::string usd_header(const scene::Scene& scene, const scene::Export& spec, double first,
                        double last);
 
+/// The offset of files with coordinates of a map as a translation of the root in double precision;
+/// "" where there are none.
+std::string usd_world(const scene::Scene& scene, const scene::Export& spec);
+
 /// Prims of the snow in a layer: the particles are points, a surface is a mesh.
 enum class UsdPrim { points, mesh };
 

@@ -76,7 +76,7 @@ void check_crushing(const scene::Scene& scene, Check& check) {
     hardest = &m;
   }
   const double c = check.start.max_sound_speed * std::sqrt(most);
-  const double steps = scene.frames / scene.fps * c / (solver.acoustic_cfl * solver.cell_size);
+  const double steps = scene::duration(scene) * c / (solver.acoustic_cfl * solver.cell_size);
   constexpr double worth_a_word = 2;  // times the steps without it
   if (!hardest || steps <= worth_a_word * check.foreseen.steps().expected) return;
   check.foreseen.crushed_steps = steps;
@@ -151,7 +151,8 @@ Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, d
              : "try neve check with --coarsen " +
                    fixed_text(std::ceil(std::cbrt(plan.particles / max_seeded)), 0)});
   }
-  check.foreseen = forecast::foresee(scene, check.plan.particles, scene.frames, coarse_budget);
+  check.foreseen =
+      forecast::foresee(scene, check.plan.particles, scene::last_frame(scene), coarse_budget);
   check.foreseen.include_spread(spread);
   check_copy(scene, check.foreseen, check.findings);
   check_crushing(scene, check);

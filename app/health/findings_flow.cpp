@@ -86,7 +86,7 @@ std::string remedy_for_clogging(const scene::Scene& scene, const std::string& em
 }
 
 void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening) {
-  const double end = scene.frames / scene.fps;
+  const double end = scene::duration(scene);
   for (const sim::seeding::Emitter& emitter : scene.emitters) {
     if (emitter.start >= end && end > 0)
       findings.push_back({Severity::warning, "emitter." + emitter.name + ".start",

@@ -222,7 +222,7 @@ Finding free_fall(const Flight& flight, const Nearest& nearest, double end) {
 
 void check_meetings(const scene::Scene& scene, const setup::SeededScene& seeded,
                     std::vector<Finding>& findings) {
-  const double end = scene.frames / scene.fps;
+  const double end = scene::duration(scene);
   // A stream of snow fills the way of others.
   if (end <= 0 || !scene.emitters.empty()) return;
   // Each is compared with each.

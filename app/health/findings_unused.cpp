@@ -50,7 +50,7 @@ void check_removed(const scene::Scene& scene, const std::string& kind, const std
 }
 
 void check_keyframes(const scene::Scene& scene, std::vector<Finding>& findings) {
-  const double end = scene.frames / scene.fps;
+  const double end = scene::duration(scene);
   for (const scene::Collider& collider : scene.colliders) {
     if (collider.keyframes.size() < 2 || end <= 0) continue;
     const double last = collider.keyframes.back().time;

@@ -2,12 +2,15 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
+#include <variant>
 
 #include "app/health/findings.h"
 #include "app/support/text.h"
 #include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/mesh.h"
+#include "sim/shapes/solid.h"
 
 namespace neve::app::health {
 
@@ -111,11 +114,37 @@ void check_shape(const sim::shapes::Shape& shape, const std::string& address,
 
 }  // namespace
 
+namespace {
+
+/// Far from the origin, the spacing of numbers in single precision reaches the size of cells.
+void check_distance(const scene::Scene& scene, const sim::shapes::Shape& shape,
+                    const std::string& address, const std::string& name,
+                    std::vector<Finding>& findings) {
+  const bool is_mesh = std::holds_alternative<sim::shapes::Mesh>(shape.form);
+  const bool is_points = std::holds_alternative<sim::shapes::Points>(shape.form);
+  if (!is_mesh && !is_points) return;
+  constexpr double single = 0x1p-23, worth_a_word = 0.001;
+  const sim::shapes::Bounds b = sim::shapes::Solid(shape).bounds();
+  const double far = std::max(b.min.cwiseAbs().maxCoeff(), b.max.cwiseAbs().maxCoeff());
+  const double h = scene.solver.cell_size;
+  if (single * far < worth_a_word * h) return;
+  findings.push_back(
+      {Severity::warning, address + ".shape." + (is_mesh ? "mesh" : "points"),
+       fmt::format("{} reaches {} m from the scene's origin, where numbers in single precision are "
+                   "{} cells apart",
+                   name, rough_text(far), rough_text(single * far / h)),
+       "coordinates = \"world\" takes the offset of a map out, and exports put it back"});
+}
+
+}  // namespace
+
 void check_meshes(const scene::Scene& scene, std::vector<Finding>& findings) {
   const auto check_all = [&](const auto& objects, const std::string& kind) {
-    for (const auto& object : objects)
-      check_shape(object.shape, kind + "." + object.name, display_name(kind, object.name),
-                  findings);
+    for (const auto& object : objects) {
+      const std::string address = kind + "." + object.name;
+      check_shape(object.shape, address, display_name(kind, object.name), findings);
+      check_distance(scene, object.shape, address, display_name(kind, object.name), findings);
+    }
   };
   check_all(scene.bodies, "body");
   check_all(scene.emitters, "emitter");

@@ -42,15 +42,18 @@ std::string size_meant(const std::string& text) {
   return joined(two_numbers(text), "x");
 }
 
+/// "1-48", "48", and "-8-20" where handles reach below 0.
 setup::FrameRange read_frames(const std::string& flag, const std::string& text) {
-  constexpr int last_possible = 100'000;
-  const std::size_t dash = text.find('-');
-  const auto first = dash == std::string::npos ? 0 : number_of<int>(text.substr(0, dash));
+  constexpr int last_possible = 2'000'000;
+  const std::size_t dash = text.find('-', 1);
+  const auto first = dash == std::string::npos ? setup::FrameRange::from_start
+                                               : number_of<int>(text.substr(0, dash));
   const auto last = number_of<int>(dash == std::string::npos ? text : text.substr(dash + 1));
-  if (first && last && *first >= 0 && *last >= *first && *last <= last_possible)
+  if (first && last && *last >= *first && std::abs(*last) <= last_possible &&
+      (dash == std::string::npos || std::abs(*first) <= last_possible))
     return {*first, *last};
   refuse_value(flag, text, joined(two_numbers(text), "-"),
-               "expected A-B with 0 <= A <= B <= 100000, or N for 0-N");
+               "expected A-B with A <= B <= 2000000, or N for all frames up to N");
 }
 
 scene::PictureSize read_size(const std::string& flag, const std::string& text) {
@@ -135,7 +138,10 @@ Language<std::string> scene_file() {
 
 Language<setup::FrameRange> frames() {
   return {"A-B", "1-48", read_frames, [](const setup::FrameRange& range) {
-            return std::to_string(range.first) + "-" + std::to_string(range.last);
+            const std::string last = std::to_string(range.last);
+            return range.first == setup::FrameRange::from_start
+                       ? last
+                       : std::to_string(range.first) + "-" + last;
           }};
 }
 

@@ -44,7 +44,7 @@ Language<Number> number(const std::string& type, double least, double most,
     return {type, example, read, scene::toml::number_text};
 }
 
-/// "1-48", or "48" for 0-48.
+/// Numbers of frames: "1-48", or "48" for all up to 48.
 Language<setup::FrameRange> frames();
 /// "1280x720"
 Language<scene::PictureSize> size();

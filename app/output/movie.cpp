@@ -95,6 +95,34 @@ FrameCount count_frames(const fs::path& ffmpeg, const fs::path& movie, double lo
   return count;
 }
 
+/// Links to the pictures, numbered from 0: ffmpeg reads no numbers below 0 as printf writes them.
+class CountedPictures {
+ public:
+  explicit CountedPictures(const MovieRequest& request)
+      : folder_(temporary_name(request.file).string() + ".pictures"), request_(request) {
+    if (request.first_frame >= 0) return;
+    make_folder(folder_);
+    for (int frame = request.first_frame; frame <= request.last_frame; ++frame)
+      fs::create_symlink(fs::absolute(frame_path(request.picture_folder, ".", frame)),
+                         frame_path(folder_, ".", frame - request.first_frame));
+    request_.picture_folder = folder_;
+    request_.first_frame = 0;
+    request_.last_frame = request.last_frame - request.first_frame;
+  }
+  ~CountedPictures() {
+    std::error_code error;
+    fs::remove_all(folder_, error);
+  }
+  CountedPictures(const CountedPictures&) = delete;
+  CountedPictures& operator=(const CountedPictures&) = delete;
+
+  const MovieRequest& request() const { return request_; }
+
+ private:
+  fs::path folder_;
+  MovieRequest request_;
+};
+
 /// Whether a message is about the disk, or the machine, rather than about the pictures.
 bool is_disk_error(const std::string& message) {
   const auto names = [&](int reason) {
@@ -162,10 +190,10 @@ std::string unreadable_picture(const MovieRequest& request) {
 
 }  // namespace
 
-MovieResult write_movie(const MovieRequest& request) {
-  const auto ffmpeg = find_program("ffmpeg");
-  if (!ffmpeg) return {MovieOutcome::no_ffmpeg, {}};
+namespace {
 
+/// With numbers from 0 on.
+MovieResult write_counted(const fs::path& ffmpeg, const MovieRequest& request) {
   const fs::path temporary = temporary_name(request.file);
   try {
     remove_movie(request.file);
@@ -174,10 +202,10 @@ MovieResult write_movie(const MovieRequest& request) {
   } catch (const IoError& error) {
     return {MovieOutcome::unwritable, error.what()};
   }
-  Attempt attempt = try_movie(*ffmpeg, request, temporary);
+  Attempt attempt = try_movie(ffmpeg, request, temporary);
   // A machine that fails once need not fail again.
   if (!attempt.failure.empty() && attempt.may_be_repeated && !is_disk_error(attempt.failure))
-    attempt = try_movie(*ffmpeg, request, temporary);
+    attempt = try_movie(ffmpeg, request, temporary);
   if (!attempt.failure.empty()) {
     std::error_code error;
     fs::remove(temporary, error);
@@ -195,6 +223,21 @@ MovieResult write_movie(const MovieRequest& request) {
     return {MovieOutcome::unwritable, error.what()};
   }
   return {MovieOutcome::written, {}};
+}
+
+}  // namespace
+
+MovieResult write_movie(const MovieRequest& request) {
+  const auto ffmpeg = find_program("ffmpeg");
+  if (!ffmpeg) return {MovieOutcome::no_ffmpeg, {}};
+  try {
+    const CountedPictures pictures(request);
+    return write_counted(*ffmpeg, pictures.request());
+  } catch (const fs::filesystem_error& error) {
+    return {MovieOutcome::unwritable, error.what()};
+  } catch (const IoError& error) {
+    return {MovieOutcome::unwritable, error.what()};
+  }
 }
 
 namespace {

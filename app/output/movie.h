@@ -16,6 +16,7 @@ struct MovieRequest {
   bool has_alpha = false;  ///< of the pictures, laid over a plain colour where the format has none
   double longest = 0;      ///< s that ffmpeg may take; 0: as long as the largest pictures need
   MovieStyle style{};
+  std::string time_code{};  ///< of the first picture; empty: none
 };
 
 enum class MovieOutcome {

@@ -15,14 +15,14 @@ bool is_plain_name(const std::string& name) {
   return !name.empty() && name.size() <= 200 && std::all_of(name.begin(), name.end(), is_plain);
 }
 
-fs::path frame_path(const fs::path& folder, const std::string& view, int frame) {
+fs::path frame_path(const fs::path& folder, const std::string& view, int number) {
   char name[32];
-  std::snprintf(name, sizeof name, "%04d.png", frame);
+  std::snprintf(name, sizeof name, "%04d.png", number);
   return folder / view / name;
 }
 
-fs::path channels_path(const fs::path& folder, const std::string& view, int frame) {
-  return frame_path(folder, view, frame).replace_extension(".exr");
+fs::path channels_path(const fs::path& folder, const std::string& view, int number) {
+  return frame_path(folder, view, number).replace_extension(".exr");
 }
 
 fs::path movie_path(const fs::path& folder, const std::string& view, MovieFormat format) {

@@ -20,12 +20,12 @@ inline constexpr int max_frame = 99'999'999;
 /// [A-Za-z0-9_-]+: safe as the name of a folder.
 bool is_plain_name(const std::string& name);
 
-/// DIR/<view>/0024.png
+/// DIR/<view>/0024.png; -008.png of a frame before 0, as printf names it
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& view,
-                                 int frame);
+                                 int number);
 /// DIR/<view>/0024.exr
 std::filesystem::path channels_path(const std::filesystem::path& folder, const std::string& view,
-                                    int frame);
+                                    int number);
 /// DIR/<view>.mp4, or with another suffix
 std::filesystem::path movie_path(const std::filesystem::path& folder, const std::string& view,
                                  MovieFormat format);

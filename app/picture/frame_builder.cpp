@@ -17,6 +17,7 @@
 #include "app/picture/to_float.h"
 #include "app/picture/turn.h"
 #include "app/picture/wires.h"
+#include "app/scene/burn_in.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/flat.h"
 #include "app/scene/override.h"
@@ -112,7 +113,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   frame.light = {to_float(scene_.light.direction), static_cast<float>(scene_.light.intensity),
                  static_cast<float>(scene_.light.ambient)};
   // The camera at the start: grid lines do not change while the camera moves.
-  const setup::CameraPlace first = setup::camera_at(camera, 0, scene_.frames / scene_.fps);
+  const setup::CameraPlace first = setup::camera_at(camera, 0, scene::duration(scene_));
   const double spacing = round_down(0.1 * (first.eye - first.target).norm());
   add_colliders(scene_, view, snapshot.time, static_cast<float>(spacing), frame);
   const std::optional<StageLook> look = stage_look(view, snapshot);
@@ -129,8 +130,14 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
   if (scene::has_layer(view, scene::Layer::plots))
     frame.plots = make_plots(view.plots, !scene_.colliders.empty(), snapshot.history, snapshot.time,
-                             1 / scene_.fps, scene_.frames / scene_.fps);
+                             1 / scene_.fps, scene::duration(scene_));
   frame.caption = words(view, snapshot);
+  if (scene::has_burn_in(scene_.burn_in)) {
+    std::vector<std::string> changes = override_lines(options_.overrides);
+    for (std::string& line : change_lines(snapshot.changes)) changes.push_back(std::move(line));
+    frame.edge_words =
+        scene::burnt_in(scene_, {snapshot.frame, snapshot.time, view.name, joined(changes, ", ")});
+  }
   return frame;
 }
 
@@ -234,7 +241,7 @@ std::optional<StageLook> FrameBuilder::stage_look(const scene::View& view,
   if (!snapshot.stage_change) return std::nullopt;
   const scene::CameraSettings& camera =
       scene_.camera && scene_.camera->eye ? *scene_.camera : settings_of(scene_, view);
-  const sim::Vec3d eye = setup::camera_at(camera, 0, scene_.frames / scene_.fps).eye;
+  const sim::Vec3d eye = setup::camera_at(camera, 0, scene::duration(scene_)).eye;
   return StageLook{StageCut(view, plane_of(view, snapshot), eye, scene_.solver.cell_size),
                    snapshot.stage_change->largest()};
 }
@@ -294,7 +301,7 @@ std::optional<sim::Vec3d> centre_of_body(const scene::Scene& scene,
 setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& view,
                                 const setup::SeededScene& seeded, const Snapshot& snapshot) {
   const scene::CameraSettings& settings = settings_of(scene, view);
-  setup::CameraPlace place = setup::camera_at(settings, snapshot.time, scene.frames / scene.fps);
+  setup::CameraPlace place = setup::camera_at(settings, snapshot.time, scene::duration(scene));
   if (settings.follow.empty()) return place;
   const auto body = std::find_if(
       scene.bodies.begin(), scene.bodies.end(),
@@ -318,8 +325,8 @@ std::vector<std::string> FrameBuilder::words(const scene::View& view,
   std::vector<std::string> lines;
   if (scene::has_layer(view, scene::Layer::caption)) lines = caption(snapshot);
   if (scene::has_layer(view, scene::Layer::counter)) {
-    const std::string last = std::to_string(scene_.frames);
-    std::string now = std::to_string(snapshot.frame);
+    const std::string last = std::to_string(scene::number_of(scene_, scene::last_frame(scene_)));
+    std::string now = std::to_string(scene::number_of(scene_, snapshot.frame));
     now.insert(0, last.size() > now.size() ? last.size() - now.size() : 0, '0');
     lines.push_back(now + " / " + last);
   }
@@ -328,13 +335,13 @@ std::vector<std::string> FrameBuilder::words(const scene::View& view,
   return lines;
 }
 
-/// What a picture is of, for the first frame of a film.
 std::vector<std::string> FrameBuilder::slate() const {
   std::vector<std::string> lines;
   if (!scene_.title.empty()) lines.push_back(scene_.title);
-  lines.push_back("frames 0 to " + std::to_string(scene_.frames) + ", " + rough_text(scene_.fps) +
-                  " a second; cells of " + rough_text(scene_.solver.cell_size) + " m; seed " +
-                  std::to_string(scene_.seed));
+  lines.push_back("frames " + std::to_string(scene::number_of(scene_, 0)) + " to " +
+                  std::to_string(scene::number_of(scene_, scene::last_frame(scene_))) + ", " +
+                  rough_text(scene_.fps) + " a second; cells of " +
+                  rough_text(scene_.solver.cell_size) + " m; seed " + std::to_string(scene_.seed));
   for (const sim::Material& m : scene_.materials)
     lines.push_back(m.name + ": " + rough_text(m.density) + " kg/m3, E " +
                     rough_text(m.youngs_modulus) + " Pa, " + strength_line(m));
@@ -345,7 +352,7 @@ std::vector<std::string> FrameBuilder::slate() const {
 std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   std::vector<std::string> lines;
   if (!scene_.title.empty()) lines.push_back(scene_.title);
-  lines.push_back("frame " + std::to_string(snapshot.frame) +
+  lines.push_back("frame " + std::to_string(scene::number_of(scene_, snapshot.frame)) +
                   "   t = " + fixed_text(snapshot.time, 3) + " s");
   const std::size_t count = snapshot.particles.x.size();
   lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles") +

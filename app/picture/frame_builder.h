@@ -49,6 +49,9 @@ class FrameBuilder {
   /// Title, frame and time, particles and steps, and overrides; one line each.
   std::vector<std::string> caption(const Snapshot& snapshot) const;
 
+  /// Frames, cells, materials and overrides, for the first picture of a film; one line each.
+  std::vector<std::string> slate() const;
+
  private:
   void add_points(const scene::View& view, const Snapshot& snapshot,
                   const std::optional<StageLook>& look, render::Frame& frame) const;
@@ -63,7 +66,6 @@ class FrameBuilder {
   std::optional<sim::Vec3d> centre_of_mass(const std::string& body, const Snapshot& snapshot) const;
   /// Caption, counter and slate, as the layers say.
   std::vector<std::string> words(const scene::View& view, const Snapshot& snapshot) const;
-  std::vector<std::string> slate() const;
 
   const scene::Scene& scene_;
   const setup::SeededScene& seeded_;

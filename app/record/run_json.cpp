@@ -260,6 +260,9 @@ Json to_json(const RunRecord& run) {
   if (!run.error.empty()) json["error"] = run.error;
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
+  json["first_number"] = run.first_number;
+  json["world_offset"] = run.world_offset ? output::vector_json(*run.world_offset) : Json();
+  json["slate"] = run.slate ? Json(*run.slate) : Json();
   if (run.frames_from_states > 0) json["frames_from_states"] = run.frames_from_states;
   json["files"] = run.files;
   json["warnings"] = run.warnings;

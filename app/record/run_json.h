@@ -71,6 +71,9 @@ struct RunRecord {
   RunStatus status = RunStatus::running;
   std::string error;  ///< of a run that failed
   std::vector<FrameRecord> frames;
+  int first_number = 0;                    ///< of the frame at time 0
+  std::optional<sim::Vec3d> world_offset;  ///< m, taken out of files with coordinates of a map
+  std::optional<int> slate;    ///< number of the pictures of words before the first frame
   int frames_from_states = 0;  ///< drawn from kept states, without a step
   FileHashes files;  ///< pictures and movies; a picture that is just being written is not in it yet
   std::vector<std::string> warnings;  ///< of the start and of the steps so far

@@ -5,11 +5,13 @@
 
 #include "app/health/incident.h"
 #include "app/output/file_hash.h"
+#include "app/output/read_picture.h"
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/picture/shutter.h"
 #include "app/run/lut.h"
 #include "app/run/plate.h"
+#include "app/run/slate.h"
 #include "render/image/mean_image.h"
 
 namespace neve::app::run {
@@ -47,7 +49,7 @@ picture::Snapshot Drawing::take(const timeline::Timeline& timeline,
   history_ = timeline.here().history;
   snapshot.history = history_;
   snapshot.advance = timeline.here().advance;
-  record_.frame = frame;
+  record_.frame = scene::number_of(scene_, frame);
   record_.state_hash = record::hash_text(state_hash);
   record_.changes = job_.changes;
   scene::forget_changes_after(record_.changes, simulation.steps());
@@ -85,7 +87,7 @@ Drawing::Files Drawing::draw(const picture::Snapshot& snapshot) {
       fetch_down_to(0);
       std::optional<render::Image> plate;
       if (!job_.plate.empty())
-        plate = read_plate(job_, snapshot.frame, view.name, {drawn.width, drawn.height});
+        plate = read_plate(job_, record_.frame, view.name, {drawn.width, drawn.height});
       files.pictures.push_back(picture_of(view.name, draw_mean(drawn, moments, plate)));
     }
     if (passes_)
@@ -164,6 +166,18 @@ std::vector<output::Picture> Drawing::draw_incident(const timeline::Timeline& ti
   for (const scene::Mosaic& mosaic : scene_.mosaics)
     add(mosaic.name, picture::draw_mosaic(scene_, mosaic, build, caption, renderer_));
   return pictures;
+}
+
+std::vector<output::Picture> Drawing::draw_slates(const record::RunRecord& record) {
+  std::vector<output::Picture> slates;
+  const int first = record.frames.front().frame;
+  for (const std::string& view : record.views) {
+    const render::Image like = output::read_picture(output::frame_path(job_.folder, view, first));
+    slates.push_back({output::frame_path(job_.folder, view, first - 1),
+                      draw_slate(job_.scene, {first - 1, view, builder_.slate()}, like, renderer_),
+                      {}});
+  }
+  return slates;
 }
 
 record::PictureRecord Drawing::record_of(const std::string& view) const {

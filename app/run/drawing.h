@@ -38,6 +38,9 @@ class Drawing {
   };
   Files draw(const picture::Snapshot& snapshot);
 
+  /// The pictures of words before the first pictures of a run. @param record  of it
+  std::vector<output::Picture> draw_slates(const record::RunRecord& record);
+
   /// The state that broke a rule, with the culprits marked, and the slice through them; pictures,
   /// but no frames.
   std::vector<output::Picture> draw_incident(const timeline::Timeline& timeline,

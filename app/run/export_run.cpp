@@ -114,6 +114,8 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
   json["version"] = version;
   json["scene_file"] = job.run.scene_file;
   json["fps"] = job.run.scene.fps;
+  const std::optional<sim::Vec3d> offset = scene::world_offset(job.run.scene);
+  json["world_offset"] = offset ? output::vector_json(*offset) : Json();
   json["is_whole"] = result.is_whole && kept.is_whole;
   json["exports"] = kept.exports;
   for (const Json& one : result.exports) json["exports"].push_back(one);
@@ -138,7 +140,7 @@ ExportJob make_export_job(const ExportOptions& options) {
     job.run.frames = {0, static_cast<int>(std::min(last, 1e9))};
     return job;
   }
-  job.first_number = job.run.frames.first;
+  job.first_number = scene::number_of(job.run.scene, job.run.frames.first);
   for (int frame = job.run.frames.first; frame <= job.run.frames.last; ++frame)
     job.times.push_back(frame / job.run.scene.fps);
   return job;
@@ -149,9 +151,10 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   RenderJob run = job.run;
   place_camera(run.scene);
   const double last = job.times.back();
-  timeline::warn_of_late_time(job.are_frames ? "frame " + std::to_string(job.run.frames.last)
-                                             : "--at " + rough_text(last) + " s",
-                              last, run.scene, progress);
+  timeline::warn_of_late_time(
+      job.are_frames ? "frame " + std::to_string(scene::number_of(run.scene, job.run.frames.last))
+                     : "--at " + rough_text(last) + " s",
+      last, run.scene, progress);
   timeline::Timeline timeline = timeline::open(run, threads, progress);
   const sim::Simulation& simulation = timeline.simulation();
   if (job.run.folder == job.lock_folder)
@@ -166,7 +169,9 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   for (const double time : job.times) {
     if (!timeline.go_to(time)) break;
     const int number = job.first_number + static_cast<int>(result.moments++);
-    if (job.are_frames) timeline::compare_with_run(run, number, simulation.state_hash(), progress);
+    if (job.are_frames)
+      timeline::compare_with_run(run, scene::frame_of(run.scene, number), simulation.state_hash(),
+                                 progress);
     for (exports::Exporter::Work& work :
          exporter.add(timeline.scene().colliders, simulation, number, false))
       writer.write(std::move(work));

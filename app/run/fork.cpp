@@ -42,13 +42,15 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   const scene::Scene forked = scene::apply(before, job.fork->changes, job.scene_file);
   timeline::require_live(before, forked, "--from");
   const int first = timeline::frame_at(job.fork->time, job.scene.fps) + 1;
-  const int last = options.frames ? options.frames->last : forked.frames;
+  const std::optional<setup::FrameRange> frames =
+      options.frames ? std::optional(setup::frames_of(job.scene, *options.frames)) : std::nullopt;
+  const int last = frames ? frames->last : scene::last_frame(forked);
   if (last < first)
-    throw UsageError(
-        "--from",
-        fmt::format("{} s is at or after frame {}, the last one", rough_text(job.fork->time), last),
-        "expected an earlier time, or a later frame with --frames");
-  job.frames = {options.frames ? std::max(options.frames->first, first) : first, last};
+    throw UsageError("--from",
+                     fmt::format("{} s is at or after frame {}, the last one",
+                                 rough_text(job.fork->time), scene::number_of(job.scene, last)),
+                     "expected an earlier time, or a later frame with --frames");
+  job.frames = {frames ? std::max(frames->first, first) : first, last};
   if (options.out.empty())
     job.folder = out_folder() / fmt::format("{}-from-{}s", job.name(), rough_text(job.fork->time));
   std::error_code error;
@@ -90,7 +92,7 @@ Json go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress
   const sim::Simulation& simulation = timeline.simulation();
   Json record = {{"from", job.scene_file},
                  {"time", simulation.time()},
-                 {"frame", timeline.here().frame},
+                 {"frame", scene::number_of(job.scene, timeline.here().frame)},
                  {"step", simulation.steps()},
                  {"state_hash", record::hash_text(simulation.state_hash())}};
   const scene::Scene& before = *timeline.here().scene;

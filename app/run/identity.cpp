@@ -12,6 +12,10 @@ std::string simulation_text(const scene::Scene& scene) {
   scene::Scene simulated = scene;
   simulated.title.clear();
   simulated.frames = plain.frames;
+  simulated.first_frame = plain.first_frame;
+  simulated.handles = plain.handles;
+  simulated.shot = plain.shot;
+  simulated.burn_in = plain.burn_in;
   simulated.limits = plain.limits;
   simulated.camera = plain.camera;
   simulated.light = plain.light;

@@ -12,6 +12,7 @@
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/record/earlier.h"
+#include "app/scene/burn_in.h"
 #include "app/support/errors.h"
 
 namespace neve::app::run {
@@ -42,7 +43,7 @@ void Ledger::take(const timeline::Moment& moment) {
   record_.frames = moment.made.frames;
   record_.files = moment.made.files;
   try {
-    exporter_.resume(moment.made.exports, moment.frame);
+    exporter_.resume(moment.made.exports, scene::number_of(job_.scene, moment.frame));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -78,8 +79,8 @@ void Ledger::note_exports() {
 std::vector<exports::Exporter::Work> Ledger::read_exports(const timeline::Timeline& timeline) {
   const int frame = timeline.here().frame;
   if (!exporter_.is_due(frame)) return {};
-  std::vector<exports::Exporter::Work> work =
-      exporter_.add(timeline.scene().colliders, timeline.simulation(), frame, true);
+  std::vector<exports::Exporter::Work> work = exporter_.add(
+      timeline.scene().colliders, timeline.simulation(), scene::number_of(job_.scene, frame), true);
   note_exports();
   return work;
 }
@@ -123,15 +124,19 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
 }
 
 void Ledger::write_movie(const std::string& view, std::vector<std::filesystem::path>& movies) {
-  const output::MovieRequest request{
-      job_.folder / view,
-      output::movie_path(job_.folder, view, job_.options.movie.format),
-      record_.frames.front().frame,
-      record_.frames.back().frame,
-      job_.scene.fps,
-      job_.plate.empty() && has_alpha(job_.scene, view),
-      0,
-      job_.options.movie};
+  const output::MovieStyle& style = job_.options.movie;
+  const int first = record_.slate.value_or(record_.frames.front().frame);
+  output::MovieRequest request{job_.folder / view,
+                               output::movie_path(job_.folder, view, style.format),
+                               first,
+                               record_.frames.back().frame,
+                               job_.scene.fps,
+                               job_.plate.empty() && has_alpha(job_.scene, view),
+                               0,
+                               style};
+  if (scene::has_time_code(job_.scene))
+    request.time_code =
+        scene::time_code_of(job_.scene, first, style.fps > 0 ? style.fps : job_.scene.fps);
   const output::MovieResult movie = output::write_movie(request);
   const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
   switch (movie.outcome) {

@@ -25,7 +25,9 @@ class Ledger {
   record::RunRecord& record() { return record_; }
   const record::RunRecord& record() const { return record_; }
   /// Lists and files so far, to keep with a moment.
-  timeline::Made made() const { return {record_.frames, record_.files, record_.exports}; }
+  timeline::Made made() const {
+    return {record_.frames, record_.files, record_.exports, scene::number_of(job_.scene, 0)};
+  }
 
   /// Removes the files of an earlier run. Its frames stay listed until they are made again:
   /// whenever the process is killed, run.json lists every picture that exists.

@@ -120,7 +120,7 @@ RenderJob make_job(const RenderOptions& options) {
   if (!options.has_caption)
     for (scene::View& view : job.scene.views) std::erase(view.layers, scene::Layer::caption);
   set_sizes(options, job.scene);
-  if (options.frames) job.frames = *options.frames;
+  if (options.frames) job.frames = setup::frames_of(job.scene, *options.frames);
   if (options.quality) job.quality = *options.quality;
   if (!options.out.empty()) job.folder = options.out;
   if (options.shutter)
@@ -165,6 +165,8 @@ record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simula
   record::RunRecord record;
   record.scene = scene::write_scene(job.scene);
   record.scene_file = job.scene_file;
+  record.first_number = scene::number_of(job.scene, 0);
+  record.world_offset = scene::world_offset(job.scene);
   record.overrides = job.overrides;
   record.changes = job.changes;
   record.coarsening = job.coarsening;

@@ -97,7 +97,7 @@ void describe_agreement(options::Command& visit, bool& is_agreed) {
 void describe(options::Command& visit, RenderOptions& o) {
   visit.about("render", "Simulate a scene and draw its frames");
   describe_scene(visit, o);
-  visit("--frames", o.frames, options::frames(), "Frames to draw: A-B, or N for 0-N");
+  visit("--frames", o.frames, options::frames(), "Frames to draw: A-B, or N for all up to N");
   visit("--from", o.from, options::time(),
         "Fork the run of SCENE (a scene, a picture or the folder of a run) at a time: --set "
         "changes parameters at that time, and the frames after it are drawn");

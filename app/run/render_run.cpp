@@ -76,10 +76,11 @@ void RenderRun::look_at_laws() {
 RenderResult RenderRun::run() {
   const std::vector<int> flawed = begin();
   try {
-    progress_.start(job_.frames.last);
+    progress_.start(job_.frames.last, scene::number_of(job_.scene, 0));
     if (timeline_.simulation().steps() == 0) look_at_laws();
     if (laws_) ledger_.record().validation = laws_->records();
     if (mend(flawed)) make_frames();
+    add_slates();
     result_.movies = ledger_.finish(result_.status);
   } catch (const std::exception& error) {
     is_abandoned_ = true;
@@ -88,6 +89,15 @@ RenderResult RenderRun::run() {
     throw;
   }
   return result_;
+}
+
+/// In the end, when there are pictures that they are as large as.
+void RenderRun::add_slates() {
+  if (!job_.scene.shot.slate || record().frames.empty()) return;
+  ledger_.bring_to_disk();
+  for (output::Picture& slate : drawing_.draw_slates(record()))
+    ledger_.write_picture(std::move(slate));
+  ledger_.record().slate = record().frames.front().frame - 1;
 }
 
 std::vector<int> RenderRun::begin() {
@@ -116,7 +126,8 @@ std::vector<int> RenderRun::begin() {
 
 void RenderRun::continue_from(const timeline::Moment& moment) {
   timeline_.restore(moment);
-  progress_.note("resumed after frame " + std::to_string(moment.frame) + ", step " +
+  progress_.note("resumed after frame " +
+                 std::to_string(scene::number_of(job_.scene, moment.frame)) + ", step " +
                  std::to_string(moment.steps));
 }
 
@@ -197,7 +208,8 @@ bool RenderRun::take_kept(int frame) {
   const auto kept = timeline_.moments().find(frame / timeline_.fps(), timeline_.fps());
   if (!kept || kept->frame != frame) return false;
   timeline_.restore(*kept);
-  const bool is_listed = !kept->made.frames.empty() && kept->made.frames.back().frame == frame;
+  const bool is_listed = !kept->made.frames.empty() &&
+                         kept->made.frames.back().frame == scene::number_of(job_.scene, frame);
   seconds_ = is_listed ? kept->made.frames.back().seconds_sim : 0;
   kept_blocks_ = is_listed ? kept->made.frames.back().summary.grid_blocks : 0;
   ledger_.record().retries = kept->retries;
@@ -239,21 +251,22 @@ void RenderRun::draw_frame(int frame) {
   const double h = job_.scene.solver.cell_size;
   record::Metrics metrics = record::measure(snapshot.particles, h);
   metrics.max_depth_cells = summary.max_depth / h;
-  ledger_.add(
-      {frame, frame / job_.scene.fps, advance, seconds_, seconds_since(start), summary, state_hash,
-       metrics, record::forces_of(advance, summary, drawing_.scene().colliders)},
-      std::move(drawn), std::move(exports));
+  ledger_.add({scene::number_of(job_.scene, frame), frame / job_.scene.fps, advance, seconds_,
+               seconds_since(start), summary, state_hash, metrics,
+               record::forces_of(advance, summary, drawing_.scene().colliders)},
+              std::move(drawn), std::move(exports));
   if (const auto slowdown = slowdown_warning(record().frames); slowdown && !said_slow_) {
     progress_.warning(*slowdown);
     said_slow_ = true;
   }
-  progress_.detail("frame " + std::to_string(frame) + ": " + std::to_string(advance.steps) +
-                   " steps, simulated in " + fixed_text(seconds_, 2) + " s, drawn in " +
-                   fixed_text(seconds_since(start), 2) + " s, deepest in a collider " +
-                   rough_text(metrics.max_depth_cells) + " cells");
+  progress_.detail("frame " + std::to_string(scene::number_of(job_.scene, frame)) + ": " +
+                   std::to_string(advance.steps) + " steps, simulated in " +
+                   fixed_text(seconds_, 2) + " s, drawn in " + fixed_text(seconds_since(start), 2) +
+                   " s, deepest in a collider " + rough_text(metrics.max_depth_cells) + " cells");
   if (!timeline_.moments().wants(frame)) return;
   timeline::Moment moment = timeline_.moment();
   moment.made.frames = {record().frames.back()};
+  moment.made.first_number = scene::number_of(job_.scene, 0);
   timeline_.moments().keep(std::move(moment));
 }
 

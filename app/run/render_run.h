@@ -51,6 +51,7 @@ class RenderRun {
   /// continues
   bool mend(const std::vector<int>& frames);
   void make_frames();
+  void add_slates();
   void watch_laws();
   void look_at_laws();
   /// @return whether the frame was reached in good health

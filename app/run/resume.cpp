@@ -56,8 +56,8 @@ std::string other_thing(const std::filesystem::path& folder, const record::Pictu
   return "its scene, changes, views, quality or version differ";
 }
 
-/// Adds the frames that run.json lists and the checkpoint does not: those after it, and all of an
-/// earlier version. Their pictures stay listed until they are made again.
+/// Adds the frames that run.json lists and the checkpoint does not: those after `last`, and all of
+/// an earlier version. Their pictures stay listed until they are made again.
 void add_listed(const std::filesystem::path& folder, const Json& run_json, int last,
                 timeline::Made& run) {
   const bool has_none = run.frames.empty();
@@ -98,21 +98,23 @@ std::vector<record::Flaw> find_flaws(const std::filesystem::path& folder,
                                      const record::RunRecord& record, setup::FrameRange frames,
                                      Resumption& found) {
   const timeline::Moment& moment = found.moment;
+  const int start = moment.made.first_number, reached = start + moment.frame;
   record::Pictures pictures{record.views, record.views_of_passes, moment.made.frames,
                             moment.made.files};
   std::erase_if(pictures.frames,
-                [&](const record::FrameRecord& made) { return made.frame > moment.frame; });
+                [&](const record::FrameRecord& made) { return made.frame > reached; });
   std::vector<record::Flaw> flaws = record::picture_flaws(
-      folder, pictures, frames.first, std::min(moment.frame, frames.last), found.flawed);
+      folder, pictures, start + frames.first, std::min(reached, start + frames.last), found.flawed);
   try {
     for (record::Flaw& flaw : record::export_flaws(folder, moment.made.exports, moment.made.files,
-                                                   moment.frame, found.flawed))
+                                                   reached, found.flawed))
       flaws.push_back(std::move(flaw));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     timeline::refuse_moment(moment.file, error);
   }
+  for (int& frame : found.flawed) frame -= start;
   std::sort(found.flawed.begin(), found.flawed.end());
   found.flawed.erase(std::unique(found.flawed.begin(), found.flawed.end()), found.flawed.end());
   return flaws;
@@ -134,7 +136,8 @@ std::optional<Resumption> find_resumption(const std::filesystem::path& folder,
   check_identity(folder, *found.checkpoint, picture, record.simd, progress);
   Resumption resumption{timeline::to_moment(*std::move(found.checkpoint))};
   timeline::Moment& moment = resumption.moment;
-  add_listed(folder, record::read_run_json(folder), moment.frame, moment.made);
+  add_listed(folder, record::read_run_json(folder), moment.made.first_number + moment.frame,
+             moment.made);
   const std::vector<record::Flaw> flaws = find_flaws(folder, record, frames, resumption);
   if (!flaws.empty())
     progress.warning(folder.string() + ": " + record::flaw_text(flaws) + "; made again");

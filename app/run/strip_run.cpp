@@ -146,7 +146,8 @@ class Strip {
                                     job_.times.begin() + static_cast<std::ptrdiff_t>(count()));
     record.strip = record::StripRecord{drawn, job_.columns, job_.width};
     record.view = job_.run.scene.views.front().name;
-    record.frame = static_cast<int>(std::lround(drawn.back() * job_.run.scene.fps));
+    record.frame = scene::number_of(
+        job_.run.scene, static_cast<int>(std::lround(drawn.back() * job_.run.scene.fps)));
     record.state_hash = record::hash_text(state_hash_);
     return record;
   }

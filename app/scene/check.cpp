@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/advice/suggest.h"
+#include "app/scene/burn_in.h"
 #include "app/scene/leaf.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
@@ -18,6 +19,7 @@
 #include "sim/shapes/placed_points.h"
 #include "sim/shapes/solid.h"
 #include "sim/shapes/variation.h"
+#include "sim/shapes/world_place.h"
 
 namespace neve::app::scene {
 namespace {
@@ -140,6 +142,8 @@ Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
   if (Found found = too_far(scene, sim::shapes::center(shape), at)) return found;
   if (Found found = form_problem(shape, address)) return found;
   if (std::holds_alternative<sim::shapes::Points>(shape.form)) return {};
+  // Its place is found when the whole scene is known.
+  if (sim::shapes::needs_place(shape)) return {};
   return ready_problem(address, [&] {
     const sim::shapes::Bounds b = sim::shapes::Solid(shape).bounds();
     return too_far(scene, b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()), at);
@@ -533,7 +537,7 @@ std::optional<Problem> find_problem(const Scene& scene) {
   for (const Export& e : scene.exports) {
     if ((found = export_problem(scene, e))) return found;
   }
-  return {};
+  return shot_problem(scene);
 }
 
 }  // namespace neve::app::scene

@@ -37,6 +37,7 @@ inline constexpr Valid position = within(1e6);
 inline constexpr Valid length = above(0).at_most(1e6);
 /// Sizes of a shape have no default: one that is forgotten is a mistake.
 inline constexpr Valid needed_length = length.required(), needed_position = position.required();
+inline constexpr Valid map_position = within(1e8);
 inline constexpr Valid speed = within(1e6);
 inline constexpr Valid file_number = between(0, sim::shapes::max_file_number);
 inline constexpr double max_count = 0x1p53;  // JSON and double keep whole numbers up to here
@@ -250,6 +251,16 @@ void describe(V& visit, sim::shapes::Plane& p, Change change) {
         "Direction out of the solid side, of any length.");
 }
 
+/// Coordinates of the file of a mesh or of points.
+template <class V, class Form>
+void describe_coordinates(V& visit, Form& form, Change change) {
+  visit("coordinates", form.coordinates, unit::none, anything, change,
+        "own; world: those of a map, as UTM, from which all such files take one offset out.");
+  visit("origin", form.origin, unit::none, map_position, change,
+        "Coordinates in the file that count as its origin; with coordinates = \"world\" 0 is found "
+        "from the files.");
+}
+
 template <class V>
 void describe(V& visit, sim::shapes::Mesh& m, Change change) {
   visit("file", m.file, unit::none, file_path, change,
@@ -260,6 +271,7 @@ void describe(V& visit, sim::shapes::Mesh& m, Change change) {
       "fill", m.fill, unit::none, anything, change,
       "Inside: closed: of all parts; even_odd: shells are hollow; winding: for open meshes; auto: "
       "as the mesh is.");
+  describe_coordinates(visit, m, change);
 }
 
 template <class V>
@@ -289,6 +301,7 @@ void describe(V& visit, sim::shapes::Points& p, Change change) {
   visit("thinning", p.thinning, unit::none, between(1, 1e9), change,
         "Use one point of every N, and let it represent all N.");
   visit("center", p.center, unit::metre, position, change, "Place of the file's origin.");
+  describe_coordinates(visit, p, change);
 }
 
 /// Every form can be turned.
@@ -606,6 +619,35 @@ void describe(V& visit, Export& e) {
 }
 
 template <class V>
+void describe(V& visit, Shot& s) {
+  using enum Change;
+  visit("show", s.show, unit::none, anything, live, "Name of the production.");
+  visit("name", s.name, unit::none, anything, live, "Name of the shot.");
+  visit("version", s.version, unit::none, anything, live, "Version, as v003.");
+  visit("artist", s.artist, unit::none, anything, live, "Who made it.");
+  visit("slate", s.slate, unit::none, anything, restart,
+        "Write a picture before the first one, with show, shot, version, artist, range and "
+        "parameters.");
+  visit("time_code", s.time_code, unit::none, anything, restart,
+        "Time code of first_frame in movies, HH:MM:SS:FF; default: its number, so that 1001 is "
+        "00:00:41:17.");
+}
+
+template <class V>
+void describe(V& visit, BurnIn& b) {
+  using enum Change;
+  const auto describe_place = [&](const char* key, std::string& text, const char* help) {
+    visit(key, text, unit::none, anything, live, help);
+  };
+  describe_place("top_left", b.top_left, "Words in the upper left corner.");
+  describe_place("top", b.top, "Words in the middle of the upper edge.");
+  describe_place("top_right", b.top_right, "Words in the upper right corner.");
+  describe_place("bottom_left", b.bottom_left, "Words in the lower left corner.");
+  describe_place("bottom", b.bottom, "Words in the middle of the lower edge.");
+  describe_place("bottom_right", b.bottom_right, "Words in the lower right corner.");
+}
+
+template <class V>
 void describe_output(V& visit, Scene& s) {
   describe_size(visit, "size", s.size, "Width and height.");
   visit("background", s.background, unit::none, anything, Change::live,
@@ -617,7 +659,11 @@ void describe(V& visit, Scene& s) {
   using enum Change;
   visit("title", s.title, unit::none, anything, live, "Title in the caption.");
   visit("frames", s.frames, unit::none, between(0, 100000), live,
-        "Last frame; frame 0 is the initial state.");
+        "Frames after the first one, which is the initial state where there are no handles.");
+  visit("first_frame", s.first_frame, unit::none, within(1e6), restart,
+        "Number of the first frame in the names of files, in run.json and in pictures, as 1001.");
+  visit("handles", s.handles, unit::none, between(0, 10000), restart,
+        "Frames that are simulated and drawn more, before the first frame and after the last one.");
   visit("fps", s.fps, unit::per_second, between(0.01, 1e5), restart,
         "Frames per second of simulated time.");
   visit("seed", s.seed, unit::none, between(0, max_count), restart, "Placement of the particles.");
@@ -635,6 +681,12 @@ void describe(V& visit, Scene& s) {
   visit.list("mosaic", s.mosaics, "Several views in one picture.");
   visit.list("export", s.exports, "Geometry for other programs, in files beside the pictures.");
   visit.section("output", "The pictures.", [&](auto& v) { describe_output(v, s); });
+  visit.section("shot", "The shot in its production, for slates, movies and burn_in.",
+                [&](auto& v) { describe(v, s.shot); });
+  visit.section("burn_in",
+                "Words over all pictures; {frame}, {shot.name}, {material.snow.hardening} and so "
+                "on become values.",
+                [&](auto& v) { describe(v, s.burn_in); });
 }
 
 }  // namespace neve::app::scene

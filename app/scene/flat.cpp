@@ -213,7 +213,8 @@ Concern concern_of(std::string_view address) {
   for (const char* part : {"solver.", "material.", "body.", "emitter.", "sink.", "collider."})
     if (address.starts_with(part)) return Concern::simulation;
   if (address == "fps" || address == "seed") return Concern::simulation;
-  if (address == "frames" || address.starts_with("limits.") || address.starts_with("export."))
+  if (address == "frames" || address == "handles" || address.starts_with("limits.") ||
+      address.starts_with("export."))
     return Concern::run;
   return Concern::pictures;
 }

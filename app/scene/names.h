@@ -87,6 +87,10 @@ constexpr auto names(sim::shapes::Fill) {
   return std::array{Name{automatic, "auto"}, Name{closed, "closed"}, Name{even_odd, "even_odd"},
                     Name{winding, "winding"}};
 }
+constexpr auto names(sim::shapes::Coordinates) {
+  using enum sim::shapes::Coordinates;
+  return std::array{Name{own, "own"}, Name{world, "world"}};
+}
 constexpr auto names(sim::shapes::Contact) {
   using enum sim::shapes::Contact;
   return std::array{Name{separate, "separate"}, Name{slip, "slip"}, Name{sticky, "sticky"}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "app/advice/suggest.h"
 #include "app/scene/check.h"
@@ -12,6 +13,7 @@
 #include "app/support/errors.h"
 #include "app/support/film_rate.h"
 #include "app/support/text.h"
+#include "sim/shapes/world_place.h"
 
 namespace neve::app::scene {
 
@@ -158,7 +160,40 @@ Scene apply(const Scene& scene, const std::vector<Override>& overrides, const st
 }
 
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides) {
-  return read_scene_text(read_toml_file(file), file, base_dir_of(file), overrides);
+  Scene scene = read_scene_text(read_toml_file(file), file, base_dir_of(file), overrides);
+  place_in_world(scene, file);
+  return scene;
+}
+
+namespace {
+
+template <class Shape, class S>
+std::vector<Shape*> shapes_of(S& scene) {
+  std::vector<Shape*> shapes;
+  for (auto& body : scene.bodies) shapes.push_back(&body.shape);
+  for (auto& emitter : scene.emitters) shapes.push_back(&emitter.shape);
+  for (auto& sink : scene.sinks) shapes.push_back(&sink.shape);
+  for (auto& collider : scene.colliders) shapes.push_back(&collider.shape);
+  return shapes;
+}
+
+}  // namespace
+
+void place_in_world(Scene& scene, const std::string& name) {
+  const auto shapes = shapes_of<sim::shapes::Shape>(scene);
+  if (std::ranges::none_of(shapes, [](const auto* s) { return sim::shapes::needs_place(*s); }))
+    return;
+  try {
+    sim::shapes::place_in_world(shapes);
+  } catch (const sim::ShapeError& error) {
+    throw toml::SceneError(name, 0, 0, error.what(), "");
+  }
+  if (const auto problem = find_problem(scene))
+    throw toml::SceneError(name, 0, 0, problem->address + ": " + problem->message, problem->hint);
+}
+
+std::optional<sim::Vec3d> world_offset(const Scene& scene) {
+  return sim::shapes::world_offset(shapes_of<const sim::shapes::Shape>(scene));
 }
 
 View find_view(const Scene& scene, const std::string& name) {

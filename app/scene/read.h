@@ -1,6 +1,7 @@
 #pragma once
 /// Scene files in, with every complaint located; resolved scenes out.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,12 @@ namespace neve::app::scene {
 
 /// @throws SceneError for the file, UsageError for an override
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides = {});
+
+/// Finds the common offset of files with coordinates = "world", where a scene has not got it yet.
+/// Reads these files. @param name  of the scene in messages @throws SceneError
+void place_in_world(Scene& scene, const std::string& name);
+/// That offset: the scene's origin in the world of the files, m, in the axes of the scene.
+std::optional<sim::Vec3d> world_offset(const Scene& scene);
 
 /// @param name      the file in messages
 /// @param base_dir  folder of relative paths of meshes; "" for the current directory

@@ -202,6 +202,18 @@ struct Export {
   int smallest_piece = 8;        ///< particles
 };
 
+/// What a shot is called in its production, for the slate and the words over its pictures.
+struct Shot {
+  std::string show, name, version, artist;
+  bool slate = false;     ///< a picture of words before the first one
+  std::string time_code;  ///< of first_frame; empty: what its number says
+};
+
+/// Words over all pictures, with values in braces, see burn_in.h.
+struct BurnIn {
+  std::string top_left, top, top_right, bottom_left, bottom, bottom_right;
+};
+
 struct Limits {
   std::uint64_t memory = 0;  ///< bytes; 0: 80 % of the available memory
   std::uint64_t particles = 20'000'000;
@@ -210,7 +222,9 @@ struct Limits {
 
 struct Scene {
   std::string title;
-  int frames = 48;  ///< frames 0 (initial state) to this one
+  int frames = 48;      ///< of the shot, after its first one
+  int first_frame = 0;  ///< its number in names and pictures
+  int handles = 0;      ///< frames more before the first one and after the last one
   double fps = 24;
   std::uint64_t seed = 1;
   sim::SolverSettings solver;
@@ -227,7 +241,27 @@ struct Scene {
   std::vector<Export> exports;
   PictureSize size;
   Background background = Background::gradient;
+  Shot shot;
+  BurnIn burn_in;
 };
+
+/// Frames are counted from 0, the initial state, to this one.
+inline int last_frame(const Scene& scene) {
+  return scene.frames + 2 * scene.handles;
+}
+
+/// s, from the first frame to the last.
+inline double duration(const Scene& scene) {
+  return last_frame(scene) / scene.fps;
+}
+
+/// The number that the names of files, records, pictures and flags give a frame.
+inline int number_of(const Scene& scene, int frame) {
+  return frame + scene.first_frame - scene.handles;
+}
+inline int frame_of(const Scene& scene, int number) {
+  return number - number_of(scene, 0);
+}
 
 inline Background background_of(const Scene& scene, const View& view) {
   return view.background.value_or(scene.background);

@@ -302,7 +302,7 @@ bool is_clear_at(const scene::Scene& scene, const Framing& framing, const Vec3d&
   return std::all_of(scene.colliders.begin(), scene.colliders.end(), [&](const auto& collider) {
     const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
     if (!plane) return true;
-    const std::vector<double> times = times_of(collider, scene.frames / scene.fps);
+    const std::vector<double> times = times_of(collider, scene::duration(scene));
     return std::all_of(times.begin(), times.end(), [&](double time) {
       const sim::shapes::Pose pose = sim::shapes::pose_at(collider, time);
       const Vec3d normal = (pose.rotation * plane->normal).normalized();
@@ -334,7 +334,7 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
   if (is_upright && !is_following) add_floor(scene, points);
   if (normal) points = flattened(points, normal->normalized());
   const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect,
-                  normal ? filled_by_plane : filled, turns_of(settings, scene.frames / scene.fps)};
+                  normal ? filled_by_plane : filled, turns_of(settings, scene::duration(scene))};
 
   const double preferred = normal ? azimuth_of(*normal) + askew : best_azimuth(points);
   const Vec3d middle = box_of(points).center();

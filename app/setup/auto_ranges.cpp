@@ -64,7 +64,7 @@ double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
     const double distance = distance_to(collider, sim::shapes::center(*piece.shape), down);
     if (distance >= 0 && (fall < 0 || distance < fall)) fall = distance;
   }
-  const double duration = scene.frames / scene.fps;
+  const double duration = scene::duration(scene);
   const double free_fall = 0.5 * g * duration * duration;
   // Snow at rest still slumps by about its own size.
   fall = std::max(fall < 0 ? free_fall : fall, radius);

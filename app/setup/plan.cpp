@@ -224,10 +224,27 @@ scene::PictureSize size_of(const scene::Scene& scene, const scene::View& view) {
   return view.size.value_or(scene.size);
 }
 
+FrameRange numbers_of(const scene::Scene& scene, const FrameRange& frames) {
+  return {scene::number_of(scene, frames.first), scene::number_of(scene, frames.last)};
+}
+
+FrameRange frames_of(const scene::Scene& scene, const FrameRange& numbers) {
+  const int start = scene::number_of(scene, 0);
+  const int first = numbers.first == FrameRange::from_start ? start : numbers.first;
+  if (first < start || numbers.last < first)
+    throw UsageError("--frames",
+                     "the scene begins with frame " + std::to_string(start) + ", not " +
+                         std::to_string(std::min(first, numbers.last)),
+                     "expected frames from " + std::to_string(start) + " to " +
+                         std::to_string(scene::number_of(scene, scene::last_frame(scene))));
+  return {scene::frame_of(scene, first), scene::frame_of(scene, numbers.last)};
+}
+
 Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality quality, int threads,
                double channel_bytes) {
   Plan plan;
   plan.frames = frames;
+  plan.first_number = scene::number_of(scene, 0);
   const double h = scene.solver.cell_size;
   double cells = 0;
   for (const sim::seeding::Body& body : scene.bodies) {
@@ -299,8 +316,8 @@ Json to_json(const Plan& plan) {
   json["memory_limit_bytes"] = plan.memory_limit;
   json["particle_limit"] = count_json(plan.particle_limit);
   json["largest_picture_pixels"] = count_json(plan.largest_picture);
-  json["first_frame"] = plan.frames.first;
-  json["last_frame"] = plan.frames.last;
+  json["first_frame"] = plan.first_number + plan.frames.first;
+  json["last_frame"] = plan.first_number + plan.frames.last;
   return json;
 }
 

@@ -2,6 +2,7 @@
 /// Needs of a run, estimated before anything is allocated, and the limits it must keep.
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,18 @@ const char* name(Quality quality);
 /// @throws UsageError for an unknown name
 Quality quality_named(const std::string& name);
 
-/// The first and the last frame drawn; those before are simulated only.
+/// The first and the last frame drawn; those before are simulated only. Counted from 0, or numbers
+/// of a scene's files.
 struct FrameRange {
+  static constexpr int from_start = std::numeric_limits<int>::min();  ///< as first: of the scene's
   int first = 0, last = 0;
   int count() const { return last - first + 1; }
 };
+
+/// The numbers of frames that are counted from 0.
+FrameRange numbers_of(const scene::Scene& scene, const FrameRange& frames);
+/// Frames counted from 0 of numbers. @throws UsageError for numbers before the first of the scene
+FrameRange frames_of(const scene::Scene& scene, const FrameRange& numbers);
 
 struct Plan {
   double particles = 0;      ///< an estimate; a double, so that absurd scenes do not overflow it
@@ -31,7 +39,8 @@ struct Plan {
   bool is_memory_capped = false, are_particles_capped = false;
   double largest_picture = 0;  ///< pixels, supersamples included
   FrameRange frames;
-  double volume = 0;  ///< m3 of all bodies and of emitted snow
+  int first_number = 0;  ///< of frame 0
+  double volume = 0;     ///< m3 of all bodies and of emitted snow
 };
 
 /// Bytes that a run of the scene may take.

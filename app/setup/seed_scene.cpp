@@ -142,7 +142,7 @@ SeededScene seed_scene(const scene::Scene& scene) {
   double volume = 0;
   for (const SnowPiece& piece : snow_pieces(scene)) volume += piece.volume;
   const double count = static_cast<double>(seeded.particles.x.size()) +
-                       planned_emission(scene, scene.frames / scene.fps);
+                       planned_emission(scene, scene::duration(scene));
   seeded.planned = static_cast<std::size_t>(count);
   seeded.spacing = std::cbrt(volume / std::max(1.0, count));
   return seeded;

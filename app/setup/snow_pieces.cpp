@@ -45,7 +45,7 @@ std::vector<SnowPiece> snow_pieces(const scene::Scene& scene) {
     ++piece;
   }
   for (const sim::seeding::Emitter& emitter : scene.emitters) {
-    piece->particles = emission(scene, emitter, scene.frames / scene.fps);
+    piece->particles = emission(scene, emitter, scene::duration(scene));
     piece->volume = piece->particles * cell / emitter.particles_per_cell;
     piece->mass = density_at_birth(emitter, *piece->material) * piece->volume;
     ++piece;

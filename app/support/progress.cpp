@@ -48,9 +48,10 @@ std::string duration_text(double seconds) {
 }
 
 std::string progress_text(const ProgressState& state) {
-  std::string text = "frame " + std::to_string(state.frame) + "/" +
-                     std::to_string(state.last_frame) + "  t = " + fixed_text(state.time, 3) +
-                     " s  " + std::to_string(state.steps) + " steps";
+  std::string text = "frame " + std::to_string(state.first_number + state.frame) + "/" +
+                     std::to_string(state.first_number + state.last_frame) +
+                     "  t = " + fixed_text(state.time, 3) + " s  " + std::to_string(state.steps) +
+                     " steps";
   if (state.seconds_per_frame >= 0) {
     const int left = state.last_frame - state.frame;
     text += "  " + fixed_text(state.seconds_per_frame, 2) + " s/frame  " +
@@ -126,12 +127,13 @@ Progress::~Progress() {
   clear();
 }
 
-void Progress::start(int last_frame) {
+void Progress::start(int last_frame, int first_number) {
   const std::lock_guard lock(mutex_);
   state_ = {};
   state_.last_frame = last_frame;
+  state_.first_number = first_number;
   finished_at_.assign(1, Clock::now());
-  if (is_json_) print_event({{"event", "start"}, {"last_frame", last_frame}});
+  if (is_json_) print_event({{"event", "start"}, {"last_frame", first_number + last_frame}});
 }
 
 bool Progress::is_due(Clock::time_point now) const {
@@ -185,8 +187,8 @@ void Progress::show_frame(Clock::time_point now) {
   const int left = state_.last_frame - state_.frame;
   show(now, progress_text(state_),
        {{"event", "frame"},
-        {"frame", state_.frame},
-        {"last_frame", state_.last_frame},
+        {"frame", state_.first_number + state_.frame},
+        {"last_frame", state_.first_number + state_.last_frame},
         {"time", state_.time},
         {"steps", state_.steps},
         {"seconds_per_frame", each < 0 ? Json() : Json(each)},

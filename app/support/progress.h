@@ -24,10 +24,11 @@ struct ProgressOptions {
 
 /// Contents of a progress line.
 struct ProgressState {
-  int frame = 0, last_frame = 0;
+  int frame = 0, last_frame = 0;  ///< counted from 0
   double time = 0;                ///< s, simulated
   std::size_t steps = 0;          ///< since the start
   double seconds_per_frame = -1;  ///< over the trailing window, negative: not known yet
+  int first_number = 0;           ///< of frame 0
 };
 
 /// "frame 12/48  t = 0.500 s  320 steps  0.42 s/frame  15 s left"
@@ -79,7 +80,8 @@ class Progress {
            const ProgressOptions& options = {});
   ~Progress();
 
-  void start(int last_frame);
+  /// @param first_number  of frame 0, in lines and events
+  void start(int last_frame, int first_number = 0);
   /// A step was made; cheap.
   void step();
   /// A frame was finished.

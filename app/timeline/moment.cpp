@@ -73,13 +73,15 @@ sim::AdvanceReport advance_of(const Json& json, std::size_t steps) {
   return output::advance_report(json);
 }
 
-std::vector<record::FrameRecord> frames_of(const Json& list, int last, std::size_t steps) {
+/// @param first, last  numbers
+std::vector<record::FrameRecord> frames_of(const Json& list, int first, int last,
+                                           std::size_t steps) {
   std::vector<record::FrameRecord> frames;
-  int before = -1;
+  int before = first - 1;
   for (const Json& json : list) {
-    const auto number = static_cast<int>(
-        count_of(json.at("frame"), "frames frame", static_cast<std::size_t>(last)));
-    if (number <= before) refuse_value("frames frame", json.at("frame"), "frames in order");
+    const int number = whole_number<int>(json.at("frame"));
+    if (number <= before || number > last)
+      refuse_value("frames frame", json.at("frame"), "frames in order");
     count_of(json.at("steps"), "frames steps", steps);
     frames.push_back(record::frame_record(json));
     before = number;
@@ -91,9 +93,10 @@ std::vector<record::FrameRecord> frames_of(const Json& list, int last, std::size
 sim::AdvanceReport advance_of_frame(const Json& progress, const Moment& moment) {
   if (progress.contains("advance_of_frame"))
     return advance_of(progress.at("advance_of_frame"), moment.steps);
+  const timeline::Made& made = moment.made;
   const bool is_last =
-      !moment.made.frames.empty() && moment.made.frames.back().frame == moment.frame;
-  return is_last ? moment.made.frames.back().advance : sim::AdvanceReport{};
+      !made.frames.empty() && made.frames.back().frame == made.first_number + moment.frame;
+  return is_last ? made.frames.back().advance : sim::AdvanceReport{};
 }
 
 void read_progress(const Json& progress, Moment& moment) {
@@ -104,7 +107,12 @@ void read_progress(const Json& progress, Moment& moment) {
     moment.retries.push_back(output::retry_record(retry));
   // Checkpoints of earlier versions have neither.
   if (progress.contains("frames")) {
-    moment.made.frames = frames_of(progress.at("frames"), moment.frame, moment.steps);
+    constexpr int furthest = 2'000'000;
+    const int first = whole_number_or(progress, "first_number", 0);
+    if (std::abs(first) > furthest) refuse_value("first_number", first, "the number of a frame");
+    moment.made.first_number = first;
+    moment.made.frames =
+        frames_of(progress.at("frames"), first, first + moment.frame, moment.steps);
     moment.made.files = record::file_hashes(progress);
     moment.made.exports = progress.value("exports", Json());
   }
@@ -120,13 +128,15 @@ output::Checkpoint to_checkpoint(Moment moment, const std::string& identity,
                    {"history", history_json(moment.history)},
                    {"retries", Json::array()},
                    {"frames", Json::array()},
+                   {"first_number", moment.made.first_number},
                    {"files", moment.made.files},
                    {"exports", moment.made.exports}};
   if (moment.is_frame_end()) progress["advance_of_frame"] = output::to_json(moment.advance);
   for (const sim::Retry& retry : moment.retries)
     progress["retries"].push_back(output::to_json(retry));
   for (const record::FrameRecord& made : moment.made.frames)
-    if (made.frame <= moment.frame) progress["frames"].push_back(to_json(made));
+    if (made.frame <= moment.made.first_number + moment.frame)
+      progress["frames"].push_back(to_json(made));
   return {identity,
           simd,
           build().sources,

@@ -23,6 +23,7 @@ struct Made {
   std::vector<record::FrameRecord> frames;
   record::FileHashes files;
   Json exports = Json::array();  ///< as run.json lists them
+  int first_number = 0;          ///< of frame 0, in these lists
 };
 
 struct Moment {

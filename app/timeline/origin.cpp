@@ -1,5 +1,6 @@
 #include "app/timeline/origin.h"
 
+#include <algorithm>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
@@ -28,7 +29,9 @@ void read_scene(const Edits& edits, const Read& read, Origin& origin) {
   if (edits.is_fast) {
     scene::Scene coarse = origin.scene;
     if (edits.coarsening) scene::coarsen(coarse, *edits.coarsening);
-    const int last = edits.last_frame.value_or(origin.scene.frames);
+    const int last = edits.last_frame
+                         ? std::max(0, scene::frame_of(origin.scene, *edits.last_frame))
+                         : scene::last_frame(origin.scene);
     origin.fast = forecast::fast_look(coarse, last, scene::addresses_of(changes));
     for (const std::string& change : origin.fast->overrides) {
       changes.push_back(scene::parse_override(change));
@@ -48,7 +51,7 @@ void read_scene_file(const Edits& edits, Origin& origin) {
         return scene::read_scene_file(origin.scene_file, changes);
       },
       origin);
-  origin.frames = {0, origin.scene.frames};
+  origin.frames = {0, scene::last_frame(origin.scene)};
 }
 
 /// The frame and the scene inside a picture.
@@ -57,7 +60,10 @@ void read_picture(const Edits& edits, Origin& origin) {
   origin.overrides = record.overrides;
   origin.changes = record.changes;
   origin.coarsening = record.coarsening;
-  origin.frames = {record.frame, record.frame};
+  // By the numbers that the picture has, whatever the edits say.
+  const int frame = scene::frame_of(
+      scene::read_scene_text(record.scene, origin.scene_file + " (its scene)"), record.frame);
+  origin.frames = {frame, frame};
   read_scene(
       edits,
       [&](const std::vector<scene::Override>& changes) {
@@ -94,11 +100,13 @@ void read_run(const Edits& edits, Origin& origin) {
     origin.overrides = run.value("overrides", std::vector<std::string>{});
     origin.coarsening = run.value("coarsen", 1.0);
     origin.run_frames = record::frame_records(run);
+    for (record::FrameRecord& made : origin.run_frames)
+      made.frame = scene::frame_of(origin.scene, made.frame);
   } catch (const nlohmann::json::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
                 file.string());
   }
-  origin.frames = {0, origin.scene.frames};
+  origin.frames = {0, scene::last_frame(origin.scene)};
 }
 
 }  // namespace
@@ -160,8 +168,8 @@ Timeline open(const Origin& origin, std::shared_ptr<const setup::SeededScene> se
 void compare_with_run(const Origin& origin, int frame, std::uint64_t hash, Progress& progress) {
   for (const record::FrameRecord& record : origin.run_frames)
     if (record.frame == frame && record.state_hash != hash)
-      progress.warning("frame " + std::to_string(frame) + " has another state than the run in " +
-                       origin.run.string() +
+      progress.warning("frame " + std::to_string(scene::number_of(origin.scene, frame)) +
+                       " has another state than the run in " + origin.run.string() +
                        ": its bits came from another version or other instructions, or files that "
                        "the scene names have changed");
 }

@@ -22,20 +22,20 @@ struct Edits {
   std::vector<std::string> overrides;
   std::optional<double> coarsening{};
   bool is_fast = false;             ///< with the settings of forecast::fast_look
-  std::optional<int> last_frame{};  ///< that is wanted, for that look
+  std::optional<int> last_frame{};  ///< number of it that is wanted, for that look
 };
 
 struct Origin {
   scene::Scene scene;      ///< of the start; cameras and ranges of a scene file not yet resolved
   std::string scene_file;  ///< as named by the user: a scene, a picture or a folder
-  std::vector<std::string> overrides;            ///< for the caption; those of a picture come first
-  std::optional<forecast::FastLook> fast;        ///< of Edits::is_fast; overrides has its settings
-  std::vector<scene::LiveChange> changes;        ///< made while the run ran
-  double coarsening = 1;                         ///< done to the scene, a picture's included
-  setup::FrameRange frames;                      ///< that it shows: of a picture one
+  std::vector<std::string> overrides;      ///< for the caption; those of a picture come first
+  std::optional<forecast::FastLook> fast;  ///< of Edits::is_fast; overrides has its settings
+  std::vector<scene::LiveChange> changes;  ///< made while the run ran
+  double coarsening = 1;                   ///< done to the scene, a picture's included
+  setup::FrameRange frames;                ///< that it shows, counted from 0: of a picture one
   std::optional<record::PictureRecord> picture;  ///< the origin is this picture
   std::filesystem::path run;                     ///< the origin is the run in this folder
-  std::vector<record::FrameRecord> run_frames;   ///< that the run lists
+  std::vector<record::FrameRecord> run_frames;   ///< that the run lists, counted from 0
 
   /// @param named  a scene file, a picture made by neve, the folder of a run; empty: the default
   /// @throws SceneError, UsageError, IoError, Error

@@ -27,7 +27,7 @@ inline int frame_at(double time, double fps) {
 /// units more often than not. @param what  as it was typed: "--at 5 s"
 inline void warn_of_late_time(const std::string& what, double time, const scene::Scene& scene,
                               Progress& progress) {
-  const double end = scene.frames / scene.fps;
+  const double end = scene::duration(scene);
   if (!is_not_after(time, end))
     progress.warning(what + " is after the end of the scene, " + rough_text(end) +
                      " s; Ctrl-C stops");

@@ -47,7 +47,8 @@ void Viewer::save_picture() {
   if (goes_on_) bench_.session().run();
   is_going_to_frame_ = goes_on_ = false;
   char number[32];
-  std::snprintf(number, sizeof number, "%04d_step%zu.png", live.frame, live.steps);
+  std::snprintf(number, sizeof number, "%04d_step%zu.png",
+                scene::number_of(*live.scene, live.frame), live.steps);
   const std::filesystem::path file =
       bench_.folder() / (panels::current_view(state_).name + "_" + number);
   try {
@@ -89,7 +90,8 @@ void Viewer::record_frame() {
     if (!lock_) lock_.emplace(bench_.folder(), "neve view");
     output::make_folder(bench_.folder() / view);
     if (state_.recorded == 0) output::remove_abandoned(bench_.folder() / view);
-    writer_.write(picture_to_keep(output::frame_path(bench_.folder(), view, live.frame)));
+    writer_.write(picture_to_keep(
+        output::frame_path(bench_.folder(), view, scene::number_of(*live.scene, live.frame))));
     ++state_.recorded;
   } catch (const std::exception& error) {
     bench_.say_not_saved(std::string("recording stopped: ") + error.what());

@@ -225,10 +225,12 @@ struct Frame {
   std::vector<std::string> caption;   ///< lines, UTF-8; the first one is the title
   std::string footnote;               ///< at the bottom, between plots and legends
   std::optional<ScaleBar> scale_bar;  ///< above the footnote
-  int caption_height = 0;             ///< px; above 0: the caption has a strip this high to itself
-  bool has_caption_plate = false;     ///< dark behind its lines: whatever is near stays readable
-  int font_size = 0;                  ///< px; 0: in proportion to the picture
-  std::vector<Vec3f> marks;           ///< centres of rings that point out particles, for incidents
+  /// At the upper edge from left to right, then at the lower one; empty: none.
+  std::array<std::string, 6> edge_words{};
+  int caption_height = 0;          ///< px; above 0: the caption has a strip this high to itself
+  bool has_caption_plate = false;  ///< dark behind its lines: whatever is near stays readable
+  int font_size = 0;               ///< px; 0: in proportion to the picture
+  std::vector<Vec3f> marks;        ///< centres of rings that point out particles, for incidents
 };
 
 }  // namespace neve::render

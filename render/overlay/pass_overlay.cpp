@@ -34,11 +34,16 @@ std::vector<std::string> all_texts(const Frame& frame) {
   for (const Legend& legend : frame.legends) texts.push_back(title_of(legend));
   for (const Label& label : frame.labels) texts.push_back(label.text);
   for (const Note& note : frame.notes) texts.push_back(note.text);
+  for (const std::string& words : frame.edge_words) texts.push_back(words);
   for (const Plot& plot : frame.plots) {
     texts.push_back(plot.title + plot.unit);
     for (const PlotSeries& series : plot.series) texts.push_back(series.name);
   }
   return texts;
+}
+
+bool has_upper_words(const Frame& frame) {
+  return !(frame.edge_words[0] + frame.edge_words[1] + frame.edge_words[2]).empty();
 }
 
 struct LegendText {
@@ -194,7 +199,7 @@ void OverlayPass::draw_caption(const Frame& frame, const Limits& limits) const {
   const float beside = std::min(above, limits.caption - margin);
   const float bottom =
       has_strip ? static_cast<float>(frame.caption_height) : caption_share * height;
-  float y = std::round((has_strip ? 10 : 16) * unit);
+  float y = std::round((has_strip ? 10 : has_upper_words(frame) ? 25 : 16) * unit);
   for (std::size_t i = 0; i < frame.caption.size(); ++i) {
     const ImFont& font = i == 0 ? *imgui_.title_font() : *imgui_.text_font();
     const float line_height = std::round(1.25f * font.FontSize);
@@ -277,8 +282,26 @@ void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
   }
 }
 
+/// In the margins that all else leaves free: below the lower legends, and above the caption.
+void OverlayPass::draw_edge_words(const Frame& frame) const {
+  const ImFont& font = *imgui_.text_font();
+  const float unit = unit_of(font), rim = std::round(12 * unit);
+  const auto width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
+  for (std::size_t k = 0; k < frame.edge_words.size(); ++k) {
+    const std::string text = elide(font, frame.edge_words[k], width / 3 - rim);
+    if (text.empty()) continue;
+    const std::size_t column = k % 3;
+    const float free = width - 2 * rim - text_width(font, text);
+    const float x = rim + 0.5f * static_cast<float>(column) * free;
+    const float y = k < 3 ? 4 * unit : height - font.FontSize - 4 * unit;
+    draw_text(font, ImVec2(x, y), bright_text, text);
+  }
+}
+
 void OverlayPass::draw(const Frame& frame, const View& view) {
-  if (frame.caption.empty() && frame.legends.empty() && frame.marks.empty() &&
+  const bool has_edge_words = std::ranges::any_of(
+      frame.edge_words, [](const std::string& words) { return !words.empty(); });
+  if (!has_edge_words && frame.caption.empty() && frame.legends.empty() && frame.marks.empty() &&
       frame.labels.empty() && frame.plots.empty() && frame.patches.empty() && frame.notes.empty() &&
       frame.footnote.empty() && !frame.scale_bar)
     return;
@@ -291,6 +314,7 @@ void OverlayPass::draw(const Frame& frame, const View& view) {
   draw_caption(frame, limits);
   draw_footnote(frame, draw_plots(frame, *imgui_.text_font(), limits.below), limits.below);
   draw_notes(frame);
+  draw_edge_words(frame);
   imgui_.end();
 }
 

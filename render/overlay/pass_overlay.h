@@ -28,6 +28,7 @@ class OverlayPass {
   void draw_scale_bar(const ScaleBar& bar, float left, float right, float bottom) const;
   void draw_labels(const Frame& frame, const View& view) const;
   void draw_notes(const Frame& frame) const;
+  void draw_edge_words(const Frame& frame) const;
   void draw_marks(const Frame& frame, const View& view) const;
 
   ImGuiDraw imgui_;

@@ -40,7 +40,7 @@ struct PointCloud {
 /// @param further  names of other columns to read, exactly as in the file
 /// @throws ShapeError for text neither PLY nor CSV, without positions, with a part of a vector
 ///         only or one column twice, truncated, with numbers that are missing, not finite or out of
-///         range (|x| <= 1e6 m, |v| <= 1e6 m/s, mass and volume above 0 and up to 1e12, J_P and
+///         range (|x| <= 1e8 m, |v| <= 1e6 m/s, mass and volume above 0 and up to 1e12, J_P and
 ///         factors from 1e-6 to 1e6, det F_E above 0), or without
 ///         points. Counts in a file are compared with its length before anything is allocated.
 PointCloud parse_points(std::string_view bytes, const std::string& name,

@@ -36,7 +36,9 @@ struct AllowedNumbers {
 };
 
 AllowedNumbers allowed_numbers(std::size_t quantity) {
-  // m and m/s
+  // m, of a map too
+  if (quantity <= position + 2) return {-1e8, 1e8, "a finite number, at most 1e8 from 0"};
+  // m/s
   if (quantity < mass) return {-1e6, 1e6, "a finite number, at most 1e6 from 0"};
   // kg and m3; single precision ends at 1e-38
   if (quantity <= volume) return {1e-30, 1e12, "a number from 1e-30 to 1e12"};

@@ -114,14 +114,17 @@ SolidMesh scaled(SolidMesh mesh, double scale, const std::string& name) {
 
 std::string reading_key(const Mesh& mesh) {
   return file_stamp(mesh.file) + "|" + number_text(mesh.scale, 17) + "|" +
-         std::to_string(static_cast<int>(mesh.fill));
+         std::to_string(static_cast<int>(mesh.fill)) + "|" + number_text(mesh.origin.x(), 17) +
+         "|" + number_text(mesh.origin.y(), 17) + "|" + number_text(mesh.origin.z(), 17);
 }
 
 std::shared_ptr<const SolidMesh> read_solid_mesh(const Mesh& mesh) {
   static Recent<SolidMesh> recent;
   return recent.get(reading_key(mesh), [&] {
-    return std::make_shared<const SolidMesh>(scaled(
-        solid_mesh(files::read_mesh(mesh.file), mesh.file, mesh.fill), mesh.scale, mesh.file));
+    files::PolygonMesh read = files::read_mesh(mesh.file);
+    for (Vec3d& x : read.vertices) x -= mesh.origin;
+    return std::make_shared<const SolidMesh>(
+        scaled(solid_mesh(read, mesh.file, mesh.fill), mesh.scale, mesh.file));
   });
 }
 

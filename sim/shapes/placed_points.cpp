@@ -67,7 +67,7 @@ struct SummaryKey {
   std::string file;
   std::uintmax_t size = 0;
   std::filesystem::file_time_type written{};
-  std::array<double, 11> numbers{};  ///< spacing, thinning, rotation
+  std::array<double, 14> numbers{};  ///< spacing, thinning, rotation, origin
   auto operator<=>(const SummaryKey&) const = default;
 };
 
@@ -80,6 +80,7 @@ std::optional<SummaryKey> key_of(const Points& points, const Mat3d& rotation) {
                  {points.spacing, points.thinning}};
   if (no_size || no_time) return std::nullopt;
   std::copy_n(rotation.data(), 9, key.numbers.begin() + 2);
+  std::copy_n(points.origin.data(), 3, key.numbers.begin() + 11);
   return key;
 }
 
@@ -122,6 +123,13 @@ PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const 
       threshold(std::move(cloud.threshold)),
       F_E(std::move(cloud.F_E)),
       C(std::move(cloud.C)) {
+  constexpr double furthest = 1e6;  // m, where single precision is 6 cm
+  for (Vec3d& place : x) {
+    place -= points.origin;
+    if (!(place.cwiseAbs().maxCoeff() <= furthest))
+      throw ShapeError(name + ": it has a point more than 1e6 m from the scene's origin; " +
+                       "coordinates = \"world\" takes the offset of a map out");
+  }
   const auto count = static_cast<double>(x.size());
   if (V.empty() && !(points.spacing > 0))
     throw ShapeError(name +

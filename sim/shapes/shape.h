@@ -48,12 +48,16 @@ enum class Fill {
   even_odd,   ///< the same, but parts in one another are snow and cavity in turns
   winding     ///< where the generalized winding number is above 1/2: for open meshes
 };
+/// Coordinates of a file: of its own, or of a map as UTM, see world_place.h.
+enum class Coordinates { own, world };
 /// A mesh in a file, scaled about the file's origin, which goes to center.
 struct Mesh {
   std::string file;  ///< resolved path
   double scale = 1.0;
   Vec3d center{0, 0, 0};
   Fill fill = Fill::automatic;
+  Coordinates coordinates = Coordinates::own;
+  Vec3d origin{0, 0, 0};  ///< coordinates in the file that are taken for its origin
 };
 /// A closed mesh that deforms: numbered files of one topology, see sim/shapes/deforming_mesh.h.
 struct MeshSequence {
@@ -70,6 +74,8 @@ struct Points {
   double spacing = 0;     ///< m; of a file without volumes each point has spacing^3; 0: not given
   double thinning = 1;    ///< one point of this many is used, and represents all of them
   Vec3d center{0, 0, 0};  ///< where the origin of the file goes
+  Coordinates coordinates = Coordinates::own;
+  Vec3d origin{0, 0, 0};  ///< coordinates in the file that are taken for its origin
 };
 
 struct Shape {

@@ -30,7 +30,7 @@ app::scene::Scene scene_with_camera(const std::string& camera, const std::string
 }
 
 app::setup::CameraPlace place(const app::scene::Scene& scene, double time) {
-  return app::setup::camera_at(*scene.camera, time, scene.frames / scene.fps);
+  return app::setup::camera_at(*scene.camera, time, scene::duration(scene));
 }
 
 std::string camera_error(const std::string& camera) {

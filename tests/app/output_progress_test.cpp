@@ -68,9 +68,10 @@ TEST(RoundNumber, RoundNumbersHaveFewDigits) {
 TEST(FrameArguments, FrameArgumentsAreRangesOrALastFrame) {
   EXPECT_EQ(app::options::frames().read("--frames", "3-7").first, 3);
   EXPECT_EQ(app::options::frames().read("--frames", "3-7").last, 7);
-  EXPECT_EQ(app::options::frames().read("--frames", "48").first, 0);
+  EXPECT_EQ(app::options::frames().read("--frames", "48").first,
+            app::setup::FrameRange::from_start);
   EXPECT_EQ(app::options::frames().read("--frames", "48").last, 48);
-  for (const char* wrong : {"", "-", "5-", "-5", "7-3", "a", "1-b", "1 - 2", "99999999999"})
+  for (const char* wrong : {"", "-", "5-", "-5-", "7-3", "a", "1-b", "1 - 2", "99999999999"})
     EXPECT_THROW(app::options::frames().read("--frames", wrong), app::UsageError) << wrong;
 }
 

@@ -290,6 +290,13 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   moved.keyframes[1].time = moved.keyframes[0].time + 1.0 / 3;
   moved.keyframes[1].rotation = *moved.keyframes[0].rotation + sim::Vec3d(10.0 / 3, 20, 30);
   scene.solver.cell_size = 10.1;
+  scene.fps = 25;  // a rate that time codes have
+  scene.shot.time_code = "01:02:03:04";
+  const auto put_near = [](sim::shapes::Shape& shape) {
+    if (auto* mesh = std::get_if<sim::shapes::Mesh>(&shape.form)) mesh->origin = {1.0 / 3, 2, 3};
+  };
+  for (sim::seeding::Body& body : scene.bodies) put_near(body.shape);
+  for (app::scene::Collider& collider : scene.colliders) put_near(collider.shape);
   for (app::scene::View& view : scene.views) {
     view.slice.follow = "mesh";
     if (view.camera) view.camera->follow = "mesh";

@@ -226,8 +226,8 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
        "did you mean \"grid\"?"},
       {"sample = 3\n", "3:1 unknown key \"sample\" in [sweep]; did you mean \"samples\"?"},
       {"frames = \"9-1\"\n",
-       "3:10 sweep.frames: cannot use \"9-1\"; expected A-B with 0 <= A <= B <= 100000, or N for "
-       "0-N"},
+       "3:10 sweep.frames: cannot use \"9-1\"; expected A-B with A <= B <= 2000000, or N for "
+       "all frames up to N"},
       {"method = \"lhs\"\n[axis]\n\"fps\" = [1]\n",
        "3:10 method \"lhs\" needs samples; give the number of runs to draw"},
       {"[axis]\n\"fps\" = { uniform = [1, 2] }\n",

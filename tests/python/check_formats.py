@@ -75,6 +75,7 @@ for what in attributes:
     in_usda = usda[usd_names.get(what, what)]
     wanted = {"x": single, "v": single, "radius": (2 * values).astype("f4")}.get(what, values)
     same(wanted, in_usda, f"usda {what}")
+same(archive["m"].astype("f4"), usda["physics:masses"], "usda masses")
 assert vtp["TimeValue"] == archive["time"]
 assert abs(bgeo["detail"]["time"] - archive["time"]) < 1e-6 and bgeo["detail"]["fps"] == 24
 assert usda["times"] == {float(archive["frame"])}, usda["times"]

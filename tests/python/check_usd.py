@@ -40,6 +40,8 @@ for archive in archives:
     same(snow.GetVelocitiesAttr().Get(time), single(archive["v"]), "velocities")
     same(snow.GetIdsAttr().Get(time), archive["id"], "ids")
     same(snow.GetWidthsAttr().Get(time), single(2 * archive["radius"]), "widths")
+    masses = snow.GetPrim().GetAttribute("physics:masses").Get(time)
+    same(masses, single(archive["m"]), "masses")
     for name in ("J_P", "density", "m", "V0"):
         found = primvars.GetPrimvar(name).Get(time)
         assert np.array(found).dtype == archive[name].dtype, name

@@ -141,7 +141,7 @@ TEST(PointReader, PointReaderNamesThePlaceAndKindOfAnError) {
   expect("x,y,z\n1,snow,3\n", "p:2: \"snow\" is not a number, in column \"y\"");
   expect("x,y,z\n1,nan,3\n", "p:2: y = nan; expected a finite number");
   expect("x,y,z\n1,2,inf\n", "p:2: z = inf");
-  expect("x,y,z\n1,2,2e6\n", "p:2: z = 2e+06; expected a finite number, at most 1e6");
+  expect("x,y,z\n1,2,2e8\n", "p:2: z = 2e+08; expected a finite number, at most 1e8");
   expect("x,y,z,m\n1,2,3,-1\n", "p:2: mass = -1; expected a number from 1e-30 to 1e12");
   // Single precision ends at 1e-38.
   expect("x,y,z,volume\n1,2,3,1e-300\n", "p:2: volume = 1e-300; expected a number from 1e-30");

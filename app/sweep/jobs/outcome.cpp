@@ -49,7 +49,8 @@ void judge_divergence(const store::Manifest& manifest, const Run& run, const fs:
     const Json incident = parse_json(output::read_file(output::incident_path(folder)));
     status.reason = incident.at("sentence").get<std::string>();
     const double time = incident.value("time", 0.0);
-    const auto frame = static_cast<int>(std::floor(time * fps_of(manifest, run)));
+    const auto frame =
+        manifest.first_number + static_cast<int>(std::floor(time * fps_of(manifest, run)));
     const Json value = incident.value("value", Json());
     status.short_reason = fmt::format(
         "frame {}: {}", frame,

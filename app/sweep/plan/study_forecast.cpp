@@ -131,14 +131,14 @@ double median_seconds(const std::vector<Copy>& copies) {
 /// Steps of a particle in the frames of a run that are its own.
 forecast::Cost own_work(const SweepPlan& plan, const PlannedRun& item,
                         const forecast::Forecast& foreseen) {
-  const int fork = plan.beginning ? plan.beginning->run.frames.last : 0;
-  return item.plan.particles * foreseen.work(fork, item.run.frames.last);
+  const int fork = plan.beginning ? plan.beginning->plan.frames.last : 0;
+  return item.plan.particles * foreseen.work(fork, item.plan.frames.last);
 }
 
 forecast::Cost beginning_work(const SweepPlan& plan, const ForecastEffort& effort) {
   if (!plan.beginning || plan.source) return {};
   const PlannedRun& item = *plan.beginning;
-  const int last = item.run.frames.last;
+  const int last = item.plan.frames.last;
   forecast::ForecastBudget budget{longest_copy, effort.particle_steps, max_copied};
   return item.plan.particles *
          forecast::foresee(item.scene, item.plan.particles, last, budget).work(0, last);
@@ -180,7 +180,7 @@ StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t
     const PlannedRun& item = plan.runs[copy.run];
     if (is_interrupted()) return;
     copy.foreseen =
-        forecast::foresee(item.scene, item.plan.particles, item.run.frames.last, copy.budget);
+        forecast::foresee(item.scene, item.plan.particles, item.plan.frames.last, copy.budget);
     copy.foreseen.include_spread(timing.spread);
   });
   result.beginning = beginning_work(plan, effort);

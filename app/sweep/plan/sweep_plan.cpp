@@ -90,6 +90,7 @@ class SceneMaker {
                              ? scene::apply(*at_fork_, all, sweep_.scene_file)
                              : scene::read_scene_text(text_, sweep_.scene_file,
                                                       scene::base_dir_of(sweep_.scene_file), all);
+    scene::place_in_world(scene, sweep_.scene_file);
     if (options_.coarsening) scene::coarsen(scene, *options_.coarsening);
     prepare_view(options_, sweep_, scene);
     return scene;
@@ -102,12 +103,13 @@ class SceneMaker {
   std::vector<scene::Override> none_;
 };
 
+/// Counted from 0.
 setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
                             const scene::Scene& scene) {
-  if (options.frames) return *options.frames;
+  if (options.frames) return setup::frames_of(scene, *options.frames);
   if (!sweep.settings.frames.empty())
-    return options::frames().read("--frames", sweep.settings.frames);
-  return {0, scene.frames};
+    return setup::frames_of(scene, options::frames().read("--frames", sweep.settings.frames));
+  return {0, scene::last_frame(scene)};
 }
 
 /// A setting of a run that says how many frames there are; null if none does.
@@ -163,7 +165,8 @@ std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& 
 }
 
 PlannedRun planned(Run run, scene::Scene scene) {
-  const setup::Plan needs = setup::make_plan(scene, run.frames, setup::Quality::preview, 1);
+  const setup::Plan needs =
+      setup::make_plan(scene, setup::frames_of(scene, run.frames), setup::Quality::preview, 1);
   run.particles = needs.particles;
   run.memory = static_cast<double>(needs.memory + program_memory);
   run.work = forecast::work_at_rest(scene, needs);
@@ -223,19 +226,20 @@ void share_beginning(double time, SweepPlan& plan) {
   plan.fork = time;
   Run beginning;
   beginning.label = "the common beginning";
-  beginning.frames = {frame, frame};
+  const int start = scene::number_of(plan.base, 0), number = start + frame;
+  beginning.frames = {number, number};
   if (plan.source) beginning.settings = plan.sweep.fixed;
   plan.beginning = planned(std::move(beginning), plan.source ? plan.source->scene : plan.base);
   for (PlannedRun& item : plan.runs) {
     timeline::require_live(plan.base, item.scene, flag);
     setup::FrameRange& frames = item.run.frames;
-    if (frames.last <= frame)
+    if (frames.last <= number)
       throw UsageError(flag,
-                       "the runs fork at frame " + std::to_string(frame) +
+                       "the runs fork at frame " + std::to_string(number) +
                            ", and their last frame is " + std::to_string(frames.last),
                        "expected an earlier time, or later frames with --frames");
-    item.run.work *= static_cast<double>(frames.last - frame) / frames.last;
-    frames.first = std::max(frames.first, frame + 1);
+    item.run.work *= static_cast<double>(frames.last - number) / (frames.last - start);
+    frames.first = std::max(frames.first, number + 1);
   }
 }
 
@@ -264,7 +268,7 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   if (plan.title.empty()) plan.title = plan.sweep.name;
   for (Run& run : expand(plan.sweep)) {
     scene::Scene scene = maker.make(run.settings);
-    run.frames = frames_of(options, plan.sweep, scene);
+    run.frames = setup::numbers_of(scene, frames_of(options, plan.sweep, scene));
     plan.runs.push_back(planned(std::move(run), std::move(scene)));
   }
   if (const auto time = fork_time(options, plan.sweep)) share_beginning(*time, plan);

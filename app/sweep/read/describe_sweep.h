@@ -47,7 +47,7 @@ void describe(V& visit, SweepSettings& s) {
         "Conditions that all runs meet, as in [\"critical_stretch < 0.5 * critical_compression\"]: "
         "axes, numbers, a number * an axis.");
   visit("frames", s.frames, scene::unit::none, scene::anything, restart,
-        "Frames to draw, \"A-B\" or \"N\" for 0-N; default: those of the scene.");
+        "Frames to draw, \"A-B\" or \"N\" for all up to N; default: those of the scene.");
   visit("fork", s.fork, scene::unit::none, scene::anything, restart,
         "Time at which all runs fork, as \"0.8s\": the common start is simulated once; default: "
         "each run has its values from the start.");

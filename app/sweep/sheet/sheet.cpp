@@ -216,8 +216,8 @@ render::Image SheetMaker::sheet(int frame, std::size_t page) {
   for (const SheetTile& place : layout.tiles)
     tiles.push_back({&manifest_.runs[place.run], &results_[place.run], frame, place.x, place.y});
   const std::string line =
-      "frame " + std::to_string(frame) + "   t = " + fixed_text(frame / manifest_.fps, 3) + " s" +
-      dot + run_count_text(results_) +
+      "frame " + std::to_string(frame) + "   t = " + fixed_text(manifest_.time_of(frame), 3) +
+      " s" + dot + run_count_text(results_) +
       (pages_.size() > 1
            ? dot + ("page " + std::to_string(page + 1)) + " of " + std::to_string(pages_.size())
            : "");
@@ -280,7 +280,7 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames, std::size
                                                manifest_.tile_width)));
   store::AxisLabels names{"", {}}, times{"t", {}};
   for (const int frame : frames)
-    times.values.push_back(fixed_text(frame / manifest_.fps, 3) + " s");
+    times.values.push_back(fixed_text(manifest_.time_of(frame), 3) + " s");
   grid.runs.clear();
   for (std::size_t r = 0; r < count; ++r) {
     names.values.push_back(strip_name(named_, manifest_.runs[first + r]));

@@ -175,7 +175,7 @@ bool is_amount(double x) {
 }
 
 void check_run(const Manifest& m, const Run& run) {
-  check(run.frames.first >= 0 && run.frames.first <= run.frames.last &&
+  check(run.frames.first >= -output::max_frame && run.frames.first <= run.frames.last &&
             run.frames.last <= output::max_frame,
         "the frames of a run are invalid");
   check(is_amount(run.particles) && is_amount(run.memory) && is_amount(run.work),
@@ -199,6 +199,7 @@ void check_values(const Manifest& m) {
   };
   check(is_side(m.tile_width) && is_side(m.tile_height), "its tile size is invalid");
   check(m.fps > 0 && m.fps < 1e9, "its frames per second are invalid");
+  check(std::abs(m.first_number) <= output::max_frame, "the number of its first frame is invalid");
   check(is_axis(m.columns) && is_axis(m.rows) && m.wrap >= 0, "its columns or rows name no axis");
   check(output::is_plain_name(m.view), "the name of its view is not a folder name");
   check(is_amount(m.timeout) && is_amount(m.memory), "its limits are invalid");
@@ -243,7 +244,7 @@ int Manifest::first_frame() const {
 }
 
 int Manifest::last_frame() const {
-  int last = 0;
+  int last = first_frame();
   for (const Run& run : runs) last = std::max(last, run.frames.last);
   return last;
 }
@@ -261,6 +262,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   m.tile_width = plan.base.size.width;
   m.tile_height = plan.base.size.height;
   m.fps = plan.base.fps;
+  m.first_number = scene::number_of(plan.base, 0);
   m.columns = plan.columns;
   m.rows = plan.rows;
   m.wrap = plan.sweep.sheet.wrap;
@@ -324,6 +326,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   json["view"] = m.view;
   json["tile"] = {m.tile_width, m.tile_height};
   json["fps"] = m.fps;
+  json["first_number"] = m.first_number;
   json["columns"] = m.columns;
   json["rows"] = m.rows;
   json["wrap"] = m.wrap;
@@ -377,6 +380,7 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     m.tile_width = whole_number<int>(json.at("tile").at(0));
     m.tile_height = whole_number<int>(json.at("tile").at(1));
     m.fps = json.at("fps").get<double>();
+    m.first_number = whole_number_or(json, "first_number", 0);
     m.columns = whole_number<int>(json.at("columns"));
     m.rows = whole_number<int>(json.at("rows"));
     m.wrap = whole_number<int>(json.at("wrap"));

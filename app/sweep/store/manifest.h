@@ -40,6 +40,8 @@ struct Manifest {
   std::string version, name, title, sweep_file, scene_file, view;
   int tile_width = 480, tile_height = 270;
   double fps = 24;
+  int first_number = 0;  ///< of the frame at time 0
+  double time_of(int number) const { return (number - first_number) / fps; }  ///< s
   int columns = -1, rows = -1;  ///< axes asked for; -1: automatic
   int wrap = 0;
   std::string tile_label;  ///< differences, name, none

@@ -99,7 +99,8 @@ void draw_messages(ViewerState& state) {
 
 void draw_time_line(ViewerState& state) {
   const session::LiveFrame& live = *state.live;
-  const int last = std::max(live.scene->frames, live.head);
+  const int last = std::max(scene::last_frame(*live.scene), live.head),
+            start = scene::number_of(*live.scene, 0);
   if (ImGui::Button(state.is_playing ? "Stop" : "Play")) {
     state.is_playing = !state.is_playing;
     state.play_clock = 0;
@@ -113,20 +114,21 @@ void draw_time_line(ViewerState& state) {
   ImGui::SameLine();
   // Beside the bar, where the grab cannot cover it, and as wide for every frame.
   ImGui::AlignTextToFramePadding();
-  ImGui::Text("frame %d", live.frame);
+  ImGui::Text("frame %d", start + live.frame);
   ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x +
-                  ImGui::CalcTextSize(("frame " + std::to_string(last)).c_str()).x + 0.6f * em());
+                  ImGui::CalcTextSize(("frame " + std::to_string(start + last)).c_str()).x +
+                  0.6f * em());
   const bool is_short = ImGui::GetContentRegionAvail().x < (live.is_older ? 40 : 26) * em();
   const float right = (live.is_older ? (is_short ? 12 : 26) : is_short ? 4 : 19) * em();
   ImGui::SetNextItemWidth(std::max(4 * em(), ImGui::GetContentRegionAvail().x - right));
-  int frame = live.frame;
+  int frame = start + live.frame;
   const bool is_typed = ImGui::TempInputIsActive(ImGui::GetID("##time"));
   if (!is_typed) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_BLACK_TRANS);
-  const bool is_moved = ImGui::SliderInt("##time", &frame, 0, last);
+  const bool is_moved = ImGui::SliderInt("##time", &frame, start, start + last);
   if (!is_typed) ImGui::PopStyleColor();
   if (is_moved) {
     state.is_playing = false;
-    show_frame(state, std::clamp(frame, 0, live.head));
+    show_frame(state, std::clamp(frame - start, 0, live.head));
   }
   note_label("time line");
   draw_ticks(live, last);

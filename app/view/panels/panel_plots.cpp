@@ -57,7 +57,7 @@ void draw(const ViewerState& state, const char* title, const char* unit,
           std::vector<render::PlotSeries> list) {
   render::Plot plot;
   const scene::Scene& scene = *state.live->scene;
-  plot.x_end = static_cast<float>(scene.frames / scene.fps);
+  plot.x_end = static_cast<float>(scene::duration(scene));
   plot.now = static_cast<float>(state.live->snapshot.time);
   plot.min = plot.max = 0;
   for (const render::PlotSeries& series : list)

@@ -179,7 +179,7 @@ void open_study(ViewerState& state) {
   state.study.is_open = true;
   state.study.error.clear();
   const int shown = live.is_running || !live.is_frame_end ? live.frame + 1 : live.frame;
-  state.study.last_frame = std::max(live.scene->frames, shown + 1);
+  state.study.last_frame = std::max(scene::last_frame(*live.scene), shown + 1);
   // The end of the frame that it is in.
   if (live.is_running || !live.is_frame_end) state.bench.session().next_frame();
 }

@@ -101,7 +101,10 @@ std::string status_text(const session::LiveFrame& live, float room) {
     const std::string longer = text + (text.empty() ? "" : "   ") + more;
     if (ImGui::CalcTextSize(longer.c_str()).x <= room) text = longer;
   };
-  const std::string frame = std::to_string(live.frame), last = std::to_string(live.scene->frames);
+  const auto number = [&](int frame) {
+    return std::to_string(scene::number_of(*live.scene, frame));
+  };
+  const std::string frame = number(live.frame), last = number(scene::last_frame(*live.scene));
   const std::string time = fixed_text(live.snapshot.time, 4) + " s";
   add("frame " + frame + " of " + last + "   t = " + time);
   if (text.empty()) add(frame + "/" + last + "   " + time);
@@ -121,7 +124,7 @@ void draw_transport(ViewerState& state) {
   if (live.is_running) {
     if (button("Pause", "stop after this step (space)", true, true)) session.pause();
   } else {
-    const bool is_at_end = !live.is_older && live.frame >= live.scene->frames;
+    const bool is_at_end = !live.is_older && live.frame >= scene::last_frame(*live.scene);
     if (button("Run",
                is_broken   ? "the run broke a rule: reset it, or continue from an older frame"
                : is_at_end ? "the run has reached its last frame: raise `frames` to continue"

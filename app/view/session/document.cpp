@@ -113,6 +113,7 @@ std::vector<scene::Override> Document::with(const std::vector<scene::Override>& 
 std::shared_ptr<const scene::Scene> Document::read(
     const std::string& text, const std::vector<scene::Override>& edits) const {
   scene::Scene scene = scene::read_scene_text(text, file_, scene::base_dir_of(file_), with(edits));
+  scene::place_in_world(scene, file_);
   if (coarsening_ > 1) scene::coarsen(scene, coarsening_);
   add_built_in_views(scene);
   if (camera_) {
@@ -135,7 +136,7 @@ void Document::become(std::vector<scene::Override> edits) {
 
 void Document::require_within_limits(const scene::Scene& next) const {
   const auto plan_of = [](const scene::Scene& scene) {
-    return setup::make_plan(scene, {0, scene.frames}, setup::Quality::preview, 0);
+    return setup::make_plan(scene, {0, scene::last_frame(scene)}, setup::Quality::preview, 0);
   };
   const setup::Plan before = plan_of(*scene_);
   setup::Plan plan = plan_of(next);

@@ -51,7 +51,8 @@ void Session::set_goal(Goal goal) {
     leave_older();
     inspector_.stage.reset();
     if (simulation().divergence()) return;
-    if (goal == Goal::end && timeline_->here().frame >= timeline_->here().scene->frames) return;
+    if (goal == Goal::end && timeline_->here().frame >= scene::last_frame(*timeline_->here().scene))
+      return;
     measured_at_ = Clock::now();
     measured_time_ = simulation().time();
   }
@@ -119,7 +120,7 @@ void Session::reach_frame() {
   timeline_->keep();
   require_room();
   const timeline::Moment& here = timeline_->here();
-  if (goal_ == Goal::frame || here.frame == here.scene->frames) goal_ = Goal::none;
+  if (goal_ == Goal::frame || here.frame == scene::last_frame(*here.scene)) goal_ = Goal::none;
   if (is_recording_) publish();
 }
 

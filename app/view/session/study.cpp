@@ -47,7 +47,8 @@ void Study::start(const fs::path& folder, record::RunRecord run, timeline::Momen
   options.from = moment.frame / fps;
   options.axes = axes_of(request);
   if (request.has_longer_steps) options.overrides = longer_steps;
-  options.frames = setup::FrameRange{moment.frame + 1, request.last_frame};
+  const int start = moment.scene ? scene::number_of(*moment.scene, 0) : 0;
+  options.frames = setup::FrameRange{start + moment.frame + 1, start + request.last_frame};
   options.out = (here / "study.cdb").string();
   std::error_code error;
   int runs = 0;

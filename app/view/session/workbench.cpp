@@ -454,7 +454,7 @@ record::PictureRecord Workbench::picture_record(const LiveFrame& live,
   record.seed = scene.seed;
   record.version = version;
   record.build = build_text(live.simd);
-  record.frame = live.frame;
+  record.frame = scene::number_of(scene, live.frame);
   record.view = view.name;
   record.quality = setup::name(options_.quality);
   record.files = record::hash_files(scene);

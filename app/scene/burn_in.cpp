@@ -1,0 +1,126 @@
+#include "app/scene/burn_in.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <vector>
+
+#include "app/advice/suggest.h"
+#include "app/scene/flat.h"
+#include "app/support/text.h"
+#include "app/support/time_code.h"
+
+namespace neve::app::scene {
+
+namespace {
+
+using Values = std::map<std::string, std::string>;
+
+/// Number of a frame as names of files have it.
+std::string padded_number(int number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%04d", number);
+  return text;
+}
+
+std::string plain_text(const FlatParam& param) {
+  if (param.value)
+    if (const auto* text = std::get_if<std::string>(&param.value->data)) return *text;
+  return param.value ? param.text() : "";
+}
+
+Values values_of(const Scene& scene, const PictureWords& words) {
+  Values values;
+  for (const FlatParam& param : flatten(scene)) values[param.address] = plain_text(param);
+  const int number = number_of(scene, words.frame);
+  values["frame"] = padded_number(number);
+  values["time"] = fixed_text(words.time, 3) + " s";
+  values["time_code"] = time_code_of(scene, number, scene.fps);
+  values["range"] = range_text(scene);
+  values["view"] = words.view;
+  values["changes"] = words.changes;
+  return values;
+}
+
+/// @param value_of  of what braces hold
+template <class ValueOf>
+std::string fill(const std::string& text, const ValueOf& value_of) {
+  std::string filled;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    const bool is_twice = at + 1 < text.size() && text[at + 1] == c;
+    if ((c == '{' || c == '}') && is_twice) {
+      filled += c;
+      ++at;
+    } else if (c == '{') {
+      const std::size_t end = std::min(text.find('}', at), text.size());
+      filled += value_of(text.substr(at + 1, end - at - 1));
+      at = end;
+    } else {
+      filled += c;
+    }
+  }
+  return filled;
+}
+
+struct Place {
+  const char* key;
+  const std::string* text;
+};
+
+std::array<Place, 6> places_of(const BurnIn& b) {
+  return {Place{"top_left", &b.top_left},   Place{"top", &b.top},
+          Place{"top_right", &b.top_right}, Place{"bottom_left", &b.bottom_left},
+          Place{"bottom", &b.bottom},       Place{"bottom_right", &b.bottom_right}};
+}
+
+}  // namespace
+
+std::string range_text(const Scene& scene) {
+  return std::to_string(scene.first_frame) + "-" + std::to_string(scene.first_frame + scene.frames);
+}
+
+std::string time_code_of(const Scene& scene, int number, double fps) {
+  const std::string& given = scene.shot.time_code;
+  if (const auto start = frames_of_time_code(given, fps); start && !given.empty())
+    return time_code_text(*start + number - scene.first_frame, fps, drops_numbers(given));
+  return time_code_text(number, fps, false);
+}
+
+std::array<std::string, 6> burnt_in(const Scene& scene, const PictureWords& words) {
+  const Values values = values_of(scene, words);
+  std::array<std::string, 6> filled;
+  const auto places = places_of(scene.burn_in);
+  for (std::size_t k = 0; k < filled.size(); ++k)
+    filled[k] = fill(*places[k].text, [&](const std::string& name) {
+      const auto found = values.find(name);
+      return found == values.end() ? std::string() : found->second;
+    });
+  return filled;
+}
+
+std::optional<Problem> shot_problem(const Scene& scene) {
+  const std::string& code = scene.shot.time_code;
+  if (!code.empty() && !frames_of_time_code(code, scene.fps))
+    return Problem{"shot.time_code",
+                   toml::toml_string(code) + " is not a time code of " + rough_text(scene.fps) +
+                       " frames a second",
+                   "expected HH:MM:SS:FF, as in \"01:00:00:00\""};
+  if (!has_burn_in(scene.burn_in)) return {};
+  const Values values = values_of(scene, {});
+  std::optional<Problem> found;
+  for (const Place& place : places_of(scene.burn_in))
+    fill(*place.text, [&](const std::string& name) {
+      if (found || values.contains(name)) return std::string();
+      std::vector<std::string> known;
+      for (const auto& [address, value] : values) known.push_back(address);
+      found = Problem{std::string("burn_in.") + place.key, "there is no value {" + name + "}",
+                      advice::suggest(name, {"", known},
+                                      "expected frame, time, time_code, range, view, changes, or "
+                                      "an address, as in {material.snow.hardening}")};
+      return std::string();
+    });
+  return found;
+}
+
+}  // namespace neve::app::scene

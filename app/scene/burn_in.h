@@ -1,0 +1,43 @@
+#pragma once
+/// Words over pictures, with values of the scene in braces: "{shot.name} {frame}".
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "app/scene/check.h"
+#include "app/scene/scene.h"
+
+namespace neve::app::scene {
+
+/// Values of a picture that its scene does not have.
+struct PictureWords {
+  int frame = 0;  ///< counted from 0
+  double time = 0;
+  std::string view, changes;
+};
+
+/// The six texts of burn_in with their values, in the order of its parameters. A brace that is
+/// meant as one is written twice.
+std::array<std::string, 6> burnt_in(const Scene& scene, const PictureWords& words);
+
+inline bool has_burn_in(const BurnIn& b) {
+  return !(b.top_left + b.top + b.top_right + b.bottom_left + b.bottom + b.bottom_right).empty();
+}
+
+/// Braces that name nothing, and time codes that are none.
+std::optional<Problem> shot_problem(const Scene& scene);
+
+/// "1001-1049": the numbers of the shot, without handles.
+std::string range_text(const Scene& scene);
+
+/// The time code of a frame with this number: that of its number, or counted from shot.time_code.
+/// @param fps  of the movie
+std::string time_code_of(const Scene& scene, int number, double fps);
+
+/// Whether a movie of this scene says its time code.
+inline bool has_time_code(const Scene& scene) {
+  return number_of(scene, 0) != 0 || scene.first_frame != 0 || !scene.shot.time_code.empty();
+}
+
+}  // namespace neve::app::scene

@@ -1,0 +1,198 @@
+/// A shot from 1001 with handles, slate, words and time code, as it comes out of every command; and
+/// one with the coordinates of a map.
+
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+
+#include "app/output/process.h"
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+constexpr const char* shot_scene = R"(
+title = "Wall"
+frames = 2
+first_frame = 1001
+handles = 1
+[solver]
+cell_size = 0.08
+[[body]]
+shape = { sphere = { center = [0, 0.3, 0], radius = 0.12 } }
+[output]
+size = [320, 180]
+[shot]
+show = "Alp"
+name = "sh010"
+version = "v003"
+artist = "Ina"
+slate = true
+[burn_in]
+top_left = "{shot.name}"
+bottom_right = "{frame}"
+[[export]]
+format = "csv"
+every = 2
+)";
+
+class Shots : public Cli {
+ protected:
+  Shots() { folder.write("shot.toml", shot_scene); }
+
+  void run(std::vector<std::string> arguments) {
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+  }
+  app::Json run_json(const std::string& of) { return json_of(of + "/run.json"); }
+};
+
+TEST_F(Shots, HaveTheirNumbersInEveryName) {
+  run({"render", "shot.toml", "--out", "a", "--no-movie", "--quiet"});
+  for (const char* name : {"0999.png", "1000.png", "1001.png", "1003.png", "1004.png"})
+    EXPECT_TRUE(exists(std::string("a/particles/") + name)) << name;
+  EXPECT_FALSE(exists("a/particles/1005.png"));
+  EXPECT_FALSE(exists("a/particles/0000.png"));
+  const app::Json json = run_json("a");
+  EXPECT_EQ(json["frames"].size(), 5u);
+  EXPECT_EQ(json["frames"][0]["frame"], 1000);
+  EXPECT_EQ(json["frames"][0]["time"], 0.0);
+  EXPECT_EQ(json["frames"][4]["frame"], 1004);
+  EXPECT_EQ(json["slate"], 999);
+  EXPECT_TRUE(json["files"].contains("particles/0999.png"));
+  for (const char* name : {"1000.csv", "1002.csv", "1004.csv"})
+    EXPECT_TRUE(exists(std::string("a/exports/csv/") + name)) << name;
+  EXPECT_FALSE(exists("a/exports/csv/1001.csv"));
+  run({"verify", "a"});
+  const auto info = neve({"info", "a/particles/1003.png", "--json"});
+  EXPECT_EQ(app::parse_json(info.output)["frame"], 1003);
+}
+
+TEST_F(Shots, AreResumedAndMadeAgainByTheirNumbers) {
+  run({"render", "shot.toml", "--out", "whole", "--no-movie", "--quiet"});
+  run({"render", "shot.toml", "--out", "parts", "--no-movie", "--quiet", "--frames", "1002"});
+  EXPECT_FALSE(exists("parts/particles/1003.png"));
+  std::filesystem::remove(folder / "parts/particles/1001.png");
+  run({"render", "shot.toml", "--out", "parts", "--no-movie", "--quiet", "--resume"});
+  EXPECT_TRUE(exists("parts/particles/1001.png"));
+  EXPECT_EQ(run_json("parts")["frames"][4]["state_hash"],
+            run_json("whole")["frames"][4]["state_hash"]);
+  run({"verify", "parts"});
+  run({"render", "whole/particles/1003.png", "--out", "again", "--no-movie", "--quiet"});
+  EXPECT_EQ(run_json("again")["frames"][0]["frame"], 1003);
+  EXPECT_EQ(run_json("again")["frames"][0]["state_hash"],
+            run_json("whole")["frames"][3]["state_hash"]);
+}
+
+TEST_F(Shots, RefuseNumbersBeforeTheFirst) {
+  const auto result = neve({"render", "shot.toml", "--frames", "0-3"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.errors.find("the scene begins with frame 1000, not 0; expected frames from 1000 "
+                               "to 1004"),
+            std::string::npos)
+      << result.errors;
+}
+
+/// The slate is one frame before the first: 999 of 24 a second are 41 s and 15 frames.
+TEST_F(Shots, MoviesHaveSlateAndTimeCode) {
+  const auto ffprobe = app::output::find_program("ffprobe");
+  if (!ffprobe) GTEST_SKIP() << "ffprobe is not installed";
+  run({"render", "shot.toml", "--out", "a", "--quiet"});
+  const auto probed = app::output::run_process(
+      *ffprobe,
+      {"-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+       "stream=nb_read_frames:stream_tags=timecode", "-of", "csv=p=0", "a/particles.mp4"},
+      folder.path(), 60);
+  EXPECT_EQ(probed.output, "6,00:00:41:15\n") << probed.errors;
+}
+
+TEST_F(Shots, CountBelowZero) {
+  run({"render", "shot.toml", "--set", "first_frame=0", "--out", "a", "--quiet"});
+  for (const char* name : {"-002.png", "-001.png", "0000.png", "0003.png"})
+    EXPECT_TRUE(exists(std::string("a/particles/") + name)) << name;
+  EXPECT_EQ(exists("a/particles.mp4"), app::output::find_program("ffmpeg").has_value());
+}
+
+/// Plates have the numbers of the frames.
+TEST_F(Shots, PlatesAreFoundByTheNumbersOfTheFrames) {
+  run({"render", "shot.toml", "--out", "a", "--no-movie", "--quiet"});
+  run({"render", "shot.toml", "--out", "b", "--no-movie", "--quiet", "--frames", "1003-1004",
+       "--plate", "a/particles/####.png"});
+  EXPECT_TRUE(exists("b/particles/1004.png"));
+}
+
+TEST_F(Shots, SweepsHaveTheNumbersOfTheirScene) {
+  run({"sweep", "shot.toml", "-p", "material.snow.hardening=5,10", "--out", "s.cdb", "--quiet",
+       "--frames", "1000-1001", "--movie", "none"});
+  EXPECT_TRUE(exists("s.cdb/runs/0001/particles/1001.png"));
+  EXPECT_TRUE(exists("s.cdb/sheet/1001.png"));
+}
+
+/// A hut of a map: east, north, up in UTM, drawn with y up.
+constexpr const char* map_scene = R"(
+frames = 0
+[solver]
+cell_size = 0.1
+[[body]]
+name = "hut"
+shape = { mesh = { file = "hut.obj", coordinates = "world", rotation = [-90, 0, 0] } }
+[output]
+size = [160, 90]
+)";
+
+constexpr const char* hut_obj = R"(v 431250 5254000 1800
+v 431251 5254000 1800
+v 431250 5254001 1800
+v 431251 5254001 1800
+v 431250 5254000 1801
+v 431251 5254000 1801
+v 431250 5254001 1801
+v 431251 5254001 1801
+f 1 3 4 2
+f 5 6 8 7
+f 1 2 6 5
+f 3 7 8 4
+f 1 5 7 3
+f 2 4 8 6
+)";
+
+TEST_F(Shots, ExportsPutTheOffsetOfAMapBack) {
+  folder.write("map.toml", map_scene);
+  folder.write("hut.obj", hut_obj);
+  run({"export", "map.toml", "--format", "csv,usda", "--up", "z", "--attributes", "x", "--out",
+       "e"});
+  std::istringstream rows(read_text(folder / "e/csv/0000.csv"));
+  std::string row;
+  std::getline(rows, row);
+  int count = 0;
+  for (; std::getline(rows, row); ++count) {
+    double x = 0, y = 0, z = 0;
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf", &x, &y, &z), 3) << row;
+    EXPECT_NEAR(x, 431250.5, 0.5);
+    EXPECT_NEAR(y, 5254000.5, 0.5);
+    EXPECT_NEAR(z, 1800.5, 0.5);
+  }
+  EXPECT_GT(count, 1000);
+  EXPECT_TRUE(
+      contains(read_text(folder / "e/usda/0000.usda"), "double3 xformOp:translate = (4312"));
+  EXPECT_EQ(json_of("e/export.json")["world_offset"].size(), 3u);
+  // The picture alone has the offset: it is made again without looking for it.
+  run({"render", "map.toml", "--out", "m", "--no-movie", "--quiet"});
+  EXPECT_EQ(json_of("m/run.json")["world_offset"], json_of("e/export.json")["world_offset"]);
+  run({"render", "m/particles/0000.png", "--out", "again", "--no-movie", "--quiet"});
+  EXPECT_EQ(json_of("again/run.json")["frames"][0]["state_hash"],
+            json_of("m/run.json")["frames"][0]["state_hash"]);
+}
+
+TEST_F(Shots, CheckSaysThatAMapIsFarAway) {
+  folder.write("map.toml", map_scene);
+  folder.write("hut.obj", hut_obj);
+  const auto far =
+      neve({"check", "map.toml", "--set", "body.hut.shape.mesh.origin=[381250,5254000,1800]",
+            "--set", "solver.cell_size=0.5"});
+  EXPECT_TRUE(contains(far.output + far.errors, "coordinates = \"world\""))
+      << far.output << far.errors;
+}
+
+}  // namespace
+}  // namespace neve::test
