@@ -322,7 +322,8 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   }
   const sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
   if (result.failure) fail_by_machine(*result.failure, plan.folder);
-  sweep::sheet::collect_sweep(plan.folder, movie, options.backend, cores, progress);
+  sweep::sheet::collect_sweep(plan.folder, movie, options.has_review, options.backend, cores,
+                              progress);
   print_sweep_result(options, plan.folder, result, foreseen_seconds, progress);
   if (result.elsewhere > 0)
     progress.say(fmt::format(
@@ -372,8 +373,8 @@ int run_sweep_collect(const sweep::plan::CollectOptions& options) {
                     options.progress);
   const output::MovieStyle movie =
       output::available_movie(options.movie, sweep::store::read_manifest(options.folder).fps);
-  sweep::sheet::collect_sweep(options.folder, movie, options.backend, core_count(options.threads),
-                              progress);
+  sweep::sheet::collect_sweep(options.folder, movie, options.has_review, options.backend,
+                              core_count(options.threads), progress);
   if (is_interrupted()) return exit_interrupted;
   const RunCounts counts = sweep::jobs::progress_of(options.folder).counts();
   const int unfinished = counts.all - counts.finished;

@@ -123,9 +123,13 @@ TEST_F(Shots, PlatesAreFoundByTheNumbersOfTheFrames) {
 
 TEST_F(Shots, SweepsHaveTheNumbersOfTheirScene) {
   run({"sweep", "shot.toml", "-p", "material.snow.hardening=5,10", "--out", "s.cdb", "--quiet",
-       "--frames", "1000-1001", "--movie", "none"});
+       "--frames", "1000-1001", "--movie", "none", "--review"});
   EXPECT_TRUE(exists("s.cdb/runs/0001/particles/1001.png"));
   EXPECT_TRUE(exists("s.cdb/sheet/1001.png"));
+  EXPECT_TRUE(exists("s.cdb/review/run_0001.1001.png"));
+  EXPECT_EQ(json_of("s.cdb/runs.otio")["tracks"]["children"][0]["children"].size(), 2u);
+  run({"sweep", "collect", "s.cdb", "--quiet", "--movie", "none"});
+  EXPECT_TRUE(contains(read_text(folder / "s.cdb/runs.otio"), "runs/0001/particles/"));
 }
 
 /// A hut of a map: east, north, up in UTM, drawn with y up.

@@ -3,6 +3,8 @@
 #include <signal.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <random>
 #include <set>
@@ -10,6 +12,8 @@
 
 #include "tests/cli/run_neve.h"
 #include "tests/support/cinema.h"
+#include "tests/support/needs.h"
+#include "tests/support/python.h"
 #include "tests/support/saboteur.h"
 
 namespace neve::test {
@@ -106,6 +110,22 @@ TEST_F(Cli, ADriverKilledTwentyTimesRunsNothingTwice) {
                     b = json_of("whole/runs/" + std::string(name) + "/run.json");
     EXPECT_EQ(a["frames"].back()["state_hash"], b["frames"].back()["state_hash"]) << k;
   }
+}
+
+/// ./neve test --all installs it and says where.
+TEST_F(Cli, OpenTimelineIOReadsTheTimelineOfASweep) {
+  const auto python = python_with("json");
+  const char* const otio = std::getenv("NEVE_OPENTIMELINEIO");
+  if (!python || !otio || !std::filesystem::exists(std::filesystem::path(otio) / "opentimelineio"))
+    SKIP_OR_FAIL(
+        "no OpenTimelineIO: pip install --target DIR opentimelineio, and NEVE_OPENTIMELINEIO=DIR");
+  const auto made = neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,10", "--set",
+                          "first_frame=1000", "--frames", "1002", "--movie", "none", "--review",
+                          "--out", "s.cdb"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  const auto same = run_script_with(*python, {std::string("PYTHONPATH=") + otio}, "check_otio.py",
+                                    {"s.cdb"}, folder.path());
+  EXPECT_EQ(same.output, "same\n") << same.errors;
 }
 
 }  // namespace

@@ -33,6 +33,10 @@ void describe_retry(options::Command& visit, std::string& states, const char* he
   visit("--retry-failed", states, options::text("STATES", "timeout,crashed"), help).or_alone("all");
 }
 
+constexpr const char* review_help =
+    "Link the pictures of all runs as DIR/review/run_0007.1001.png, names that review servers "
+    "group; DIR/runs.otio then names these";
+
 void describe_runs(options::Command& visit, SweepOptions& o) {
   visit("FILE", o.file, options::scene_file(),
         "A sweep file (TOML with a table [sweep]), or a scene and -p; with --from the folder of a "
@@ -43,7 +47,7 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
   visit("--set", o.overrides, options::text("ADDRESS=VALUE", "material.snow.hardening=5"),
         "Change a parameter of all runs (repeatable)");
   visit("--frames", o.frames, options::frames(),
-        "Frames of each run: A-B, or N for 0-N; overrides the file");
+        "Frames of each run: A-B, or N for all up to N; overrides the file");
   visit("--fork", o.fork, options::time(),
         "Fork all runs at a time, as in 0.8s: simulate the common start once, then change live "
         "parameters in each");
@@ -60,6 +64,7 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
         "Take longer steps in all runs for a quick look, by settings that are recorded like those "
         "of --set");
   options::describe_movie(visit, o.movie);
+  visit("--review", o.has_review, review_help);
   visit("--out", o.out, options::folder("sheet.png"),
         "Output folder instead of out/<name of the file>.cdb");
 }
@@ -160,6 +165,7 @@ void describe(options::Command& visit, SweepRunOptions& o) {
 void describe(options::Command& visit, CollectOptions& o) {
   visit.about("sweep collect", "Make table, sheets and report from the finished runs of a sweep");
   options::describe_movie(visit, o.movie);
+  visit("--review", o.has_review, review_help);
   describe_folder(visit, o);
 }
 

@@ -36,6 +36,7 @@ struct SweepOptions {
   std::string engine = "local";     ///< local | slurm
   std::vector<std::string> sbatch;  ///< further options of sbatch
   output::MovieStyle movie;         ///< of the sheet
+  bool has_review = false;          ///< links to all pictures, in DIR/review
   double budget = 0;                ///< s for all runs; 0: as long as they take
   std::string emit;                 ///< file for the commands of the runs; nothing is started
   Verbosity verbosity = Verbosity::normal;
@@ -61,6 +62,7 @@ struct SweepRunOptions {
 struct CollectOptions {
   std::string folder;  ///< of a sweep
   output::MovieStyle movie;
+  bool has_review = false;  ///< links to all pictures, in DIR/review
   std::string backend = "auto";
   int threads = 0;
   bool is_json = false;

@@ -21,6 +21,7 @@
 #include "app/sweep/sheet/effects.h"
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/report.h"
+#include "app/sweep/sheet/review.h"
 #include "app/sweep/sheet/sheet.h"
 #include "render/gl/context.h"
 
@@ -162,7 +163,7 @@ void write_effects(const fs::path& folder, const store::Manifest& manifest,
 
 }  // namespace
 
-void collect_sweep(const fs::path& folder, const output::MovieStyle& movie,
+void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool has_review,
                    const std::string& backend, int threads, Progress& progress) {
   // Reads before it locks: a folder without a sweep gets no file.
   store::Manifest manifest = store::read_manifest(folder);
@@ -173,6 +174,8 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie,
   for (store::RunResult& result : results)
     if (!result.flaws.empty()) result.warnings.push_back(result.flaws);
   output::write_file(folder / "data.csv", data_csv(manifest, results));
+  if (has_review) link_pictures(folder, manifest, results);
+  output::write_file(folder / "runs.otio", otio_timeline(manifest, results, has_review));
   if (const std::string plots = metric_plots_svg(manifest, results); !plots.empty())
     output::write_file(folder / "plots.svg", plots);
   write_effects(folder, manifest, results, progress);

@@ -1,0 +1,68 @@
+/// The timeline of a sweep.
+
+#include <gtest/gtest.h>
+
+#include "app/support/json.h"
+#include "app/sweep/sheet/review.h"
+
+namespace neve::test {
+namespace {
+
+using app::Json;
+
+app::sweep::store::Manifest two_runs() {
+  app::sweep::store::Manifest manifest;
+  manifest.title = "Hardening";
+  manifest.view = "snow";
+  manifest.fps = 25;
+  manifest.first_number = 1001;
+  manifest.parameters = {{"material.snow.hardening", "hardening", "", "float"},
+                         {"solver.transfer", "transfer", "", "choice"}};
+  for (int k = 0; k < 2; ++k) {
+    app::sweep::Run run;
+    run.index = k;
+    run.folder = k == 0 ? "0000" : "0001";
+    run.settings = {{"material.snow.hardening", k == 0 ? "5" : "10"}, {"solver.transfer", "apic"}};
+    run.frames = {1001, 1003};
+    manifest.runs.push_back(run);
+  }
+  return manifest;
+}
+
+/// Structure as opentimelineio writes it; its own reader is asked by the long tests.
+TEST(ReviewTimeline, HasAClipPerRunAndAMarkerPerValue) {
+  std::vector<app::sweep::store::RunResult> results(2);
+  results[0].frames = {1001, 1002, 1003};
+  const Json timeline = app::parse_json(
+      std::string_view(app::sweep::sheet::otio_timeline(two_runs(), results, false)));
+  EXPECT_EQ(timeline["OTIO_SCHEMA"], "Timeline.1");
+  const Json& track = timeline["tracks"]["children"][0];
+  EXPECT_EQ(track["kind"], "Video");
+  ASSERT_EQ(track["children"].size(), 1u) << "a run without pictures is no clip";
+  const Json& clip = track["children"][0];
+  EXPECT_EQ(clip["source_range"]["start_time"]["value"], 1001.0);
+  EXPECT_EQ(clip["source_range"]["duration"]["value"], 3.0);
+  EXPECT_EQ(clip["source_range"]["duration"]["rate"], 25.0);
+  const Json& media = clip["media_reference"];
+  EXPECT_EQ(media["target_url_base"], "runs/0000/snow/");
+  EXPECT_EQ(media["start_frame"], 1001);
+  EXPECT_EQ(media["frame_zero_padding"], 4);
+  ASSERT_EQ(clip["markers"].size(), 2u);
+  EXPECT_EQ(clip["markers"][0]["name"], "material.snow.hardening = 5");
+  EXPECT_EQ(clip["markers"][0]["metadata"]["neve"]["value"], 5.0);
+  EXPECT_EQ(clip["markers"][1]["metadata"]["neve"]["value"], "apic");
+}
+
+TEST(ReviewTimeline, NamesLinksWhereThereAreSome) {
+  std::vector<app::sweep::store::RunResult> results(2);
+  results[1].frames = {1001};
+  const Json timeline = app::parse_json(
+      std::string_view(app::sweep::sheet::otio_timeline(two_runs(), results, true)));
+  const Json& media = timeline["tracks"]["children"][0]["children"][0]["media_reference"];
+  EXPECT_EQ(media["target_url_base"], "review/");
+  EXPECT_EQ(media["name_prefix"], "run_0001.");
+  EXPECT_EQ(media["name_suffix"], ".png");
+}
+
+}  // namespace
+}  // namespace neve::test
