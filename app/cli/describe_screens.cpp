@@ -45,6 +45,10 @@ void describe_place(Command& visit, view::ScreenOptions& screen) {
       [&screen] { return address_text(screen); },
       "Serve the web page at this address; any address but 127.0.0.1 is reachable from other "
       "machines");
+  visit("--public-url", screen.public_url, options::text("URL", "https://hub/user/x/proxy/8080/"),
+        "Address at which a proxy shows the web page; with --listen :PORT, which the proxy reaches")
+      .excludes({"--window", "--replay"}, "remove one");
+  visit.check([&screen] { screen.is_web = screen.is_web || !screen.public_url.empty(); });
 }
 
 void describe_scripts(Command& visit, view::ScreenOptions& screen) {
@@ -110,7 +114,8 @@ void describe_pick(Command& visit, PickCommand& o) {
   visit("--seed", o.pick.seed, options::number<std::uint64_t>("N", 0, 1.8e19, "a whole number"),
         "Seed of the tiles; the same clicks with the same seed give the same pick, bit for bit")
       .with_default();
-  visit("--frames", runs.frames, options::frames(), "Frames of each run: A-B, or N for 0-N");
+  visit("--frames", runs.frames, options::frames(),
+        "Frames of each run: A-B, or N for all up to N");
   visit("--size", runs.size, options::size(), "Size of a tile; default: 480 pixels wide");
   visit("--coarsen", runs.coarsening, options::coarsening(),
         "Make cells N times as large in all tiles; the picked scene keeps its cell_size");

@@ -14,6 +14,7 @@ struct ScreenOptions {
   bool is_web = false, is_window = false;  ///< neither: whichever fits
   std::string listen;                      ///< address of the page; empty: this machine alone
   int port = 0;                            ///< of the page; 0: a free one
+  std::string public_url;                  ///< of a proxy that shows the page; empty: none
   std::string replay, record;              ///< files of scripts
   int pictures = 0;                        ///< ends after so many; 0: never
 };

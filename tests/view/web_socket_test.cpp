@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "app/support/errors.h"
 #include "app/view/web/http.h"
 #include "app/view/web/web_guard.h"
 #include "tests/support/web_client.h"
@@ -186,6 +187,47 @@ TEST(WebGuard, WebGuardKnowsItsOwnNames) {
   EXPECT_TRUE(open.is_own_host("[2001:db8::1]:80"));
   EXPECT_TRUE(open.is_own_host(open.machine()));
   EXPECT_FALSE(open.is_own_host("evil.example"));
+}
+
+/// A hub with TLS shows the page below a path; its proxy keeps the name of the host, or puts the
+/// number of this machine there.
+TEST(WebGuard, WebGuardKnowsThePlaceOfItsProxy) {
+  using app::view::web::HttpRequest;
+  const app::view::web::PublicPlace place =
+      app::view::web::public_place("https://Hub.example:443/user/x/proxy/8080");
+  EXPECT_EQ(place.origin, "https://hub.example");
+  EXPECT_EQ(place.path, "/user/x/proxy/8080/");
+  EXPECT_EQ(place.socket_origin(), "wss://hub.example");
+  const app::view::web::WebGuard guard("127.0.0.1", "secret", place);
+  const auto is_own = [&](const char* host, const char* origin) {
+    const HttpRequest request{"GET", "/ws", "", {{"host", host}, {"origin", origin}}};
+    return guard.is_own_host(host) && guard.is_own_origin(request);
+  };
+  EXPECT_TRUE(is_own("hub.example", "https://hub.example"));
+  EXPECT_TRUE(is_own("127.0.0.1:8080", "https://hub.example"));
+  EXPECT_TRUE(is_own("127.0.0.1:8080", "http://127.0.0.1:8080")) << "without the proxy";
+  for (const auto& [host, origin] : {std::pair{"hub.example", "http://hub.example"},
+                                     {"hub.example", "https://evil.example"},
+                                     {"evil.example", "https://evil.example"},
+                                     {"evil.example", "https://hub.example"},
+                                     {"hub.example.evil", "https://hub.example"},
+                                     {"127.0.0.1:8080", "https://hub.example.evil"},
+                                     {"127.0.0.1:8080", "https://hub.example:8443"},
+                                     {"127.0.0.1:8080", "null"},
+                                     {"hub.example", ""}})
+    EXPECT_FALSE(is_own(host, origin)) << host << " " << origin;
+  EXPECT_EQ(guard.own_path("/user/x/proxy/8080/ws"), "/ws");
+  EXPECT_EQ(guard.own_path("/ws"), "/ws") << "a proxy that has removed its path";
+  EXPECT_EQ(guard.own_path("/user/y/proxy/8080/ws"), "/user/y/proxy/8080/ws");
+}
+
+TEST(WebGuard, PublicPlacesAreAddressesOfPages) {
+  EXPECT_EQ(app::view::web::public_place("http://gate:8000").path, "/");
+  EXPECT_EQ(app::view::web::public_place("http://gate:8000").origin, "http://gate:8000");
+  for (const char* wrong :
+       {"", "hub/user", "ftp://hub/", "https://", "https:///x", "https://hub:x/", "https://a b/",
+        "https://hub/x?token=1", "https://hub/x#y", "https://hub/'", "https://user@hub/"})
+    EXPECT_THROW(app::view::web::public_place(wrong), app::UsageError) << wrong;
 }
 
 TEST(WebGuard, WebGuardTellsTheRiskOfOtherAddresses) {

@@ -49,6 +49,7 @@ Place open_web(const PlaceOptions& options) {
       std::cerr << "neve: warning: " << risk << std::endl;
   }
   web.port = options.screen.port;
+  web.public_url = options.screen.public_url;
   if (options.size) web.size = *options.size;
   Place place;
   auto front = std::make_unique<view::web::WebFrontend>(web);

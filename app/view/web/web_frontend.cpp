@@ -69,7 +69,8 @@ bool shows_same(const render::Image& a, const render::Image& b) {
 
 WebFrontend::WebFrontend(const WebOptions& options)
     : options_(checked(options)),
-      guard_(options.address, make_token()),
+      guard_(options.address, make_token(),
+             options.public_url.empty() ? PublicPlace{} : public_place(options.public_url)),
       size_(limited_size(options.size)),
       server_(server_options(options), guard_, *this) {}
 
@@ -82,6 +83,8 @@ std::string WebFrontend::where() const {
   const std::string name = address == "0.0.0.0" || address == "::" ? guard_.machine()
                            : is_ipv6                               ? '[' + address + ']'
                                                                    : address;
+  const PublicPlace& place = guard_.place();
+  if (!place.origin.empty()) return place.origin + place.path + "?token=" + token();
   return "http://" + name + ':' + std::to_string(port()) + "/?token=" + token();
 }
 

@@ -20,6 +20,7 @@ struct PageMessage;
 struct WebOptions {
   std::string address = "127.0.0.1";        ///< a number, or localhost
   int port = 0;                             ///< 0: a free one
+  std::string public_url{};                 ///< of a proxy that shows the page; empty: none
   frontend::ScreenSize size{1280, 800, 1};  ///< until a page connects
   /// The user has seen risk_of(address) and accepts it.
   bool is_risk_taken = false;

@@ -90,22 +90,65 @@ std::string risk_of(const std::string& address) {
          "pictures can be read on the way. It is safer to listen at 127.0.0.1 and use ssh -L.";
 }
 
-WebGuard::WebGuard(std::string address, std::string token)
+std::string PublicPlace::socket_origin() const {
+  return (origin.starts_with("https:") ? "wss://" : "ws://") + host;
+}
+
+PublicPlace public_place(const std::string& url) {
+  const auto refuse = [&](const char* why) {
+    throw UsageError("--public-url", "cannot use \"" + url + "\": " + why,
+                     "expected the address of the page at the proxy, as in "
+                     "https://hub/user/x/proxy/8080/");
+  };
+  const std::size_t colon = url.find("://");
+  const std::string scheme = url.substr(0, std::min(colon, url.size()));
+  if (colon == std::string::npos || (scheme != "http" && scheme != "https"))
+    refuse("it begins with neither http:// nor https://");
+  const std::size_t start = colon + 3, slash = std::min(url.find('/', start), url.size());
+  PublicPlace place;
+  place.host = url.substr(start, slash - start);
+  for (char& c : place.host)
+    if (c >= 'A' && c <= 'Z') c = char(c + 32);
+  const bool is_plain = place.host.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-.:[]") ==
+                        std::string::npos;
+  if (!is_plain || name_of_host(place.host).empty()) refuse("it does not name a host");
+  // Browsers omit the usual port.
+  const std::string usual = scheme == "https" ? ":443" : ":80";
+  if (place.host.ends_with(usual)) place.host.resize(place.host.size() - usual.size());
+  place.origin = scheme + "://" + place.host;
+  place.path = slash < url.size() ? url.substr(slash) : "/";
+  if (place.path.find_first_of("?#\"' <>") != std::string::npos)
+    refuse("a path has no ?, # or quotes");
+  if (!place.path.ends_with('/')) place.path += '/';
+  return place;
+}
+
+WebGuard::WebGuard(std::string address, std::string token, PublicPlace place)
     : address_(std::move(address)),
       token_(std::move(token)),
       machine_(name_of_machine()),
+      place_(std::move(place)),
       is_local_(is_loopback(address_)) {}
 
 bool WebGuard::is_own_host(std::string_view host) const {
   const std::string name = name_of_host(host);
   if (name.empty()) return false;
-  if (is_loopback(name)) return true;
+  // A proxy passes on the name that the browser knows, or puts the number of this machine there.
+  if (is_loopback(name) || (!place_.host.empty() && host == place_.host)) return true;
   // Nobody can point a number somewhere else, so numbers are safe from rebinding.
   return !is_local_ && (name == machine_ || is_ipv4(name) || is_ipv6(name));
 }
 
 bool WebGuard::is_own_origin(const HttpRequest& request) const {
-  return request.header("origin") == "http://" + std::string(request.header("host"));
+  const std::string_view origin = request.header("origin"), host = request.header("host");
+  if (!place_.origin.empty() && origin == place_.origin) return true;
+  // At the proxy, a page that came without its encryption is another one.
+  return host != place_.host && origin == "http://" + std::string(host);
+}
+
+std::string WebGuard::own_path(const std::string& path) const {
+  const bool is_whole = place_.path.size() > 1 && path.starts_with(place_.path);
+  return is_whole ? path.substr(place_.path.size() - 1) : path;
 }
 
 }  // namespace neve::app::view::web

@@ -25,8 +25,8 @@ std::string answer_with(int status, std::string_view file, const std::string& ma
 
 }  // namespace
 
-std::string page_answer(std::string_view host) {
-  return answer_with(200, "web_page.html", "ws://" + std::string(host));
+std::string page_answer(const std::string& sockets) {
+  return answer_with(200, "web_page.html", sockets);
 }
 
 std::string no_token_answer() {

@@ -7,9 +7,9 @@
 namespace neve::app::view::web {
 
 /// The answer with the page. Its script and its style carry a number of this answer only, so that
-/// nothing else can run in it, and it may connect only to this host.
-/// @param host as the browser named it, checked
-std::string page_answer(std::string_view host);
+/// nothing else can run in it, and it may connect only to these places.
+/// @param sockets  origins of web sockets between blanks, of checked hosts: "ws://localhost:8080"
+std::string page_answer(const std::string& sockets);
 
 /// Answer to a request without token. A reloaded tab finds its token again.
 std::string no_token_answer();

@@ -180,7 +180,8 @@ void WebServer::answer_head(Connection& connection, double now) {
   if (head.status == 0) return;
   if (head.status != 200)
     return connection.finish(plain(head.status, "neve does not accept this request"), now);
-  const HttpRequest& request = head.request;
+  HttpRequest request = head.request;
+  request.path = guard_.own_path(request.path);
   if (std::string refusal = refusal_of(request); !refusal.empty())
     return connection.finish(std::move(refusal), now);
   if (std::unique_ptr<OpenFile> file = file_for(request, now)) {
@@ -219,7 +220,11 @@ std::string WebServer::answer(const HttpRequest& request) const {
     return plain(404, "this download is over: ask for the file again in the page");
   if (!is_socket && request.path != "/") return plain(404, "there is only one page: /");
   if (!guard_.has_token(request)) return is_socket ? plain(403, "wrong token") : no_token_answer();
-  if (!is_socket) return page_answer(request.header("host"));
+  if (!is_socket) {
+    std::string sockets = "ws://" + std::string(request.header("host"));
+    if (!guard_.place().origin.empty()) sockets += " " + guard_.place().socket_origin();
+    return page_answer(sockets);
+  }
   if (!request.header_has_word("upgrade", "websocket") ||
       !request.header_has_word("connection", "upgrade") ||
       request.header("sec-websocket-version") != "13")
