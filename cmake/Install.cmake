@@ -11,7 +11,7 @@ if(NEVE_KERNEL_SETS STREQUAL "native")
 endif()
 install(TARGETS neve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY scenes shaders DESTINATION ${neve_data} PATTERN make EXCLUDE)
-install(FILES python/neve.py DESTINATION ${neve_data}/python)
+install(FILES python/neve.py python/pyproject.toml DESTINATION ${neve_data}/python)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}

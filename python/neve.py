@@ -1,7 +1,8 @@
 """neve from Python: run scenes, read runs, states and sweeps as numpy arrays.
 
 Needs numpy and the program; imports nothing else and has no binding of the library. The program is
-`neve` of the environment variable NEVE, else that of this checkout, else that in PATH.
+`neve` of the environment variable NEVE, else that of this checkout or installation, else that in
+PATH. Runs, states and sweeps show themselves in a notebook.
 
     import neve
     run = neve.render("scenes/snowball_drop.toml", coarsen=2)
@@ -12,13 +13,18 @@ Needs numpy and the program; imports nothing else and has no binding of the libr
 docs/python.md has recipes.
 """
 
+import base64
 import csv
+import html
 import json
 import os
 import pathlib
 import shutil
+import struct
 import subprocess
+import sys
 import tempfile
+import zlib
 
 import numpy as np
 
@@ -37,8 +43,13 @@ def program():
     """Path of the program. The one that NEVE names is taken as it is."""
     if "NEVE" in os.environ:
         return os.environ["NEVE"]
-    launcher = pathlib.Path(__file__).resolve().parent.parent / "neve"
-    found = str(launcher) if launcher.is_file() else shutil.which("neve")
+    here = pathlib.Path(__file__).resolve().parent
+    # The launcher of a checkout, share/neve/python beside bin, and the folder of an environment.
+    for place in (here.parent / "neve", here.parents[min(2, len(here.parents) - 1)] / "bin" / "neve",
+                  pathlib.Path(sys.prefix) / "bin" / "neve"):
+        if place.is_file() and os.access(place, os.X_OK):
+            return str(place)
+    found = shutil.which("neve")
     if not found:
         raise FileNotFoundError("no program neve in PATH; set the environment variable NEVE to it")
     return found
@@ -95,6 +106,33 @@ def _number(value):
     return np.nan if value is None else value
 
 
+def _table_html(rows, head=()):
+    """Rows of texts and numbers as a table for a notebook."""
+    def line(tag, row):
+        return "".join(f"<{tag}>{html.escape(str(cell))}</{tag}>" for cell in row)
+    body = "".join(f"<tr>{line('td', row)}</tr>" for row in rows)
+    top = f"<tr>{line('th', head)}</tr>" if head else ""
+    return f"<table>{top}{body}</table>"
+
+
+def _png_html(png):
+    if not png:
+        return ""
+    return f'<img style="max-width: 100%" src="data:image/png;base64,{base64.b64encode(png).decode()}">'
+
+
+def _grey_png(values):
+    """A PNG of one channel. @param values  0 to 255, the upper row first"""
+    def chunk(kind, data):
+        return (struct.pack(">I", len(data)) + kind + data
+                + struct.pack(">I", zlib.crc32(kind + data)))
+    height, width = values.shape
+    rows = np.zeros((height, width + 1), dtype="u1")  # each begins with its filter, none
+    rows[:, 1:] = values
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows.tobytes())) + chunk(b"IEND", b""))
+
+
 class State(dict):
     """Particles at one time: arrays by attribute, a row per particle. `time` is in seconds."""
 
@@ -105,6 +143,27 @@ class State(dict):
     @property
     def count(self):
         return len(self["x"])
+
+    def _repr_png_(self):
+        """The snow from the front, brighter where more of it lies behind a pixel."""
+        if not len(self.get("x", ())):
+            return None
+        x, y = self["x"][:, 0].astype("f8"), self["x"][:, 1].astype("f8")
+        across = max(np.ptp(x), np.ptp(y), 1e-9)
+        size = int(np.clip(np.sqrt(len(x) / 2), 12, 400))  # cells with some particles each
+        middle = [(a.min() + a.max()) / 2 for a in (x, y)]
+        edges = [(m - 0.55 * across, m + 0.55 * across) for m in middle]
+        mass = np.histogram2d(y, x, size, edges[::-1], weights=self.get("m"))[0][::-1]
+        grey = (255 * np.sqrt(mass / mass.max())).astype("u1")
+        zoom = max(1, 320 // size)
+        return _grey_png(grey.repeat(zoom, axis=0).repeat(zoom, axis=1))
+
+    def _repr_html_(self):
+        rows = [(name, " x ".join(map(str, np.shape(a))), f"{np.min(a):.4g}", f"{np.mean(a):.4g}",
+                 f"{np.max(a):.4g}") for name, a in self.items() if np.size(a)]
+        head = ("attribute", "shape", "min", "mean", "max")
+        return (f"<p>{self.count} particles at {self.time:.4g} s</p>" + _png_html(self._repr_png_())
+                + _table_html(rows, head))
 
 
 def read_npz(path):
@@ -236,13 +295,33 @@ class Run:
             rows.append(found[0] if found else [np.nan] * 3)
         return np.array(rows, dtype=float)
 
+    def picture(self, frame=None, view=None):
+        """Path of a picture: of a frame, or of the last one; of a view, or of the first one."""
+        if frame is None:
+            frame = self.frames[-1]
+        return self.folder / (view or self.json["views"][0]) / f"{int(frame):04d}.png"
+
+    def _repr_png_(self):
+        file = self.picture() if len(self.frames) and self.json["views"] else None
+        return file.read_bytes() if file and file.is_file() else None
+
+    def _repr_html_(self):
+        rows = [("folder", self.folder), ("status", self.status), ("frames", len(self.frames))]
+        if len(self.frames):
+            last = self.json["frames"][-1]
+            rows += [(name, last[name]) for name in ("frame", "time", "particles", "max_speed")]
+        rows += [("warning", text) for text in self.json.get("warnings", [])]
+        return _png_html(self._repr_png_()) + _table_html(rows)
+
     def state(self, frame, attributes=("id", "x", "v", "m", "V0", "J_P", "density", "radius")):
         """The particles at a frame: simulated again, from a checkpoint where one is early enough."""
-        last = int(self.frames[-1]) if len(self.frames) else 0
+        first = self.json.get("first_number", 0)
+        last = int(self.frames[-1]) if len(self.frames) else first
         if not isinstance(frame, (int, np.integer)):
-            raise ValueError(f"a state is that of a frame, a number from 0 to {last}, not {frame!r}")
-        if not 0 <= frame <= last:
-            raise ValueError(f"there is no frame {frame}: the run has 0 to {last}")
+            raise ValueError(
+                f"a state is that of a frame, a number from {first} to {last}, not {frame!r}")
+        if not first <= frame <= last:
+            raise ValueError(f"there is no frame {frame}: the run has {first} to {last}")
         with tempfile.TemporaryDirectory() as folder:
             states = export(self.folder, folder, frames=frame, attributes=attributes)
             return states["npz"][0]
@@ -295,6 +374,14 @@ class Sweep:
     def __getitem__(self, column):
         """A column: numbers where all of it is, else text; "-" is not a number."""
         return self.table[column]
+
+    def _repr_png_(self):
+        file = self.folder / "sheet.png"
+        return file.read_bytes() if file.is_file() else None
+
+    def _repr_html_(self):
+        rows = list(zip(*self.table.values()))
+        return _png_html(self._repr_png_()) + _table_html(rows, self.columns)
 
     def run(self, index):
         """The run of a row."""

@@ -38,11 +38,18 @@ for format, series in exports.items():
 at = neve.export("scene.toml", "at", at=[0.01, 0.1])["npz"]
 assert [round(s.time, 2) for s in at] == [0.01, 0.1] and at.numbers == [0, 1]
 
+# What a notebook shows.
+png = b"\x89PNG\r\n\x1a\n"
+assert run._repr_png_() == run.picture().read_bytes() and run._repr_png_().startswith(png)
+assert "<td>max_speed</td>" in run._repr_html_() and "data:image/png;base64," in run._repr_html_()
+assert state._repr_png_().startswith(png) and "<th>attribute</th>" in state._repr_html_()
+
 # A sweep as a table.
 sweep = neve.sweep("scene.toml", "s.cdb", {"material.snow.hardening": [5, 10]}, frames=(0, 2))
 assert len(sweep) == 2 and list(sweep["material_snow_hardening"]) == [5, 10]
 assert list(sweep["state"]) == ["ok", "ok"] and sweep["height"].dtype == float
 assert sweep.run(1)["max_speed"].shape == (3,)
+assert sweep._repr_png_().startswith(png) and "<th>run</th>" in sweep._repr_html_()
 
 # Answers and mistakes of the program.
 assert neve.check("scene.toml", coarsen=2)["particles"] < neve.check("scene.toml")["particles"]
