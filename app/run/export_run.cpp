@@ -165,7 +165,8 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   exports::Exporter exporter(run.scene, job.run.folder, timeline.seeded().body_end);
   output::PictureWriter writer;
   ExportResult result;
-  progress.start(timeline::frame_at(job.times.back(), run.scene.fps));
+  progress.start(timeline::frame_at(job.times.back(), run.scene.fps),
+                 scene::number_of(run.scene, 0));
   for (const double time : job.times) {
     if (!timeline.go_to(time)) break;
     const int number = job.first_number + static_cast<int>(result.moments++);
