@@ -34,6 +34,8 @@ constexpr PairMetric pair_metrics[] = {
      [](const FrameRecord& f) { return static_cast<double>(f.metrics.fragments); }},
     {"largest_fragment", "largest fragment", "",
      [](const FrameRecord& f) { return f.metrics.largest_fragment; }},
+    {"powder", "share of powder", "", [](const FrameRecord& f) { return f.metrics.powder; }},
+    {"crumbs", "share of crumbs", "", [](const FrameRecord& f) { return f.metrics.crumbs; }},
     {"max_depth_cells", "depth in colliders", "cells",
      [](const FrameRecord& f) { return f.metrics.max_depth_cells; }},
     {"steps", "steps a frame", "",

@@ -90,17 +90,26 @@ void join_neighbours(const std::vector<Cell>& cells, Groups& groups) {
   }
 }
 
+/// Particles of the largest group that is a crumb and no piece.
+constexpr std::size_t largest_crumb = 100;
+
 void measure_fragments(const Occupied& occupied, std::size_t particle_count, Metrics& metrics) {
   Groups groups(occupied.cells.size());
   join_neighbours(occupied.cells, groups);
   std::vector<std::size_t> size(occupied.cells.size(), 0);
   for (std::size_t k = 0; k < occupied.cells.size(); ++k) size[groups.root(k)] += occupied.count[k];
-  std::size_t largest = 0;
+  std::size_t largest = 0, powder = 0, crumbs = 0;
   for (const std::size_t count : size) {
     if (count > 0) ++metrics.fragments;
     largest = std::max(largest, count);
+    (count == 1 ? powder : crumbs) += count <= largest_crumb ? count : 0;
   }
-  metrics.largest_fragment = static_cast<double>(largest) / static_cast<double>(particle_count);
+  const auto share = [&](std::size_t count) {
+    return static_cast<double>(count) / static_cast<double>(particle_count);
+  };
+  metrics.largest_fragment = share(largest);
+  metrics.powder = share(powder);
+  metrics.crumbs = share(crumbs);
 }
 
 }  // namespace

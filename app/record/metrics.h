@@ -13,6 +13,8 @@ struct Metrics {
   double mean_J_P = 1;  ///< weighted by mass
   std::size_t fragments = 0;    ///< groups of occupied cells that touch, corners included
   double largest_fragment = 0;  ///< share of the particles that are in the largest of them
+  double powder = 0;            ///< share of the particles that are alone in theirs
+  double crumbs = 0;            ///< share of them in groups of 2 to 100
   double max_depth_cells = 0;   ///< of the particle that is deepest in a collider, cells
 };
 

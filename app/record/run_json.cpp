@@ -86,6 +86,8 @@ Json to_json(const FrameRecord& frame) {
   json["mean_J_P"] = number_or_null(frame.metrics.mean_J_P);
   json["fragments"] = frame.metrics.fragments;
   json["largest_fragment"] = number_or_null(frame.metrics.largest_fragment);
+  json["powder"] = number_or_null(frame.metrics.powder);
+  json["crumbs"] = number_or_null(frame.metrics.crumbs);
   json["forces"] = Json::array();
   for (const ColliderForce& force : frame.forces) json["forces"].push_back(to_json(force));
   json["state_hash"] = hash_text(frame.state_hash);
@@ -171,6 +173,9 @@ FrameRecord frame_record(const Json& json) {
       output::number_or_nan(json.at("spread")), output::number_or_nan(json.at("height")),
       output::number_or_nan(json.at("mean_J_P")), whole_number<std::size_t>(json.at("fragments")),
       output::number_or_nan(json.at("largest_fragment"))};
+  for (const auto& [name, value] :
+       {std::pair{"powder", &frame.metrics.powder}, std::pair{"crumbs", &frame.metrics.crumbs}})
+    *value = json.contains(name) ? output::number_or_nan(json.at(name)) : std::nan("");
   if (!json.contains("max_depth")) return frame;
   s.max_depth = output::number_or_nan(json.at("max_depth"));
   frame.metrics.max_depth_cells = output::number_or_nan(json.at("max_depth_cells"));

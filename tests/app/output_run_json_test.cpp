@@ -55,6 +55,8 @@ TEST(RunJson, RunJsonHasTheFieldsOfTheContract) {
                                           "mean_J_P",
                                           "fragments",
                                           "largest_fragment",
+                                          "powder",
+                                          "crumbs",
                                           "forces",
                                           "state_hash"};
   EXPECT_EQ(keys(json["frames"][0]), expected);

@@ -43,8 +43,14 @@ TEST(Metrics, CountFragmentsThatDoNotTouch) {
   EXPECT_EQ(metrics.fragments, 3u);
   EXPECT_NEAR(metrics.largest_fragment, 72.0 / 137, 1e-12);  // cells of 8 particles each
   EXPECT_NEAR(metrics.mean_J_P, 0.9, 1e-12);
+  EXPECT_NEAR(metrics.crumbs, 1.0 / 137, 1e-12);
+  EXPECT_EQ(metrics.powder, 0);
   EXPECT_EQ(app::record::measure(particles, 2).fragments,
             2u);  // larger cells bridge the gap of one
+  particles.x.emplace_back(20, 0, 0);
+  particles.m.push_back(1);
+  particles.J_P.push_back(0.9);
+  EXPECT_NEAR(app::record::measure(particles, 1).powder, 1.0 / 1097, 1e-12);
 }
 
 TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
