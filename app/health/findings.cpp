@@ -81,6 +81,7 @@ void report_thin(const std::vector<Thin>& thin, const ThinAdvice& advice,
 void check_material_units(const sim::Material& m, std::vector<Finding>& findings) {
   const std::string at = "material." + m.name + ".", density = rough_text(m.density),
                     modulus = rough_text(m.youngs_modulus);
+  if (m.model == sim::Model::sand) return;  // another density, another stiffness
   if (m.density > 0.03 && m.density < 2)
     findings.push_back(
         {Severity::warning, at + "density",

@@ -89,6 +89,7 @@ std::string strength_line(const sim::Material& m) {
     return "cam clay, " + rough_text(m.friction_angle) + " degrees, cohesion " +
            rough_text(m.cohesion) + ", p0 " + rough_text(m.consolidation_pressure) +
            " Pa, hardening " + rough_text(m.consolidation_hardening);
+  if (m.model == sim::Model::sand) return "sand, " + rough_text(m.friction_angle) + " degrees";
   return "hardening " + rough_text(m.hardening) + ", theta " + rough_text(m.critical_compression) +
          " and " + rough_text(m.critical_stretch);
 }

@@ -152,7 +152,7 @@ Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
 
 /// The factors of variation leave every particle a stretch to which it can be compressed.
 Found variation_problem(const sim::Material& material) {
-  if (material.model == sim::Model::cam_clay) return {};
+  if (material.model != sim::Model::snow) return {};
   const double factor = sim::shapes::max_factor(material.variation.thresholds);
   const double theta_c = material.critical_compression;
   if (theta_c * factor < 1) return {};

@@ -174,7 +174,7 @@ void describe_snow_numbers(V& visit, sim::Material& m) {
   visit("critical_stretch", m.critical_stretch, unit::none, between(0, 100), live,
         "The paper's theta_s: stretch at which snow breaks.");
   visit("friction_angle", m.friction_angle, unit::degrees, above(0).below(90), live,
-        "cam_clay: angle of friction of snow that flows at constant volume.");
+        "Angle of friction of cam_clay that flows at constant volume, and of sand.");
   visit("cohesion", m.cohesion, unit::none, between(0, 10), live,
         "cam_clay: tension that snow bears, as a share of its consolidation pressure.");
   visit("consolidation_pressure", m.consolidation_pressure, unit::pascal, between(1e-3, 1e12), live,
@@ -188,10 +188,9 @@ void describe(V& visit, sim::Material& m) {
   visit.shorthand(
       "preset", preset_of(m), [&m](Preset preset) { use_preset(m, preset); },
       "Named kind of snow: sets the density and the numbers below it, unless they are given.");
-  visit(
-      "model", m.model, unit::none, anything, Change::live,
-      "The paper's snow; cam_clay, snow whose stiffness stays as its strength grows; or an elastic "
-      "law.");
+  visit("model", m.model, unit::none, anything, Change::live,
+        "The paper's snow; cam_clay, snow whose stiffness stays as its strength grows; sand; or an "
+        "elastic law.");
   describe_snow_numbers(visit, m);
   visit("min_J_P", m.min_J_P, unit::none, above(0).at_most(1), Change::live,
         "Smallest plastic volume ratio: snow packed further keeps yielding but hardens no more.");

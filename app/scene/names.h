@@ -58,7 +58,8 @@ constexpr auto names(sim::Precision) {
 constexpr auto names(sim::Model) {
   using enum sim::Model;
   return std::array{Name{snow, "snow"}, Name{corotated, "corotated"},
-                    Name{neo_hookean, "neo_hookean"}, Name{cam_clay, "cam_clay"}};
+                    Name{neo_hookean, "neo_hookean"}, Name{cam_clay, "cam_clay"},
+                    Name{sand, "sand"}};
 }
 constexpr auto names(Preset) {
   using enum Preset;

@@ -35,7 +35,7 @@ sim::Material snow_of(Preset preset);
 /// Sets every number of the snow, and neither name nor model.
 void use_preset(sim::Material& material, Preset preset);
 
-/// The preset whose numbers these are, all of them.
+/// The preset whose numbers these are, all that the law of the material reads.
 std::optional<Preset> preset_of(const sim::Material& material);
 
 /// True for the address of a material's preset: "material.snow.preset".

@@ -79,6 +79,7 @@ double largest(const std::vector<sim::Material>& materials, double (*of)(const s
 
 /// Compression by theta_c in each direction, the elastic limit of undeformed snow.
 double yield_pressure(const sim::Material& m) {
+  if (m.model == sim::Model::sand) return std::numeric_limits<double>::infinity();
   if (m.model == sim::Model::cam_clay) return m.consolidation_pressure;
   const sim::Lame l = sim::lame(m.youngs_modulus, m.poisson_ratio);
   const double theta = std::clamp(m.critical_compression, 0.001, 0.5);
@@ -86,6 +87,7 @@ double yield_pressure(const sim::Material& m) {
 }
 
 double yield_shear(const sim::Material& m) {
+  if (m.model == sim::Model::sand) return std::numeric_limits<double>::infinity();
   if (m.model == sim::Model::cam_clay) return sim::health::cam_clay::limits(m, 1).deviator;
   const sim::Lame l = sim::lame(m.youngs_modulus, m.poisson_ratio);
   const double theta = std::clamp(m.critical_compression + m.critical_stretch, 0.001, 0.5);

@@ -174,7 +174,7 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
     s.min_J_P = q == begin ? J_P : std::min(s.min_J_P, J_P);
     s.max_J_P = q == begin ? J_P : std::max(s.max_J_P, J_P);
     if (J_P <= health::packed_J_P) s.packed += m;
-    const bool packs = kernels::is_plastic(static_cast<kernels::ModelKind>(p.model()));
+    const bool packs = kernels::is_snow(static_cast<kernels::ModelKind>(p.model()));
     if (packs && m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
   }
   return s;

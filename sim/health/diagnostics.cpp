@@ -10,6 +10,7 @@
 
 #include "sim/health/cam_clay.h"
 #include "sim/health/limits.h"
+#include "sim/health/sand.h"
 #include "sim/kernels/constitutive.h"
 #include "sim/types/number_text.h"
 
@@ -119,6 +120,7 @@ double hardening_factor(const Material& material, double J_P) {
 
 double energy_density(const Material& material, const Mat3d& F_E, double J_P) {
   if (material.model == Model::cam_clay) return cam_clay::energy_density(material, F_E);
+  if (material.model == Model::sand) return sand::energy_density(material, F_E);
   const Lame l = hardened(material, J_P);
   if (material.model == Model::neo_hookean) {
     const double J = F_E.determinant();
@@ -155,6 +157,7 @@ std::array<double, 4> energy_densities(const std::array<const Material*, 4>& mat
 
 Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
   if (material.model == Model::cam_clay) return cam_clay::first_piola(material, F_E);
+  if (material.model == Model::sand) return sand::first_piola(material, F_E);
   const Lame l = hardened(material, J_P);
   if (material.model == Model::neo_hookean) {
     const Mat3d inverse_transposed = F_E.inverse().transpose();
@@ -165,7 +168,7 @@ Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
 }
 
 ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P) {
-  if (material.model == Model::neo_hookean || material.model == Model::cam_clay)
+  if (material.model != Model::snow && material.model != Model::corotated)
     return {energy_density(material, F_E, J_P), first_piola(material, F_E, J_P)};
   const Lame l = hardened(material, J_P);
   const Principal p = decompose(F_E);
@@ -175,6 +178,7 @@ ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, dou
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0) {
   if (material.model == Model::cam_clay)
     return std::sqrt(cam_clay::wave_modulus(material, F_E) / rho0);
+  if (material.model == Model::sand) return std::sqrt(sand::wave_modulus(material, F_E) / rho0);
   const Lame l = hardened(material, J_P);
   const double stretch = F_E.jacobiSvd().singularValues()[0], J = F_E.determinant();
   return std::sqrt((2 * l.mu * stretch * stretch + l.lambda * J * J) / rho0);
@@ -186,6 +190,7 @@ double consolidation_pressure(const Material& material, double J_P) {
 
 double nearness_to_yield(const Material& material, const Mat3d& F_E, double J_P) {
   if (material.model == Model::cam_clay) return cam_clay::nearness_to_yield(material, F_E, J_P);
+  if (material.model == Model::sand) return sand::nearness_to_yield(material, F_E);
   if (material.model != Model::snow) return 0;
   const Vec3d s = decompose(F_E).s;
   constexpr double least = 1e-9;

@@ -43,8 +43,8 @@ double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double
 double consolidation_pressure(const Material& material, double J_P);
 
 /// 1 where the material yields, below inside, 0 at rest in the middle: of cam clay on rays from the
-/// middle of its ellipse, of the paper's snow the largest stretch over its threshold; 0 for elastic
-/// laws.
+/// middle of its ellipse, of the paper's snow the largest stretch over its threshold, of sand q
+/// over M p; 0 for elastic laws.
 double nearness_to_yield(const Material& material, const Mat3d& F_E, double J_P);
 
 /// Fills in the culprit of the rule that d names, its state, and the sentence for the user.

@@ -11,7 +11,7 @@ namespace neve::sim::kernels {
 inline constexpr int block_side = 4, block_nodes = 64;
 
 /// A particle's code in its block is model * 64 + cell.
-inline constexpr int model_codes = 4;
+inline constexpr int model_codes = 5;
 
 /// Blocks lie within +-2^20 of the lattice's zero on each axis (4 million cells): beyond is
 /// overflow.

@@ -9,6 +9,7 @@
 #include "sim/kernels/decompose.h"
 #include "sim/kernels/particle_lanes.h"
 #include "sim/kernels/row.h"
+#include "sim/kernels/sand.h"
 
 namespace neve::sim::kernels {
 
@@ -267,10 +268,12 @@ class MaterialUpdate {
   NEVE_NOINLINE void operator()(ParticleLanes<Real, W>* batch, int count, ModelKind model,
                                 const MaterialConstants<Real>* table, bool is_projected,
                                 V* wave_modulus, unsigned* is_inverted, const Look& look) {
-    if (model == ModelKind::cam_clay) {
+    if (model == ModelKind::cam_clay || model == ModelKind::sand) {
       for (int k = 0; k * W < count; ++k) {
         const unsigned used = lane_bits(first_lanes<MaskOf<V>>(count - k * W));
-        is_inverted[k] = used & by_invariants(batch[k], table, is_projected, wave_modulus[k]);
+        is_inverted[k] = used & (model == ModelKind::sand
+                                     ? as_sand(batch[k], table, is_projected, wave_modulus[k])
+                                     : as_clay(batch[k], table, is_projected, wave_modulus[k]));
         look(k, batch[k], wave_modulus[k]);
       }
       return;
@@ -322,11 +325,15 @@ class MaterialUpdate {
     wave_modulus = m.wave_modulus();
   }
 
-  /// Laws that need no decomposition.
-  NEVE_NOINLINE static unsigned by_invariants(ParticleLanes<Real, W>& p,
-                                              const MaterialConstants<Real>* table,
-                                              bool is_projected, V& wave_modulus) {
+  NEVE_NOINLINE static unsigned as_clay(ParticleLanes<Real, W>& p,
+                                        const MaterialConstants<Real>* table, bool is_projected,
+                                        V& wave_modulus) {
     return cam_clay(p, table, is_projected, wave_modulus);
+  }
+  NEVE_NOINLINE static unsigned as_sand(ParticleLanes<Real, W>& p,
+                                        const MaterialConstants<Real>* table, bool is_projected,
+                                        V& wave_modulus) {
+    return sand(p, table, is_projected, wave_modulus);
   }
 
   /// N batches of packed particles from the q-th.

@@ -69,6 +69,10 @@ NEVE_INLINE Elasticity<V> elasticity(const Record<V, I>& p, ModelKind model,
     const CamClayLanes<V> m = take_cam_clay(p, table);
     return {left_cauchy_green(p.F_E), p.V0 * m.mu, p.V0 * m.K};
   }
+  if (model == ModelKind::sand) {
+    const SandLanes<V> m = take_sand(p, table);
+    return {left_cauchy_green(p.F_E), p.V0 * m.mu, p.V0 * m.lambda};
+  }
   MaterialLanes<V> m;
   take_lanes(p, table, m);
   V mu, lambda;
@@ -118,6 +122,7 @@ NEVE_INLINE void solve_for_spin(const Sym3<V>& stretch, const V* k, V* w) {
 template <class V>
 NEVE_INLINE void stress_change(const Elasticity<V>& e, ModelKind model, const V* G, V* D) {
   using Real = ElementOf<V>;
+  if (model == ModelKind::sand) return sand_stress_change(e.shape, e.V0_mu, e.V0_lambda, G, D);
   const V trace = G[0] + G[4] + G[8];
   V on_transpose, on_identity;
   if (model == ModelKind::cam_clay) {

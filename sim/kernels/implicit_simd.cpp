@@ -2,7 +2,7 @@
 /// its own for the steps can still take these.
 
 #include "sim/kernels/implicit.h"
-#include "sim/kernels/kernels_at.h"
+#include "sim/kernels/simd.h"
 
 namespace neve::sim::kernels {
 

@@ -1,8 +1,8 @@
 /// The sweeps of contact of an instruction set. Apart from simd.cpp, so that a program with kernels
 /// of its own for the steps can still take these.
 
-#include "sim/kernels/kernels_at.h"
 #include "sim/kernels/particle_contact.h"
+#include "sim/kernels/simd.h"
 
 namespace neve::sim::kernels {
 

@@ -7,11 +7,21 @@
 
 namespace neve::sim::kernels {
 
-enum class ModelKind : std::uint8_t { snow = 0, corotated = 1, neo_hookean = 2, cam_clay = 3 };
+enum class ModelKind : std::uint8_t {
+  snow = 0,
+  corotated = 1,
+  neo_hookean = 2,
+  cam_clay = 3,
+  sand = 4
+};
 
+/// Laws of snow.
+NEVE_INLINE constexpr bool is_snow(ModelKind model) {
+  return model == ModelKind::snow || model == ModelKind::cam_clay;
+}
 /// Laws that return what is turned inside out.
 NEVE_INLINE constexpr bool is_plastic(ModelKind model) {
-  return model == ModelKind::snow || model == ModelKind::cam_clay;
+  return is_snow(model) || model == ModelKind::sand;
 }
 
 enum ParticleFlag : std::uint8_t {
@@ -34,7 +44,7 @@ struct Record {
   I cell[3];
   I kind;       ///< material | model << 16 | flags << 24
   R stiffness;  ///< factor on mu and lambda
-  R threshold;  ///< factor on theta_c and theta_s, or on p0
+  R threshold;  ///< factor on theta_c and theta_s, on p0, or on the friction of sand
   I id;
   R C[9];  ///< 1/s, affine velocity of all transfers but FLIP, row by row
 

@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "sim/base/cpu.h"
-#include "sim/kernels/kernels_at.h"
 
 namespace neve::sim::kernels {
 

@@ -21,6 +21,8 @@ inline kernels::ModelKind model_kind(Model model) {
       return kernels::ModelKind::neo_hookean;
     case Model::cam_clay:
       return kernels::ModelKind::cam_clay;
+    case Model::sand:
+      return kernels::ModelKind::sand;
     default:
       return kernels::ModelKind::snow;
   }

@@ -5,8 +5,9 @@
 
 namespace neve::sim {
 
-/// snow: the paper's. cam_clay: sim/kernels/cam_clay.h. The others are elastic.
-enum class Model { snow, corotated, neo_hookean, cam_clay };
+/// snow: the paper's. cam_clay and sand: the files of these names in sim/kernels. The others are
+/// elastic.
+enum class Model { snow, corotated, neo_hookean, cam_clay, sand };
 
 /// Laws that pack, tear and can be packed again.
 constexpr bool is_snow(Model model) {
@@ -14,13 +15,13 @@ constexpr bool is_snow(Model model) {
 }
 /// Laws whose moduli grow by e^(xi (1 - J_P)) as they pack.
 constexpr bool hardens(Model model) {
-  return model != Model::cam_clay;
+  return model != Model::cam_clay && model != Model::sand;
 }
 
 /// Variation between particles: relative standard deviations.
 struct Variation {
   double density = 0, youngs_modulus = 0;
-  double thresholds = 0;  ///< theta_c and theta_s together; p0 of cam clay
+  double thresholds = 0;  ///< theta_c and theta_s together; p0 of cam clay; friction of sand
   double size = 0.05;     ///< m, of stiffer and softer lumps; 0: each particle on its own
 };
 
@@ -34,11 +35,11 @@ struct Material {
   double critical_compression = 0.025;  ///< theta_c
   double critical_stretch = 0.0075;     ///< theta_s
   /// Cam clay: its yield surface is an ellipse over the pressure, from -beta p0 to p0.
-  double friction_angle = 39;            ///< degrees, of the critical state; M = 1.6
-  double cohesion = 0.3;                 ///< beta
-  double consolidation_pressure = 3300;  ///< p0 of the start, Pa
+  double friction_angle = 39;            ///< degrees, of the critical state (M = 1.6), and of sand
+  double cohesion = 0.4;                 ///< beta
+  double consolidation_pressure = 4500;  ///< p0 of the start, Pa
   double consolidation_hardening = 1;    ///< xi of p0
-  double strength = 1;                   ///< factor of a particle on p0; no scene key
+  double strength = 1;                   ///< factor of a particle on p0, or friction; no scene key
   /// Range of J_P, and the largest factor of hardening. The paper bounds none of them. Beyond 20
   /// snow is single particles, and their J_P only says for how long they have been alone.
   double min_J_P = 0.1, max_J_P = 20, max_hardening = 1e4;

@@ -76,15 +76,14 @@ void compare_nodes(const Json& expected, const NodeFields& found, const Vec3i& f
 void compare_state(const Json& expected, const ParticleArrays& found, const Material& material,
                    bool has_C, const Tolerance& tolerance) {
   RelativeError x, v, V0, F_E, J_P, C;
-  const bool is_clay = material.model == Model::cam_clay;
   const std::vector<double> from_alpha =
-      is_clay ? plastic_volumes(expected, material) : std::vector<double>();
+      has_alpha(material) ? plastic_volumes(expected, material) : std::vector<double>();
   for (std::size_t p = 0; p < found.x.size(); ++p) {
     x.add_all(vec3(expected["x"][p]), found.x[p]);
     v.add_all(vec3(expected["v"][p]), found.v[p]);
     V0.add(expected["volume0"][p].get<double>(), found.V0[p]);
     F_E.add_all(strain_of(material, mat3(expected["FE"][p])), strain_of(material, found.F_E[p]));
-    J_P.add(is_clay ? from_alpha[p] : expected["JP"][p].get<double>(), found.J_P[p]);
+    J_P.add(has_alpha(material) ? from_alpha[p] : expected["JP"][p].get<double>(), found.J_P[p]);
     C.add_all(mat3(expected["C"][p]), found.C[p]);
   }
   compare_field("x", x, tolerance.field);

@@ -89,6 +89,8 @@ inline bool is_known(const Json& material) {
   if (!material.contains("model")) return true;
   const std::string model = material["model"];
   if (model == "cam_clay") return material["flow"] == "radial" && material["plastic"].get<bool>();
+  if (model == "sand")
+    return material["volume_correction"].get<bool>() && material["plastic"].get<bool>();
   return model == "corotated" || model == "neo_hookean";
 }
 
@@ -109,8 +111,19 @@ inline neve::sim::Material cam_clay_material(const Json& j) {
   return m;
 }
 
+inline neve::sim::Material sand_material(const Json& j) {
+  neve::sim::Material m;
+  m.model = neve::sim::Model::sand;
+  m.youngs_modulus = j["E"].get<double>();
+  m.poisson_ratio = j["nu"].get<double>();
+  m.friction_angle = j["friction_angle"].get<double>();
+  m.max_J_P = 1e9;
+  return m;
+}
+
 inline neve::sim::Material material(const Json& j) {
   using namespace neve::sim;
+  if (j["model"] == "sand") return sand_material(j);
   if (j["model"] == "cam_clay") return cam_clay_material(j);
   Material m;
   const bool is_plastic = j["plastic"].get<bool>();
@@ -126,10 +139,20 @@ inline neve::sim::Material material(const Json& j) {
   return m;
 }
 
-/// F_E as far as the law knows it: cam clay's is known up to a rotation on the right, so b.
+/// Cam clay and sand, whose history the vectors call alpha.
+inline bool has_alpha(const neve::sim::Material& material) {
+  return material.model == neve::sim::Model::cam_clay || material.model == neve::sim::Model::sand;
+}
+/// alpha at J_P = 1.
+inline double alpha_at_rest(const neve::sim::Material& material) {
+  return material.model == neve::sim::Model::cam_clay
+             ? neve::sim::health::cam_clay::alpha0(material)
+             : 0;
+}
+
+/// F_E as far as the law knows it: these two know it up to a rotation on the right, so b.
 inline Mat3d strain_of(const neve::sim::Material& material, const Mat3d& F_E) {
-  if (material.model != neve::sim::Model::cam_clay) return F_E;
-  return F_E * F_E.transpose();
+  return has_alpha(material) ? Mat3d(F_E * F_E.transpose()) : F_E;
 }
 
 /// A scene of the reference as settings of ours. Nodes of the reference are ours plus `first_node`.
@@ -174,9 +197,9 @@ inline Setup setup(const Json& scene, neve::sim::Precision precision) {
 
 /// J_P of particles. The files choose alpha apart from F_P; here it is alpha0 + ln J_P.
 inline std::vector<double> plastic_volumes(const Json& j, const neve::sim::Material& material) {
-  if (material.model != neve::sim::Model::cam_clay)
+  if (!has_alpha(material))
     return list(j["FP"], [](const Json& F) { return mat3(F).determinant(); });
-  const double alpha0 = neve::sim::health::cam_clay::alpha0(material);
+  const double alpha0 = alpha_at_rest(material);
   return list(j["alpha"],
               [&](const Json& alpha) { return std::exp(alpha.get<double>() - alpha0); });
 }
@@ -190,8 +213,7 @@ inline neve::sim::ParticleArrays particles(const Json& j, const neve::sim::Mater
   const auto has = [&](const char* key) { return j.contains(key) && !j[key].is_null(); };
   if (has("volume0")) p.V0 = j["volume0"].get<std::vector<double>>();
   if (has("FE")) p.F_E = list(j["FE"], mat3);
-  const bool is_clay = material.model == neve::sim::Model::cam_clay;
-  if (has(is_clay ? "alpha" : "FP")) p.J_P = plastic_volumes(j, material);
+  if (has(has_alpha(material) ? "alpha" : "FP")) p.J_P = plastic_volumes(j, material);
   if (has("C")) p.C = list(j["C"], mat3);
   return p;
 }

@@ -16,20 +16,21 @@ using namespace neve::sim;
 using namespace neve::test;
 
 std::vector<Material> all_materials() {
-  std::vector<Material> m(4);
+  std::vector<Material> m(5);
   m[1].model = Model::corotated;
   m[1].youngs_modulus = 3e4;
   m[2].model = Model::neo_hookean;
   m[2].youngs_modulus = 5e4;
   m[2].hardening = 0;
   m[3].model = Model::cam_clay;
+  m[4].model = Model::sand;
   return m;
 }
 
 /// Materials that change from particle to particle.
 void mix_materials(ParticleArrays& p) {
   std::mt19937 random(5);
-  for (std::size_t q = 0; q < p.x.size(); ++q) p.material.push_back(static_cast<int>(random() % 4));
+  for (std::size_t q = 0; q < p.x.size(); ++q) p.material.push_back(static_cast<int>(random() % 5));
 }
 
 /// A ball of 7000 particles, enough for seven threads, in the middle of hitting everything.

@@ -25,16 +25,17 @@ ParticleArrays strained(std::size_t count) {
   ParticleArrays p = sim::checks::self_test::small_ball();
   p.x.resize(count), p.v.resize(count), p.m.resize(count), p.V0.resize(count);
   disturb(p, 0.03, 1.0);
-  for (std::size_t q = 0; q < count; ++q) p.material.push_back(static_cast<int>(q % 4));
+  for (std::size_t q = 0; q < count; ++q) p.material.push_back(static_cast<int>(q % 5));
   return p;
 }
 
 std::vector<Material> all_models() {
-  std::vector<Material> materials(4);
+  std::vector<Material> materials(5);
   materials[1].model = Model::corotated;
   materials[1].youngs_modulus = 4e5;
   materials[2].model = Model::neo_hookean;
   materials[3].model = Model::cam_clay;
+  materials[4].model = Model::sand;
   return materials;
 }
 
@@ -247,7 +248,8 @@ TEST(ImplicitSolve, ASolveThatIsCutShortHalvesItsStep) {
 TEST(ImplicitSolve, ImplicitSolveOfCrushedBodiesLeavesNumbers) {
   // H is indefinite: crushed bodies buckle. dt is up to a hundred times the explicit one.
   for (const double crushed : {0.9, 0.5, 0.3})
-    for (const Model model : {Model::snow, Model::corotated, Model::neo_hookean, Model::cam_clay})
+    for (const Model model :
+         {Model::snow, Model::corotated, Model::neo_hookean, Model::cam_clay, Model::sand})
       for (const double dt : {1e-3, 8e-3, 5e-2}) {
         const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
         SolverSettings s = implicit_settings(test, 1);

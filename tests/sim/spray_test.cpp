@@ -158,13 +158,14 @@ TEST(Spray, SprayAroundCollidersHasTheBitsOfTheGrid) {
 }
 
 TEST(Spray, SprayOfSeveralModelsHasTheBitsOfTheGrid) {
-  std::vector<Material> materials(4);
+  std::vector<Material> materials(5);
   materials[1].model = Model::corotated;
   materials[2].model = Model::neo_hookean;
   materials[3].model = Model::cam_clay;
+  materials[4].model = Model::sand;
   ParticleArrays p = cloud(1200, 60, 5);
   for (std::size_t q = 0; q < p.x.size(); ++q)
-    p.material.push_back(static_cast<std::uint16_t>(q % 7 % 4));
+    p.material.push_back(static_cast<std::uint16_t>(q % 7 % 5));
   for (const Transfer transfer : transfers)
     expect_bits_of_the_grid<float>(spray_settings(transfer, Kernel::cubic), materials, {}, p, 8,
                                    3e-4);
