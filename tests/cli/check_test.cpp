@@ -446,7 +446,8 @@ TEST_F(Check, CheckForeseesThatSprayIsDear) {
 /// Which particles an impact crushes is chance: the range says what one of them would cost.
 TEST_F(Check, CheckForeseesThatAHardImpactMayCrushAParticle) {
   const std::string ball =
-      "frames = 12\n[solver]\ncell_size = 0.02\n[material.snow]\nyoungs_modulus = 2e5\n"
+      "frames = 12\n[solver]\ncell_size = 0.02\nshock_viscosity = "
+      "0\n[material.snow]\nyoungs_modulus = 2e5\n"
       "critical_compression = 0.03\ncritical_stretch = 0.005\n[[body]]\nname = \"ball\"\n"
       "shape = { sphere = { center = [0, 0.6, 0], radius = 0.08 } }\nvelocity = [0, -14, 0]\n"
       "[[collider]]\nname = \"post\"\nshape = { sphere = { center = [0, 0.3, 0], radius = 0.05 } "
