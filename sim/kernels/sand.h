@@ -117,7 +117,7 @@ NEVE_INLINE unsigned sand(Record<V, I>& p, const MaterialConstants<ElementOf<V>>
     }
     V J_P = is_apart ? p.J_P * exponential_lanes(before) : all<V>(1);
     J_P = J_P > m.max_J_P ? m.max_J_P : J_P;
-    p.J_P = is_apart | slides | (gained != V{}) ? J_P : p.J_P;
+    p.J_P = (is_apart | slides | (gained != V{})) ? J_P : p.J_P;
     const Sym3<V> A = in_axes(axes.U, change);
     for (int c = 0; c < 3; ++c) {
       const V x = F[c], y = F[3 + c], z = F[6 + c];

@@ -153,9 +153,11 @@ TEST(Preset, PresetIsDocumentedWithItsNumbers) {
   }
   for (const auto& name : app::scene::names(app::scene::Preset{})) {
     const sim::Material m = app::scene::snow_of(name.value);
-    EXPECT_EQ(rows[name.text],
-              (std::vector<double>{m.density, m.youngs_modulus, m.poisson_ratio, m.hardening,
-                                   m.critical_compression, m.critical_stretch}))
+    EXPECT_EQ(
+        rows[name.text],
+        (std::vector<double>{m.density, m.youngs_modulus, m.poisson_ratio, m.hardening,
+                             m.critical_compression, m.critical_stretch, m.friction_angle,
+                             m.cohesion, m.consolidation_pressure, m.consolidation_hardening}))
         << name.text;
   }
 }
