@@ -114,7 +114,7 @@ class ShockStress {
   }
 
   double operator()(std::size_t q, const Material& m, const Mat3d& tau_of_law) const {
-    if (m.model != Model::snow) return 0;
+    if (!is_snow(m.model) && m.model != Model::sand) return 0;
     const double largest = health::shock_pressure(share_, m.density, h_, rate_, c_);
     return std::clamp((tau_[q] - tau_of_law).trace() / 3, -largest, 0.0);
   }
