@@ -48,7 +48,7 @@ void Study::start(const fs::path& folder, record::RunRecord run, timeline::Momen
   options.axes = axes_of(request);
   if (request.has_longer_steps) options.overrides = longer_steps;
   const int start = moment.scene ? scene::number_of(*moment.scene, 0) : 0;
-  options.frames = setup::FrameRange{start + moment.frame + 1, start + request.last_frame};
+  options.frames = setup::FrameRange{setup::FrameRange::from_start, start + request.last_frame};
   options.out = (here / "study.cdb").string();
   std::error_code error;
   int runs = 0;
