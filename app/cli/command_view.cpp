@@ -85,9 +85,10 @@ int run_view(const view::ViewOptions& given) {
   std::optional<view::session::Opened> opened =
       view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
   if (timeline::is_folder(file) && !opened->past)
-    std::cerr << "neve: warning: " << file
-              << " has no checkpoint that this program can continue: the view starts at frame 0"
-              << std::endl;
+    std::cerr
+        << "neve: warning: " << file
+        << " has no checkpoint that this program can continue: the view starts at its first frame"
+        << std::endl;
   if (record::is_picture(file))
     if (const std::size_t changes = record::read_picture_record(file).changes.size(); changes > 0)
       std::cerr

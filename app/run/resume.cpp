@@ -130,7 +130,7 @@ std::optional<Resumption> find_resumption(const std::filesystem::path& folder,
   for (const std::string& damaged : found.damaged)
     progress.warning(damaged + "; using an older checkpoint");
   if (!found.checkpoint) {
-    progress.note("no checkpoint in " + folder.string() + ": the run starts at frame 0");
+    progress.note("no checkpoint in " + folder.string() + ": the run starts at its first frame");
     return std::nullopt;
   }
   check_identity(folder, *found.checkpoint, picture, record.simd, progress);

@@ -100,7 +100,7 @@ TEST_F(Resume, AnotherSceneIsRefusedAndNothingIsTouched) {
 TEST_F(Resume, ARunWithoutACheckpointStartsAtTheBeginning) {
   const auto result = render("out", {"--resume", "--frames", "0-1"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_TRUE(contains(result.errors, "starts at frame 0")) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "starts at its first frame")) << result.errors;
   EXPECT_EQ(render("out", {"--checkpoint-every", "-1"}).exit_code, 2);
 }
 

@@ -174,7 +174,7 @@ void draw_help(ViewerState& state) {
     draw_keys("ctrl + click", "inspect the node of the grid");
     draw_keys("space", "run and pause");
     draw_keys(".   ,   ;", "next frame, step, stage");
-    draw_keys("R", "reset to frame 0");
+    draw_keys("R", "reset to the first frame");
     draw_keys("left, right, home, end", "kept frames");
     draw_keys("1 to 9", "the first nine views");
     draw_keys("F   shift + F", "frame the selection; everything");

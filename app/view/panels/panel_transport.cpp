@@ -142,8 +142,8 @@ void draw_transport(ViewerState& state) {
   }
   const std::vector<std::string> waiting = state.bench.waiting_for_reset();
   if (button("Reset",
-             waiting.empty() ? "go back to frame 0 (R)"
-                             : "go back to frame 0 with the values that wait for it (R)",
+             waiting.empty() ? "go back to the first frame (R)"
+                             : "go back to the first frame with the values that wait for it (R)",
              true, !waiting.empty()))
     state.bench.reset();
   gap();
