@@ -112,10 +112,6 @@ void check_shape(const sim::shapes::Shape& shape, const std::string& address,
   check_openness(*read, mesh->fill, address + ".shape.mesh.fill", name, findings);
 }
 
-}  // namespace
-
-namespace {
-
 /// Far from the origin, the spacing of numbers in single precision reaches the size of cells.
 void check_distance(const scene::Scene& scene, const sim::shapes::Shape& shape,
                     const std::string& address, const std::string& name,

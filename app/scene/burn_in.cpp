@@ -1,7 +1,8 @@
 #include "app/scene/burn_in.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <vector>
 
@@ -16,13 +17,6 @@ namespace {
 
 using Values = std::map<std::string, std::string>;
 
-/// Number of a frame as names of files have it.
-std::string padded_number(int number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%04d", number);
-  return text;
-}
-
 std::string plain_text(const FlatParam& param) {
   if (param.value)
     if (const auto* text = std::get_if<std::string>(&param.value->data)) return *text;
@@ -33,7 +27,7 @@ Values values_of(const Scene& scene, const PictureWords& words) {
   Values values;
   for (const FlatParam& param : flatten(scene)) values[param.address] = plain_text(param);
   const int number = number_of(scene, words.frame);
-  values["frame"] = padded_number(number);
+  values["frame"] = fmt::format("{:04}", number);  // as in names of files
   values["time"] = fixed_text(words.time, 3) + " s";
   values["time_code"] = time_code_of(scene, number, scene.fps);
   values["range"] = range_text(scene);

@@ -110,6 +110,11 @@ std::string what(const Divergence& d, double acoustic_cfl) {
   return text;
 }
 
+/// Whether the energy is one of stretches alone, which one decomposition gives.
+bool takes_stretches(const Material& material) {
+  return material.model == Model::snow || material.model == Model::corotated;
+}
+
 }  // namespace
 
 double hardening_factor(const Material& material, double J_P) {
@@ -135,10 +140,8 @@ std::array<double, 4> energy_densities(const std::array<const Material*, 4>& mat
                                        const std::array<Mat3d, 4>& F_E,
                                        const std::array<double, 4>& J_P) {
   std::array<double, 4> out;
-  const auto takes_stretches = [](const Material* m) {
-    return m->model == Model::snow || m->model == Model::corotated;
-  };
-  if (std::none_of(materials.begin(), materials.end(), takes_stretches)) {
+  if (std::none_of(materials.begin(), materials.end(),
+                   [](const Material* m) { return takes_stretches(*m); })) {
     for (std::size_t l = 0; l < 4; ++l) out[l] = energy_density(*materials[l], F_E[l], J_P[l]);
     return out;
   }
@@ -148,7 +151,7 @@ std::array<double, 4> energy_densities(const std::array<const Material*, 4>& mat
       for (std::size_t l = 0; l < 4; ++l) rows[3 * a + b][l] = F_E[l](a, b);
   const kernels::SignedSvd<Quad<double>> svd = kernels::signed_svd_lanes(rows);
   for (std::size_t l = 0; l < 4; ++l)
-    out[l] = !takes_stretches(materials[l])
+    out[l] = !takes_stretches(*materials[l])
                  ? energy_density(*materials[l], F_E[l], J_P[l])
                  : corotated_energy(hardened(*materials[l], J_P[l]),
                                     Vec3d(svd.s[0][l], svd.s[1][l], svd.s[2][l]));
@@ -168,7 +171,7 @@ Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
 }
 
 ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P) {
-  if (material.model != Model::snow && material.model != Model::corotated)
+  if (!takes_stretches(material))
     return {energy_density(material, F_E, J_P), first_piola(material, F_E, J_P)};
   const Lame l = hardened(material, J_P);
   const Principal p = decompose(F_E);
