@@ -109,6 +109,13 @@ ParticleArrays small_ball() {
   return p;
 }
 
+Vec3d grid_velocity(Kernel kernel, const NodeFields& nodes, const Vec3d& x) {
+  Vec3d v = Vec3d::Zero();
+  for (std::size_t i = 0; i < nodes.mass.size(); ++i)
+    v += weight(kernel, place(nodes.node[i]) - x) * nodes.v_new[i];
+  return v;
+}
+
 double inertia(Kernel kernel) {
   return self_test::cell_size * self_test::cell_size *
          (kernel == Kernel::cubic ? 1.0 / 3 : 1.0 / 4);

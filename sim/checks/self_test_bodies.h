@@ -56,6 +56,9 @@ double weight(Kernel kernel, const Vec3d& node_minus_particle);
 /// (Hu et al. 2018).
 Vec3d weight_gradient(Kernel kernel, Transfer transfer, const Vec3d& node_minus_particle);
 
+/// sum w_ip v_i of the step's end, m/s.
+Vec3d grid_velocity(Kernel kernel, const NodeFields& nodes, const Vec3d& x);
+
 /// D of APIC, h^2/3 or h^2/4 (Jiang et al. 2015), m2.
 double inertia(Kernel kernel);
 

@@ -64,6 +64,27 @@ void volumes(const SelfTestCase& test, self_test::Measure& measure) {
                   0.5, 3);
 }
 
+/// x_new - x = dt sum w_ip v_i in compressed snow, with every transfer that promises it.
+void places(const SelfTestCase& test, self_test::Measure& measure) {
+  constexpr double dt = 1e-2;
+  const Material material = without_stiffness();
+  self_test::Numbers number(53);
+  SolverSettings settings = self_test::settings_of(test);
+  settings.advect = Advect::pic;
+  ParticleArrays p = self_test::small_ball();
+  for (Vec3d& v : p.v) v = number.vector();
+  p.F_E.assign(p.x.size(), 0.98 * Mat3d::Identity());
+  const Simulation simulation(settings, {material}, {}, p, 1);
+  p = simulation.particles();
+  const StagedStep step = staged_step(simulation, dt);
+  for (std::size_t q = 0; q < p.x.size(); q += 16) {
+    const Vec3d moved = (step.after.x[q] - p.x[q]) / dt;
+    const Vec3d strained = self_test::grid_velocity(test.kernel, step.nodes, p.x[q]);
+    measure.zero("velocity of a place against that of the strain", (moved - strained).norm(),
+                 self_test::rounding);
+  }
+}
+
 /// Compares the two drivers: runs use the fused one, the other self-tests the staged one. A step of
 /// either, of a body that moves, yields and touches a plane, must end in the same state.
 void drivers(const SelfTestCase& test, self_test::Measure& measure) {

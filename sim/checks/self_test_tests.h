@@ -13,6 +13,10 @@ void force(const SelfTestCase& test, self_test::Measure& measure);
 void projection(const SelfTestCase& test, self_test::Measure& measure);
 void hardening(const SelfTestCase& test, self_test::Measure& measure);
 
+// Surfaces of yield: self_test_materials.cpp.
+void cam_clay(const SelfTestCase& test, self_test::Measure& measure);
+void sand(const SelfTestCase& test, self_test::Measure& measure);
+
 // Colliders: self_test_contact.cpp.
 void contact(const SelfTestCase& test, self_test::Measure& measure);
 
@@ -23,6 +27,7 @@ void solve(const SelfTestCase& test, self_test::Measure& measure);
 void initial_state(const SelfTestCase& test, self_test::Measure& measure);
 void free_fall(const SelfTestCase& test, self_test::Measure& measure);
 void volumes(const SelfTestCase& test, self_test::Measure& measure);
+void places(const SelfTestCase& test, self_test::Measure& measure);
 void drivers(const SelfTestCase& test, self_test::Measure& measure);
 
 // Around the steps: self_test_run.cpp.

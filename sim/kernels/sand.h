@@ -5,9 +5,13 @@
 ///   psi = mu e.e + lambda/2 (sum e)^2,   tau = U diag(2 mu e + lambda sum e) U^T
 /// and alpha = ln J_P >= 0 the volume gained, which has to be given back before sand bears
 /// pressure:
-///   e_hat = e + alpha/3,  t = sum e_hat,  d = e_hat - t/3,  gamma = |d| + (3 lambda + 2 mu)/(2 mu)
-///   t a t >= 0      no contact of grains: e' = 0 gamma > 0   beyond the cone q = M p: e' = e_hat -
-///   gamma d/|d| else        e' = e_hat
+///   e_hat = e + alpha/3,  t = sum e_hat,  d = e_hat - t/3,
+///   gamma = |d| + (3 lambda + 2 mu)/(2 mu) a t
+///
+///   t >= 0     grains do not touch:         e' = 0
+///   gamma > 0  beyond the cone q = M p:     e' = e_hat - gamma d/|d|
+///   else                                    e' = e_hat
+///
 /// with a = sqrt(2/3) M/3, and alpha grows by sum e - sum e'.
 /// Sources: Klar et al. 2016, Drucker-Prager elastoplasticity for sand animation, ACM Transactions
 /// on Graphics 35 (cone); Tampubolon et al. 2017, Multi-species simulation of porous sand and water

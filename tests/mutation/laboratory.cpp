@@ -109,7 +109,10 @@ Finding Laboratory::examine(const Mistake& mistake) const {
       if (is_source(edit) && !fs::exists(copies / (fs::path(edit.file).stem().string() + ".o")))
         add(edit.file);
     std::vector<std::string> link = objects;
-    link.insert(link.end(), {NEVE_PROBE, NEVE_SIM, "-pthread", "-o", (copies / "probe").string()});
+    // Where the build compiles many files as one, the library has all of a file that was changed a
+    // second time; the first is taken.
+    link.insert(link.end(), {NEVE_PROBE, NEVE_SIM, "-Wl,-z,muldefs", "-pthread", "-o",
+                             (copies / "probe").string()});
     run(NEVE_COMPILER, link, copies);
     std::vector<std::string> arguments{"60", (copies / "probe").string()};
     arguments.insert(arguments.end(), mistake.arguments.begin(), mistake.arguments.end());

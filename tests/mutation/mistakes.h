@@ -33,6 +33,7 @@ std::vector<Mistake> gradient_mistakes();
 std::vector<Mistake> stress_mistakes();
 std::vector<Mistake> volume_mistakes();
 std::vector<Mistake> plasticity_mistakes();
+std::vector<Mistake> law_mistakes();
 std::vector<Mistake> transfer_mistakes();
 std::vector<Mistake> affine_mistakes();
 std::vector<Mistake> solve_mistakes();

@@ -44,6 +44,16 @@ std::vector<Mistake> contact_mistakes() {
        "contact at particles: friction bounded by the coefficient alone",
        {{at_particles, "return c.collider < I{} ? c.friction : c.friction * c.impulse;",
          "return c.friction;"}}},
+      {"impulses_forgotten",
+       "contact at particles: every step begins without the impulses of the last, two passes are "
+       "all",
+       {{"sim/engine/particle_contact.cpp",
+         "a.carried = static_cast<Real>(std::min(longer, max_carried));",
+         "a.carried = static_cast<Real>(std::min(longer, 0.0));"}}},
+      {"rest_of_the_solve_in_no_book",
+       "semi-implicit: colliders get the impulses of their springs alone, not what the solve left "
+       "over",
+       {{"sim/engine/particle_contact.cpp", "  share(unexplained);", "  share(0 * unexplained);"}}},
       {"torque_about_the_cell",
        "contact at particles: torque from the cell of a particle, not from its place",
        {{at_particles, "(static_cast<double>(c.offset[x][l]) - pose.offset[x])",

@@ -184,6 +184,12 @@ std::vector<Mistake> affine_mistakes() {
          "own[a] = (p.v[a] - g.v[a]) * alpha;"}},
        {"--asflip"},
        about},
+      {"places_without_strain",
+       "ASFLIP: packed snow, too, moves by its own velocity, which does not strain F",
+       {{stages, "J_E >= all<V>(c.separating_J_E) ? all<V>(c.beta_max) : all<V>(c.beta_min)",
+         "J_E >= V{} ? all<V>(c.beta_max) : all<V>(c.beta_min)"}},
+       {"--asflip"},
+       about},
       {"affine_velocity_transposed",
        "ASFLIP: momentum of Cᵀ (x_i − x_p) instead of C (x_i − x_p)",
        {{stages,
@@ -215,9 +221,10 @@ std::vector<Mistake> step_mistakes() {
 
 std::vector<Mistake> all_mistakes() {
   std::vector<Mistake> all;
-  for (const auto& part : {gradient_mistakes(), stress_mistakes(), volume_mistakes(),
-                           plasticity_mistakes(), transfer_mistakes(), affine_mistakes(),
-                           solve_mistakes(), contact_mistakes(), run_mistakes(), step_mistakes()})
+  for (const auto& part :
+       {gradient_mistakes(), stress_mistakes(), volume_mistakes(), plasticity_mistakes(),
+        law_mistakes(), transfer_mistakes(), affine_mistakes(), solve_mistakes(),
+        contact_mistakes(), run_mistakes(), step_mistakes()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

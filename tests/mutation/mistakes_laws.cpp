@@ -1,0 +1,37 @@
+/// Mistakes in the laws beside the paper's snow: cam clay and sand.
+
+#include "tests/mutation/mistakes.h"
+
+namespace neve::test {
+
+std::vector<Mistake> law_mistakes() {
+  constexpr const char* cam_clay = "sim/kernels/cam_clay.h";
+  constexpr const char* sand = "sim/kernels/sand.h";
+  return {
+      {"cam_clay_factor_squared",
+       "cam clay: the deviator scaled by 1/r² instead of 1/r",
+       {{cam_clay, "out.k = one / square_root_lanes(larger_lanes(r_squared, one));",
+         "out.k = one / larger_lanes(r_squared, one);"}}},
+      {"cam_clay_softens",
+       "cam clay: J_P follows the ratio of volumes the wrong way",
+       {{cam_clay, "V J_P = p.J_P * (J * inverse_square_root(found.J_squared));",
+         "V J_P = p.J_P * (inverse_square_root(J_squared) * "
+         "square_root_lanes(found.J_squared));"}}},
+      {"cam_clay_mean_kept",
+       "cam clay: the mean of b′ kept where its deviator shrinks, so det b′ is not 1",
+       {{cam_clay, "add_identity(found.k * d, mean),", "add_identity(found.k * d, t),"}}},
+      {"sand_forgets_volume",
+       "sand: pressure before the volume that it gained is given back",
+       {{sand, "const V third = Real(1.0 / 3) * gained, t = before + gained,",
+         "const V third{}, t = before,"}}},
+      {"sand_another_cone",
+       "sand: the slope q/p of the cone taken for that of its strains",
+       {{sand, "m.cone[l] = row.M * ElementOf<V>(0.81649658092772603 / 3)", "m.cone[l] = row.M"}}},
+      {"sand_parts_too_late",
+       "sand: grains part by the strain of the step alone",
+       {{sand, "const MaskOf<V> is_apart = t >= V{}, slides",
+         "const MaskOf<V> is_apart = before >= V{}, slides"}}},
+  };
+}
+
+}  // namespace neve::test
