@@ -8,6 +8,7 @@
 #include "app/forecast/step_cost.h"
 #include "app/health/findings.h"
 #include "app/health/mesh_findings.h"
+#include "app/health/slowness.h"
 #include "app/setup/auto_ranges.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
@@ -156,6 +157,7 @@ Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, d
   check.foreseen.include_spread(spread);
   check_copy(scene, check.foreseen, check.findings);
   check_crushing(scene, check);
+  check_slowness(scene, check, check.findings);
   // Emitted particles cannot be timed at the start: count half of them, as in the coarse copy.
   if (plan.emitted > 0 && check.seconds_per_step > 0)
     check.seconds_per_step = check.foreseen.seconds_per_particle_step / used_threads *

@@ -1,0 +1,162 @@
+#include "app/health/slowness.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/scene/coarsen.h"
+#include "app/support/round_number.h"
+#include "app/support/text.h"
+
+namespace neve::app::health {
+
+namespace {
+
+/// Particle-steps: some seconds on one core, and half an hour.
+constexpr double worth_a_word = 1e8, very_long = 2e10;
+/// Times the work of what is usual.
+constexpr double stands_out = 4;
+
+/// A parameter that multiplies the work of a run.
+struct Slow {
+  std::string address;
+  double times = 1;  ///< the work of the usual value
+  std::string what, hint;
+};
+
+/// "12.5", "1000", "250000"
+std::string times_text(double times) {
+  return times < 100 ? rough_text(times) : about_count_text(times);
+}
+
+/// One whose default takes longer steps.
+Slow below_default(const std::string& address, double value, double usual, double factor) {
+  return {
+      address, usual / value,
+      fmt::format("{:g} makes {} times the steps of {:g}", value, times_text(usual / value), usual),
+      scene::setting_text(address, usual, factor)};
+}
+
+/// What makes sound fast: density, moduli, lumps that are stiffer, snow that starts packed.
+void add_of_sound(const scene::Scene& scene, std::vector<Slow>& slow) {
+  const sim::Material usual;
+  const double c0 = sim::sound_speed(usual);
+  for (const sim::Material& m : scene.materials) {
+    const std::string table = "material." + m.name + ".";
+    const auto add = [&](const char* key, double value, double common, double times) {
+      slow.push_back(
+          {table + key, times,
+           fmt::format("{:g} makes sound {} times as fast as {:g} would, and steps as much shorter",
+                       value, times_text(times), common),
+           fmt::format("{}{} = {:g}", table, key, common)});
+    };
+    const auto with = [&](auto member, double value) {
+      sim::Material other = usual;
+      other.*member = value;
+      return sim::sound_speed(other) / c0;
+    };
+    add("youngs_modulus", m.youngs_modulus, usual.youngs_modulus,
+        with(&sim::Material::youngs_modulus, m.youngs_modulus));
+    add("density", m.density, usual.density, with(&sim::Material::density, m.density));
+    add("poisson_ratio", m.poisson_ratio, usual.poisson_ratio,
+        with(&sim::Material::poisson_ratio, std::min(m.poisson_ratio, 0.4999)));
+    // Among some thousand lumps one is stiffer by three and a half deviations.
+    add("variation.youngs_modulus", m.variation.youngs_modulus, 0,
+        std::exp(0.5 * 3.5 * m.variation.youngs_modulus));
+  }
+}
+
+/// The limit that sets most steps.
+sim::DtLimit ruling_limit(const Check& check) {
+  std::array<double, sim::dt_limit_count> steps{};
+  for (const forecast::FrameForecast& frame : check.foreseen.frames)
+    steps[static_cast<std::size_t>(frame.limit)] += frame.steps;
+  const auto most = std::max_element(steps.begin(), steps.end());
+  return *most > 0 ? static_cast<sim::DtLimit>(most - steps.begin()) : check.limit_start;
+}
+
+void add_of_steps(const scene::Scene& scene, const Check& check, std::vector<Slow>& slow) {
+  const sim::SolverSettings &s = scene.solver, usual;
+  using enum sim::DtLimit;
+  const auto compare = [&](const char* address, double value, double common, double factor = 1) {
+    slow.push_back(below_default(address, value, common, factor));
+  };
+  switch (ruling_limit(check)) {
+    case acoustic:
+      compare("solver.acoustic_cfl", s.acoustic_cfl, usual.acoustic_cfl);
+      return add_of_sound(scene, slow);
+    case cfl:
+    case collider:
+      return compare("solver.cfl", s.cfl, usual.cfl);
+    case strain:
+      return compare("solver.strain_limit", s.strain_limit, usual.strain_limit);
+    case max_dt:
+      return compare("solver.max_dt", s.max_dt, usual.max_dt * check.coarsening, check.coarsening);
+    case fixed: {
+      const double allowed = *std::min_element(check.start.dt.begin(), check.start.dt.end());
+      if (!(allowed < 1)) return;
+      slow.push_back(
+          {"solver.dt", allowed / s.dt,
+           fmt::format("fixed steps of {} s are {} times as many as the limits allow now",
+                       rough_text(s.dt), times_text(allowed / s.dt)),
+           "solver.time_step = \"adaptive\""});
+      return;
+    }
+    default:
+      return;
+  }
+}
+
+/// What makes each step dear.
+void add_of_cost(const scene::Scene& scene, const Check& check, std::vector<Slow>& slow) {
+  const auto add = [&](const std::string& address, double per_cell) {
+    constexpr double usual = 8;
+    slow.push_back({address + ".particles_per_cell", per_cell / usual,
+                    fmt::format("{} particles per cell take {} times the work of 8",
+                                rough_text(per_cell), times_text(per_cell / usual)),
+                    address + ".particles_per_cell = 8"});
+  };
+  for (const auto& body : scene.bodies) add("body." + body.name, body.particles_per_cell);
+  for (const auto& emitter : scene.emitters)
+    add("emitter." + emitter.name, emitter.particles_per_cell);
+  double iterations = 0;
+  for (const forecast::FrameForecast& frame : check.foreseen.frames)
+    iterations = std::max(iterations, frame.iterations);
+  constexpr double few = 20;
+  if (scene.solver.solve_tolerance < sim::SolverSettings{}.solve_tolerance)
+    slow.push_back({"solver.solve_tolerance", iterations / few,
+                    fmt::format("solves take {} iterations to {}", rough_text(iterations),
+                                rough_text(scene.solver.solve_tolerance)),
+                    fmt::format("solver.solve_tolerance = {}",
+                                rough_text(sim::SolverSettings{}.solve_tolerance))});
+}
+
+}  // namespace
+
+void check_slowness(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
+  const double steps = check.foreseen.steps().expected, work = steps * check.plan.particles;
+  if (!(work >= worth_a_word)) return;
+  std::vector<Slow> slow;
+  add_of_steps(scene, check, slow);
+  add_of_cost(scene, check, slow);
+  const auto worst = std::max_element(
+      slow.begin(), slow.end(), [](const Slow& a, const Slow& b) { return a.times < b.times; });
+  const auto is_named = [&](const std::string& address) {
+    return std::any_of(findings.begin(), findings.end(),
+                       [&](const Finding& finding) { return finding.address == address; });
+  };
+  if (worst != slow.end() && worst->times >= stands_out) {
+    if (!is_named(worst->address))
+      findings.push_back({Severity::note, worst->address, worst->what, worst->hint});
+  } else if (work >= very_long) {
+    findings.push_back(
+        {Severity::note, "solver.cell_size",
+         fmt::format("about {} steps of {} particles are a long run", about_count_text(steps),
+                     about_count_text(check.plan.particles)),
+         "--coarsen 2 takes about a sixteenth of the work, and is a first look"});
+  }
+}
+
+}  // namespace neve::app::health
