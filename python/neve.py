@@ -358,15 +358,15 @@ def export(source, out, formats=("npz",), frames=None, at=None, attributes=None,
 
 
 class Sweep:
-    """The folder of a sweep: data.csv as arrays by column, and its runs."""
+    """The folder of a sweep: data.csv as arrays by column, and its runs. With seeds, `points` has
+    points.csv in the same way: mean, min and max of each metric at each point."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
-        with open(self.folder / "data.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-        self.columns = rows[0]
-        self.table = {name: _column([row[k] for row in rows[1:]])
-                      for k, name in enumerate(self.columns)}
+        self.table = _table(self.folder / "data.csv")
+        self.columns = list(self.table)
+        points = self.folder / "points.csv"
+        self.points = _table(points) if points.is_file() else None
 
     def __len__(self):
         return len(self.table["run"])
@@ -385,7 +385,14 @@ class Sweep:
 
     def run(self, index):
         """The run of a row."""
-        return Run(self.folder / "runs" / f"{int(self['run'][index]):04d}")
+        # Its folder has another number where the sweep has grown.
+        return Run(self.folder / pathlib.Path(self["FILE_scene"][index]).parent)
+
+
+def _table(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        head, *rows = list(csv.reader(file))
+    return {name: _column([row[k] for row in rows]) for k, name in enumerate(head)}
 
 
 def _column(words):
@@ -395,15 +402,18 @@ def _column(words):
         return np.array(words)
 
 
-def sweep(file, out, parameters=None, set=None, frames=None, coarsen=None, threads=None, flags=()):
+def sweep(file, out, parameters=None, set=None, frames=None, coarsen=None, threads=None, seeds=None,
+          flags=()):
     """Runs a sweep file, or a scene with many values: `parameters` has lists by address, as in
-    {"material.snow.hardening": [5, 10]}. Failed runs are rows of the table."""
+    {"material.snow.hardening": [5, 10]}; `seeds` is the number of runs of each point. Failed runs are rows of the table."""
     words = ["sweep", file, "--out", out, *_scene_flags(set, coarsen, threads), *flags]
     for address, values in (parameters or {}).items():
         # As the flag has it: a list of numbers or words without brackets.
         words += ["-p", f"{address}=" + ",".join(_literal(value) for value in values)]
     if frames is not None:
         words += ["--frames", _frames(frames)]
+    if seeds is not None:
+        words += ["--seeds", str(int(seeds))]
     call(*words, results=(0, 7))
     return Sweep(out)
 

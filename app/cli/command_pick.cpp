@@ -14,6 +14,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
 #include "app/pick/game.h"
+#include "app/pick/round_noise.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/json.h"
@@ -42,6 +43,10 @@ Answer ask(const pick::Game& game, const sweep::jobs::SweepProgress& runs,
       "round {} of {}: {} shows the nine tiles animated, {} shows their last frame\n",
       game.answered() + 1, game.max_rounds(), (game.folder() / "round.html").string(),
       (game.folder() / "sheet.png").string());
+  const pick::RoundNoise noise = pick::noise_of_round(game.folder());
+  for (std::size_t tile = 0; tile < noise.tiles.size(); ++tile)
+    std::cerr << fmt::format("  tile {}: {}\n", tile + 1, noise.tiles[tile]);
+  if (!noise.key.empty()) std::cerr << "  " << noise.key << "\n";
   if (const std::string failed = pick::all_failed_text(runs); !failed.empty())
     std::cerr << failed << "; 0 makes nine others\n";
   while (true) {
@@ -89,7 +94,7 @@ int make_round(pick::Game& game, sweep::jobs::SweepProgress& runs) {
   const int code = run_sweep(game.begin_round());
   // Tiles of runs that failed say so; the other ones can be chosen.
   if (code != exit_ok && code != exit_runs_failed) return code;
-  runs = sweep::jobs::progress_of(game.folder());
+  runs = pick::tiles_of(sweep::jobs::progress_of(game.folder()));
   game.write_page(runs);
   return exit_ok;
 }

@@ -114,6 +114,9 @@ void describe_pick(Command& visit, PickCommand& o) {
   visit("--seed", o.pick.seed, options::number<std::uint64_t>("N", 0, 1.8e19, "a whole number"),
         "Seed of the tiles; the same clicks with the same seed give the same pick, bit for bit")
       .with_default();
+  visit("--seeds", runs.seeds, sweep::plan::seeds(),
+        "Make N runs of each tile, with the scene's seed and those after it: tiles say how often "
+        "the snow breaks, and which of them are too close to call; N times the cost");
   visit("--frames", runs.frames, options::frames(),
         "Frames of each run: A-B, or N for all up to N");
   visit("--size", runs.size, options::size(), "Size of a tile; default: 480 pixels wide");

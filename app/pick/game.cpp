@@ -72,6 +72,7 @@ void Game::write_page(const sweep::jobs::SweepProgress& runs) const {
     std::vector<std::string>& pictures = page.tiles.emplace_back();
     for (const fs::path& file : pictures_of(runs, k)) pictures.push_back(file.generic_string());
   }
+  page.noise = noise_of_round(folder_);
   page.has_favourite = lesson().has_favourite();
   if (page.has_favourite) {
     page.learned = lesson().lines;
@@ -154,6 +155,7 @@ std::vector<std::string> Game::comment() const {
   for (const scene::Override& change : scene_.fixed)
     what += ", " + change.address + " = " + change.value;
   if (options_.runs.coarsening) what += fmt::format(", coarsened by {}", *options_.runs.coarsening);
+  if (options_.runs.seeds > 0) what += fmt::format(", {} seeds a tile", options_.runs.seeds);
   return {fmt::format("{}, seed {}", what, options_.seed),
           "One round a line: the tile chosen, two of them, or 0 for none."};
 }

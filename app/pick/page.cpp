@@ -15,6 +15,7 @@ figure { margin: 0; position: relative; background: #000; min-height: 6rem; }
 img { width: 100%; display: block; }
 figcaption { position: absolute; left: 8px; top: 4px; font-size: 1.4rem; font-weight: bold;
   text-shadow: 0 0 4px #000, 0 0 4px #000; }
+figcaption small { display: block; font-size: .8rem; font-weight: normal; }
 svg { max-width: 30rem; height: auto; }
 )";
 
@@ -50,9 +51,13 @@ std::string page_html(const RoundPage& page) {
       page.round, page.rounds, page_style,
       page.has_favourite ? " Tile 1 is the favourite so far." : "");
   for (std::size_t k = 0; k < page.tiles.size(); ++k)
-    html += fmt::format("<figure><img alt=\"tile {0}\"><figcaption>{0}{1}</figcaption></figure>\n",
-                        k + 1, page.tiles[k].empty() ? ": no picture" : "");
+    html += fmt::format(
+        "<figure><img alt=\"tile "
+        "{0}\"><figcaption>{0}{1}<small>{2}</small></figcaption></figure>\n",
+        k + 1, page.tiles[k].empty() ? ": no picture" : "",
+        k < page.noise.tiles.size() ? page.noise.tiles[k] : "");
   html += "</main>\n";
+  if (!page.noise.key.empty()) html += "<p>" + page.noise.key + "</p>\n";
   if (!page.learned.empty()) html += "<h2>Learned so far</h2>\n<ul>\n";
   for (const std::string& line : page.learned) html += "<li>" + line + "</li>\n";
   if (!page.learned.empty()) html += "</ul>\n" + page.map;

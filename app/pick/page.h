@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/pick/round_noise.h"
+
 namespace neve::app::pick {
 
 /// What a page shows of a search.
@@ -13,6 +15,7 @@ struct RoundPage {
   double fps = 24;
   /// Pictures of each tile in order, relative to the folder of the page; none if a run has none.
   std::vector<std::vector<std::string>> tiles;
+  RoundNoise noise;
   std::vector<std::string> learned;  ///< sentences
   std::string map;                   ///< SVG, or ""
   bool has_favourite = false;        ///< the first tile is the favourite so far

@@ -3,11 +3,23 @@
 #include <algorithm>
 
 #include "app/output/sequence.h"
+#include "app/sweep/store/points.h"
 
 namespace neve::app::pick {
 
 using sweep::jobs::RunProgress;
 using sweep::jobs::SweepProgress;
+
+SweepProgress tiles_of(const SweepProgress& runs) {
+  SweepProgress tiles{sweep::store::first_draws(runs.manifest), {}};
+  const auto seeds = static_cast<std::size_t>(runs.manifest.seeds);
+  for (std::size_t first = 0; first + seeds <= runs.runs.size(); first += seeds) {
+    RunProgress& tile = tiles.runs.emplace_back(runs.runs[first]);
+    for (std::size_t k = first; k < first + seeds; ++k)
+      if (!runs.runs[k].has_ended()) tile.state = runs.runs[k].state;
+  }
+  return tiles;
+}
 
 std::vector<std::filesystem::path> pictures_of(const SweepProgress& runs, std::size_t run) {
   const sweep::Run& planned = runs.manifest.runs[run];

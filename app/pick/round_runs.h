@@ -10,7 +10,10 @@
 
 namespace neve::app::pick {
 
-/// Pictures of a run, in order, relative to the folder of the search.
+/// The runs of a round by its tiles: of each point the first seed, which has ended once all have.
+sweep::jobs::SweepProgress tiles_of(const sweep::jobs::SweepProgress& runs);
+
+/// Pictures of a tile, in order, relative to the folder of the search.
 std::vector<std::filesystem::path> pictures_of(const sweep::jobs::SweepProgress& runs,
                                                std::size_t run);
 

@@ -332,5 +332,49 @@ TEST(SweepLabels, LabelsHaveTheFewestWordsThatDiffer) {
   EXPECT_EQ(app::sweep::plan::value_text("[0, -5, 0]"), "[0, -5, 0]");
 }
 
+TEST_F(SweepFileTest, SeedsMakeSeveralRunsOfEachPointFromTheSeedOfTheScene) {
+  folder_.write("sweep.toml",
+                "[sweep]\nscene = \"scene.toml\"\nseeds = 3\n[set]\nseed = 7\n[axis]\n"
+                "\"material.snow.hardening\" = [5, 10]\n");
+  app::sweep::plan::SweepOptions options;
+  options.file = (folder_ / "sweep.toml").string();
+  const auto seeds_of = [&] {
+    std::string text;
+    for (const auto& item : app::sweep::plan::plan_sweep(options).runs)
+      text +=
+          item.run.setting("material.snow.hardening") + ":" + std::to_string(item.scene.seed) + " ";
+    return text;
+  };
+  EXPECT_EQ(seeds_of(), "5:7 5:8 5:9 10:7 10:8 10:9 ");
+  options.seeds = 2;  // the command line rules
+  EXPECT_EQ(seeds_of(), "5:7 5:8 10:7 10:8 ");
+}
+
+TEST_F(SweepFileTest, SeedsThatSayNothingOrSaySomethingTwiceAreRefused) {
+  const std::string head = "[sweep]\nscene = \"scene.toml\"\n";
+  const std::string axis = "[axis]\n\"material.snow.hardening\" = [5, 10]\n";
+  for (const char* number : {"0", "1", "101", "-4", "2.5"})
+    EXPECT_NE(complaint(head + "seeds = " + number + "\n" + axis).find("sweep.seeds"),
+              std::string::npos)
+        << number;
+  EXPECT_EQ(
+      complaint(head + "seeds = 4\n[axis]\nseed = [1, 2]\n"),
+      "5:1 the sweep varies seed, and seeds = 4 does so too; remove the axis: each point has 4 "
+      "seeds without it");
+  EXPECT_NE(complaint(head + "seeds = 4\nmethod = \"list\"\n[[run]]\nseed = 3\n")
+                .find("a run has a seed of its own"),
+            std::string::npos);
+  EXPECT_NE(complaint(head + "seeds = 4\nfork = \"0.1s\"\n" + axis).find("one draw"),
+            std::string::npos);
+  const std::string many = "[axis]\n\"solver.cfl\" = { linspace = [0.1, 0.4], num = 300 }\n";
+  try {
+    runs(head + "seeds = 4\n" + many);
+    ADD_FAILURE();
+  } catch (const LimitError& error) {
+    EXPECT_NE(std::string(error.what()).find("1200 runs, 4 of each point"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace neve::app

@@ -377,6 +377,82 @@ TEST_F(ReportPage, HeadsOfTheTableSortIt) {
   EXPECT_EQ(value("document.querySelector('.tile').dataset.run"), "2") << "so is the sheet";
 }
 
+/// A row of three points of four seeds: spread tells the last from the others, the second breaks
+/// once.
+Study study_with_seeds() {
+  Study study({3, 4}, 1);
+  Manifest& m = study.manifest;
+  m.seeds = 4;
+  m.axes.pop_back();
+  m.parameters.back() = {"seed", "seed", "", "integer"};
+  for (std::size_t k = 0; k < 12; ++k) {
+    m.runs[k].coordinates.pop_back();
+    m.runs[k].settings.back() = {"seed", std::to_string(1 + k % 4)};
+    for (std::size_t metric = 1; metric < study.results[k].metrics.size(); ++metric)
+      study.results[k].metrics[metric] = 1.0 + 0.1 * double((k * 5 + metric) % 4);
+    study.results[k].metrics[0] = (k < 8 ? 0.5 : 0.9) + 0.01 * double(k % 4);
+    study.results[k].has_broken = k == 6;
+  }
+  return study;
+}
+
+TEST_F(ReportPage, PointsOfSeveralSeedsHaveOneTileEachAndSayWhatIsNoise) {
+  open(study_with_seeds());
+  EXPECT_EQ(tiles(), 3);
+  EXPECT_EQ(lines(), 3);
+  const auto all = [&](const std::string& selector) {
+    return value("[...document.querySelectorAll('" + selector +
+                 "')].map(e => e.textContent).join('; ')")
+        .get<std::string>();
+  };
+  EXPECT_EQ(all(".seal em"), "holds in 4 of 4; breaks in 1 of 4: not here; holds in 4 of 4");
+  EXPECT_EQ(all(".seal strong"), "b; b; a");
+  EXPECT_EQ(value("document.querySelectorAll('.seal .undecided').length"), 1);
+  EXPECT_NE(text_of("#seal-hint").find("too close to call"), std::string::npos);
+  EXPECT_EQ(text_of("#table tbody tr[data-at] td:nth-child(6)"), "0.515 (0.5 to 0.53) b");
+  EXPECT_EQ(text_of("#table th.noise"), "height (m): noise");
+  // The first two share a rank and so a colour; the table keeps their order.
+  EXPECT_EQ(value("colourOf(0) === colourOf(4) && colourOf(0) !== colourOf(8)"), true);
+  click("#table th:nth-child(6) button");
+  EXPECT_EQ(value("state.shown.join(' ')"), "0 4 8");
+  click("#table th:nth-child(6) button");
+  EXPECT_EQ(value("state.shown.join(' ')"), "8 0 4");
+  // Two points beside each other.
+  click("[data-pin=a]");
+  focus("#axis-0");
+  press("End", 35);
+  EXPECT_NE(text_of("#compare-text").find("They differ in spread (m)."), std::string::npos)
+      << text_of("#compare-text");
+  press("ArrowLeft", 37);
+  EXPECT_NE(text_of("#compare-text").find("Too close to call: spread (m)"), std::string::npos)
+      << text_of("#compare-text");
+}
+
+TEST_F(ReportPage, ButtonsKeysAndASliderFlipThroughTheSeedsOfAllTiles) {
+  for (const int width : {1280, 390}) {
+    open(study_with_seeds(), width, 800);
+    EXPECT_EQ(value("document.querySelectorAll('#draws button').length"), 4);
+    focus("#axis-0");
+    press_right();
+    EXPECT_EQ(picture(), "runs/0004/particles/0000.png");
+    click("#draws button:nth-of-type(3)");
+    EXPECT_EQ(picture(), "runs/0006/particles/0000.png");
+    EXPECT_EQ(text_of("#draws button:nth-of-type(3)"), "seed 3 breaks");
+    EXPECT_EQ(text_of("#draws span"), "breaks in 1 of 4: here");
+    EXPECT_EQ(tiles(), 3);
+    EXPECT_EQ(value("[...document.querySelectorAll('.tile')].map(t => t.dataset.run).join(' ')"),
+              "2 6 10");
+    press("]", 221);
+    EXPECT_EQ(picture(), "runs/0007/particles/0000.png");
+    press("]", 221);
+    EXPECT_EQ(picture(), "runs/0004/particles/0000.png") << "the first follows the last";
+    focus("#axis-1");
+    press_right();
+    EXPECT_EQ(picture(), "runs/0005/particles/0000.png");
+    EXPECT_EQ(text_of("#nearest"), "");
+  }
+}
+
 TEST_F(ReportPage, CommandsAreCopiedAndOpenTheRun) {
   open(Study({3, 3}, 2));
   browser->call("Browser.grantPermissions",

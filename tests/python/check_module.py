@@ -50,6 +50,12 @@ assert len(sweep) == 2 and list(sweep["material_snow_hardening"]) == [5, 10]
 assert list(sweep["state"]) == ["ok", "ok"] and sweep["height"].dtype == float
 assert sweep.run(1)["max_speed"].shape == (3,)
 assert sweep._repr_png_().startswith(png) and "<th>run</th>" in sweep._repr_html_()
+assert sweep.points is None
+# With seeds: the folder of a run has not the number of the run any more.
+sweep = neve.sweep("scene.toml", "s.cdb", {"material.snow.hardening": [5, 10]}, frames=(0, 2), seeds=2)
+assert list(sweep["seed"]) == [1, 2, 1, 2] and list(sweep.points["ended"]) == [2, 2]
+assert np.isclose(sweep.points["spread_mean"][1], sweep["spread"][2:].mean())
+assert all(np.isclose(sweep.run(k)["spread"][-1], sweep["spread"][k]) for k in range(4))
 
 # Answers and mistakes of the program.
 assert neve.check("scene.toml", coarsen=2)["particles"] < neve.check("scene.toml")["particles"]

@@ -48,6 +48,7 @@ void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
   json["scene"] = plan.sweep.scene_file;
   json["out"] = plan.folder.string();
   json["view"] = plan.view;
+  json["seeds"] = plan.sweep.runs_per_point();
   json["runs"] = Json::array();
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const Run& run = plan.runs[k].run;
@@ -130,10 +131,10 @@ void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
     std::cout << fmt::format(
         "\nthe beginning, to {} s, is computed once: {}\n", rough_text(plan.fork),
         duration_text(forecast.beginning.expected * forecast.seconds_per_work));
-  std::cout << fmt::format("\n{} {} of {}, {}, view {} in tiles of {}x{}\n", plan.runs.size(),
+  std::cout << fmt::format("\n{} {} of {}{}, {}, view {} in tiles of {}x{}\n", plan.runs.size(),
                            plan.runs.size() == 1 ? "run" : "runs", plan.sweep.scene_file,
-                           frames_text(plan), plan.view, plan.base.size.width,
-                           plan.base.size.height)
+                           seeds_text(plan.sweep), frames_text(plan), plan.view,
+                           plan.base.size.width, plan.base.size.height)
             << fmt::format(
                    "about {} on {} {}, measured now on this machine; at most {} of memory "
                    "a run\n",

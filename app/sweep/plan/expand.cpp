@@ -9,6 +9,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "app/scene/describe.h"
 #include "app/scene/params.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -185,7 +186,7 @@ double count_of(const read::Sweep& sweep) {
     case read::Method::list:
       break;
   }
-  return count + rows;
+  return (count + rows) * sweep.runs_per_point();
 }
 
 /// Axes of the command line come after the file was checked.
@@ -224,13 +225,16 @@ double normal_quantile(double p) {
 std::vector<Run> expand(const read::Sweep& sweep) {
   check_axes(sweep);
   const double count = count_of(sweep);
+  const bool has_seeds = sweep.settings.seeds > 0;
+  const std::string fewer = has_seeds ? "fewer seeds" : "method \"lhs\" with samples";
   if (count > sweep.limits.runs)
     throw LimitError(
-        fmt::format("refused: {} runs are more than limits.runs = {}; raise it in the sweep file, "
-                    "or use method \"lhs\" with samples",
+        fmt::format("refused: {} runs{} are more than limits.runs = {}; raise it in the sweep "
+                    "file, or use {}",
                     count < 1e15 ? fixed_text(count, 0) : scene::toml::number_text(count),
-                    sweep.limits.runs),
-        "limits.runs", "raise limits.runs, or use method \"lhs\" with samples");
+                    has_seeds ? fmt::format(", {} of each point,", sweep.settings.seeds) : "",
+                    sweep.limits.runs, fewer),
+        "limits.runs", "raise limits.runs, or use " + fewer);
   const std::vector<read::Condition> conditions = read::conditions_of(sweep);
   std::vector<Run> runs;
   switch (sweep.settings.method) {
@@ -254,6 +258,21 @@ std::vector<Run> expand(const read::Sweep& sweep) {
     sweep.fail("sweep.where", "no run meets the conditions", "make them weaker, or the axes wider");
   runs.insert(runs.end(), sweep.rows.begin(), sweep.rows.end());
   for (std::size_t k = 0; k < runs.size(); ++k) runs[k].index = static_cast<int>(k);
+  return runs;
+}
+
+std::vector<Run> with_seeds(const std::vector<Run>& points, std::uint64_t first, int seeds) {
+  if (static_cast<double>(first) + seeds > scene::max_count)
+    throw UsageError("--seeds", fmt::format("{} seeds from {} on are beyond 2^53", seeds, first),
+                     "set a smaller seed");
+  std::vector<Run> runs;
+  for (const Run& point : points)
+    for (int k = 0; k < seeds; ++k) {
+      Run& run = runs.emplace_back(point);
+      run.index = static_cast<int>(runs.size()) - 1;
+      run.settings.push_back(
+          {"seed", std::to_string(first + static_cast<std::uint64_t>(k)), "--seeds"});
+    }
   return runs;
 }
 

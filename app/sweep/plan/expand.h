@@ -1,6 +1,7 @@
 #pragma once
 /// A sweep to the list of its runs.
 
+#include <cstdint>
 #include <vector>
 
 #include "app/sweep/read/sweep.h"
@@ -13,6 +14,10 @@ namespace neve::app::sweep::plan {
 /// @throws LimitError when there are more than limits.runs; SceneError or UsageError when axes do
 ///         not fit together
 std::vector<Run> expand(const read::Sweep& sweep);
+
+/// Each point once for each seed, from the first one on; the runs of a point follow each other.
+/// @param points  as expand() makes them @throws UsageError for seeds that no scene can have
+std::vector<Run> with_seeds(const std::vector<Run>& points, std::uint64_t first, int seeds);
 
 /// The value below which a share p of a normal distribution lies, in standard deviations.
 /// @param p 0 < p < 1

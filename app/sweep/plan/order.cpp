@@ -23,7 +23,8 @@ int lateness(int index, int count) {
 }  // namespace
 
 std::vector<std::size_t> coarse_first(const std::vector<std::vector<int>>& coordinates,
-                                      const std::vector<int>& sizes) {
+                                      const std::vector<int>& sizes,
+                                      const std::vector<int>& draws) {
   std::vector<int> late;
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     const std::vector<int>& at = coordinates[k];
@@ -38,6 +39,9 @@ std::vector<std::size_t> coarse_first(const std::vector<std::vector<int>>& coord
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return late[a] < late[b]; });
+  if (!draws.empty())
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return draws[a] < draws[b]; });
   return order;
 }
 

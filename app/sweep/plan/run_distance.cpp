@@ -27,6 +27,7 @@ RunPlaces::RunPlaces(const std::vector<PlannedRun>& runs) : places_(runs.size())
   std::set<std::string> addresses;
   for (const PlannedRun& item : runs)
     for (const scene::Override& setting : item.run.settings) addresses.insert(setting.address);
+  addresses.erase("seed");  // another draw of the same values
   for (const std::string& address : addresses) {
     std::map<std::string, double, ByValue> ranks;
     for (const PlannedRun& item : runs) ranks[item.run.setting(address)] = 0;

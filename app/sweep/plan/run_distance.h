@@ -9,7 +9,8 @@
 namespace neve::app::sweep::plan {
 
 /// Places of the runs of a sweep along each of its parameters, from 0 to 1 by the rank of the value
-/// among the values of the sweep.
+/// among the values of the sweep. Runs that differ in their seed alone are
+/// in one place.
 class RunPlaces {
  public:
   explicit RunPlaces(const std::vector<PlannedRun>& runs);

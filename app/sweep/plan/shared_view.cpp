@@ -78,7 +78,7 @@ std::vector<std::vector<int>> coordinates_of(const SweepPlan& plan) {
 
 std::vector<setup::CoarseMoment> moments_of_corners(const SweepPlan& plan, int cores) {
   std::vector<const scene::Scene*> scenes;
-  for (const std::size_t k : coarse_first(coordinates_of(plan), axis_sizes(plan)))
+  for (const std::size_t k : coarse_first(coordinates_of(plan), axis_sizes(plan), draws_of(plan)))
     if (scenes.size() < max_dry_runs && setup::needs_framing(plan.runs[k].scene))
       scenes.push_back(&plan.runs[k].scene);
   std::vector<setup::CoarseMoment> moments;

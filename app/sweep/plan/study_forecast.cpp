@@ -50,14 +50,17 @@ std::vector<Copy> choose_copies(const SweepPlan& plan, const std::vector<std::si
                                 const ForecastEffort& effort) {
   double all = 0;
   std::vector<std::vector<int>> coordinates;
+  const std::vector<int> all_draws = draws_of(plan);
+  std::vector<int> draws;
   for (const std::size_t k : chosen) {
     all += steps_at_rest(plan.runs[k]);
     coordinates.push_back(plan.runs[k].run.coordinates);
+    draws.push_back(all_draws[k]);
   }
   const double fineness = std::pow(effort.particle_steps / std::max(1.0, all), 1 / cost_exponent);
   std::vector<Copy> copies;
   double cost = 0;
-  for (const std::size_t place : coarse_first(coordinates, axis_sizes(plan))) {
+  for (const std::size_t place : coarse_first(coordinates, axis_sizes(plan), draws)) {
     const PlannedRun& item = plan.runs[chosen[place]];
     if (!is_possible(item) || !(item.plan.particles > 0)) continue;
     Copy copy;
@@ -265,8 +268,8 @@ std::string budget_text(const std::vector<std::size_t>& chosen, const StudyForec
 
 std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                           const StudyForecast& forecast, int cores, double budget) {
-  std::string text = fmt::format("forecast: {} {}, about {} on {} {}", chosen.size(),
-                                 chosen.size() == 1 ? "run" : "runs",
+  std::string text = fmt::format("forecast: {} {}{}, about {} on {} {}", chosen.size(),
+                                 chosen.size() == 1 ? "run" : "runs", seeds_text(plan.sweep),
                                  duration_text(forecast.seconds_of_all(chosen, cores).expected),
                                  cores, cores == 1 ? "core" : "cores");
   if (forecast.own.size() < chosen.size())

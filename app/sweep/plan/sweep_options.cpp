@@ -1,9 +1,14 @@
 #include "app/sweep/plan/sweep_options.h"
 
+#include <fmt/core.h>
+
+#include <cmath>
+
 #include "app/options/common.h"
 #include "app/options/languages.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
+#include "app/support/text.h"
 #include "app/sweep/read/sweep_leaf.h"
 #include "app/timeline/origin.h"
 
@@ -21,6 +26,25 @@ options::Language<double> budget() {
             return *seconds;
           },
           [](const double& seconds) { return scene::toml::number_text(seconds) + "s"; }};
+}
+
+int read_seeds(const std::string& flag, const std::string& text) {
+  const std::optional<double> number = finite_number(text);
+  if (!number || *number != std::floor(*number) || *number < 0)
+    throw UsageError(
+        flag, "cannot use \"" + text + "\"",
+        fmt::format("expected a whole number from {} to {}", read::min_seeds, read::max_seeds));
+  if (*number < read::min_seeds)
+    throw UsageError(flag, text + " tells nothing about noise: one run is one draw",
+                     fmt::format("expected {} or more, as in --seeds 4; or remove --seeds for one "
+                                 "run of each point",
+                                 read::min_seeds));
+  if (*number > read::max_seeds)
+    throw UsageError(flag, text + " is too many",
+                     fmt::format("expected at most {}; 4 show what is noise, 8 show small "
+                                 "differences",
+                                 read::max_seeds));
+  return static_cast<int>(*number);
 }
 
 void check_engine(const std::string& flag, const std::string& name) {
@@ -54,6 +78,9 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
   visit("--from", o.from, options::time(),
         "Fork all runs from the run of FILE (the folder of a run, or a picture) at a time: they "
         "start with its state at that time, and -p and --set change parameters there");
+  visit("--seeds", o.seeds, seeds(),
+        "Make N runs of each point, with the scene's seed and those after it, so that tiles, table "
+        "and plots show which differences are larger than noise; N times the cost");
   visit("--keep-states", o.keeps_states,
         "Keep the state of each drawn frame: tiles of another size, view, colour or camera are "
         "then drawn without simulating; --dry-run says how much disk space the states take");
@@ -110,6 +137,10 @@ void describe_folder(options::Command& visit, Options& o) {
 }
 
 }  // namespace
+
+options::Language<int> seeds() {
+  return {"N", "4", read_seeds, [](const int& seeds) { return std::to_string(seeds); }};
+}
 
 void describe(options::Command& visit, SweepOptions& o) {
   visit.about(

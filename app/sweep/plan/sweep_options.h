@@ -21,6 +21,7 @@ struct SweepOptions {
   std::optional<setup::FrameRange> frames;
   std::optional<double> fork;              ///< s, time at which the runs fork
   std::optional<double> from;              ///< the same, of the run or picture in `file`
+  int seeds = 0;                           ///< runs of each point; 0: those of the file
   bool keeps_states = false;               ///< of drawn frames, to draw them again
   std::optional<scene::PictureSize> size;  ///< of a tile
   std::optional<double> coarsening;
@@ -69,6 +70,9 @@ struct CollectOptions {
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress{};
 };
+
+/// The number of runs of a point.
+options::Language<int> seeds();
 
 /// neve sweep
 void describe(options::Command& visit, SweepOptions& options);

@@ -198,7 +198,7 @@ run::RenderJob source_job(const SweepOptions& options) {
 
 read::Sweep sweep_of(const SweepOptions& options, const std::optional<run::RenderJob>& source) {
   const read::SweepChanges changes{options.axes, options.overrides,
-                                   options.fork.has_value() || source.has_value()};
+                                   options.fork.has_value() || source.has_value(), options.seeds};
   if (!source) return read::read_sweep(options.file, changes);
   read::Sweep sweep = read::parse_sweep("", options.file, changes);
   sweep.name = source->folder.filename().string();
@@ -266,7 +266,10 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   plan.title = plan.sweep.settings.title;
   if (plan.title.empty()) plan.title = plan.base.title;
   if (plan.title.empty()) plan.title = plan.sweep.name;
-  for (Run& run : expand(plan.sweep)) {
+  std::vector<Run> runs = expand(plan.sweep);
+  if (const int seeds = plan.sweep.settings.seeds; seeds > 0)
+    runs = with_seeds(runs, plan.base.seed, seeds);
+  for (Run& run : runs) {
     scene::Scene scene = maker.make(run.settings);
     run.frames = setup::numbers_of(scene, frames_of(options, plan.sweep, scene));
     plan.runs.push_back(planned(std::move(run), std::move(scene)));
@@ -280,6 +283,18 @@ std::vector<int> axis_sizes(const SweepPlan& plan) {
   std::vector<int> sizes;
   for (const read::Axis& axis : plan.sweep.axes) sizes.push_back(static_cast<int>(axis.size()));
   return sizes;
+}
+
+std::string seeds_text(const read::Sweep& sweep) {
+  const int seeds = sweep.settings.seeds;
+  return seeds > 0 ? fmt::format(", {} seeds of each point", seeds) : "";
+}
+
+std::vector<int> draws_of(const SweepPlan& plan) {
+  std::vector<int> draws;
+  for (const PlannedRun& item : plan.runs)
+    draws.push_back(item.run.index % plan.sweep.runs_per_point());
+  return draws;
 }
 
 double bytes_of_states(const SweepPlan& plan) {

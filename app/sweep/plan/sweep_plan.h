@@ -54,6 +54,12 @@ SweepPlan plan_sweep(const SweepOptions& options);
 /// Values on each axis.
 std::vector<int> axis_sizes(const SweepPlan& plan);
 
+/// ", 4 seeds of each point", "" without seeds.
+std::string seeds_text(const read::Sweep& sweep);
+
+/// The place of each run among the seeds of its point; see coarse_first().
+std::vector<int> draws_of(const SweepPlan& plan);
+
 /// On disk, if the states of all drawn frames of all runs are kept, about.
 double bytes_of_states(const SweepPlan& plan);
 

@@ -43,6 +43,9 @@ void describe(V& visit, SweepSettings& s) {
       "more than there are axes.");
   visit("seed", s.seed, scene::unit::none, scene::between(0, scene::max_count), restart,
         "Seed of the samples.");
+  visit("seeds", s.seeds, scene::unit::none, scene::between(min_seeds, max_seeds), restart,
+        "Runs of each point of the sweep, with the scene's seed and those after it: particles and "
+        "lumps of snow are drawn anew in each. Tiles, table and plots then say what is noise.");
   visit("where", s.where, scene::unit::none, scene::anything, restart,
         "Conditions that all runs meet, as in [\"critical_stretch < 0.5 * critical_compression\"]: "
         "axes, numbers, a number * an axis.");

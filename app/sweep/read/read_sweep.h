@@ -14,6 +14,7 @@ struct SweepChanges {
   std::vector<std::string> axes;  ///< -p ADDRESS=LIST; in place of an axis of the same address
   std::vector<std::string> sets;  ///< --set ADDRESS=VALUE
   bool is_forked = false;         ///< with --fork
+  int seeds = 0;                  ///< --seeds; 0: those of the file
 };
 
 /// @param text  of the file

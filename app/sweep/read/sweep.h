@@ -1,6 +1,7 @@
 #pragma once
 /// A sweep as the user wrote it. Data only; describe_sweep.h has every key.
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -29,6 +30,9 @@ constexpr bool draws(Method method) {
   return method == Method::random || method == Method::lhs || method == Method::sobol ||
          method == Method::morris;
 }
+
+/// Runs of a point that tell its noise, and no more than anybody waits for.
+inline constexpr int min_seeds = 2, max_seeds = 100;
 
 enum class TileLabel { differences, name, none };
 
@@ -61,7 +65,8 @@ struct SweepSettings {
   std::string scene;  ///< relative to the sweep file
   Method method = Method::grid;
   int samples = 0;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< of the samples
+  int seeds = 0;           ///< runs of each point, each with a seed of its own; 0: one, the scene's
   std::vector<std::string> where;  ///< conditions, see condition.h
   std::string frames;
   std::string fork;  ///< time at which all runs fork; "": no fork
@@ -121,6 +126,9 @@ struct Sweep {
   std::vector<Axis> axes;
   std::vector<Run> rows;                                ///< of [[run]]
   std::map<std::string, scene::toml::Location> places;  ///< of the keys in the sweep file
+
+  /// Runs that differ in their seed alone.
+  int runs_per_point() const { return std::max(1, settings.seeds); }
 
   /// Throws a SceneError at a key of the sweep file, or a UsageError without a file.
   [[noreturn]] void fail(const std::string& key, const std::string& message,

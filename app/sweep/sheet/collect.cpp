@@ -149,6 +149,17 @@ void write_sheets(const fs::path& folder, const store::Manifest& manifest, Sheet
   writer.finish();
 }
 
+/// A table of an earlier sweep with seeds would be taken for that of this one.
+void write_points(const fs::path& folder, const std::string& table) {
+  const fs::path file = folder / "points.csv";
+  if (!table.empty()) return output::write_file(file, table);
+  std::error_code error;
+  fs::remove(file, error);
+  if (error)
+    throw IoError(file.string() + ": cannot be removed: " + error.message(), file.string(),
+                  "remove it, and neve sweep collect makes the results");
+}
+
 /// Writes the strongest parameters of each metric of a screening as files, and says them.
 void write_effects(const fs::path& folder, const store::Manifest& manifest,
                    const std::vector<store::RunResult>& results, Progress& progress) {
@@ -174,6 +185,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   for (store::RunResult& result : results)
     if (!result.flaws.empty()) result.warnings.push_back(result.flaws);
   output::write_file(folder / "data.csv", data_csv(manifest, results));
+  write_points(folder, points_csv(manifest, results));
   if (has_review) link_pictures(folder, manifest, results);
   output::write_file(folder / "runs.otio", otio_timeline(manifest, results, has_review));
   if (const std::string plots = metric_plots_svg(manifest, results); !plots.empty())

@@ -8,9 +8,10 @@
 
 namespace neve::app::sweep::sheet {
 
-/// DIR/data.csv, DIR/runs.otio, DIR/plots.svg, DIR/sheet/0000.png ..., DIR/sheet.png,
-/// DIR/strips.png, DIR/sheet.mp4, or the movie of another format, where ffmpeg is installed, and
-/// DIR/report.html. Changes nothing of the runs. Says which runs have warnings.
+/// DIR/data.csv, DIR/points.csv of a sweep with seeds, DIR/runs.otio, DIR/plots.svg,
+/// DIR/sheet/0000.png ..., DIR/sheet.png, DIR/strips.png, DIR/sheet.mp4, or the movie of another
+/// format, where ffmpeg is installed, and DIR/report.html. Changes nothing of the runs. Says which
+/// runs have warnings.
 /// @param has_review  makes DIR/review too, see review.h
 /// @throws IoError, render::ContextError, Error for a folder without a sweep
 void collect_sweep(const std::filesystem::path& folder, const output::MovieStyle& movie,

@@ -1,6 +1,7 @@
 #include "app/sweep/sheet/data_csv.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "app/output/sequence.h"
 #include "app/support/text.h"
+#include "app/sweep/store/points.h"
 
 namespace neve::app::sweep::sheet {
 
@@ -121,9 +123,7 @@ class Rows {
   bool is_first_ = true;
 };
 
-void add_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
-  ColumnNames names;
-  for (const char* name : {"run", "label"}) rows.add(names.unique(name, "_"));
+void add_parameter_names(const store::Manifest& manifest, ColumnNames& names, Rows& rows) {
   for (const Parameter& parameter : manifest.parameters) {
     const std::string name = column_name(parameter.address);
     if (parameter.type != "vector") {
@@ -132,6 +132,12 @@ void add_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
     }
     for (const char* axis : {"_x", "_y", "_z"}) rows.add(names.unique(name + axis, "_set"));
   }
+}
+
+void add_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
+  ColumnNames names;
+  for (const char* name : {"run", "label"}) rows.add(names.unique(name, "_"));
+  add_parameter_names(manifest, names, rows);
   // Columns of results give way to columns of settings: frames, frames_done.
   for (const char* name : {"state", "reason", "warnings", "frames"})
     rows.add(names.unique(name, "_done"));
@@ -177,7 +183,78 @@ void add_row(const store::Manifest& manifest, const Run& run, const store::RunRe
   rows.end();
 }
 
+/// Of each metric; points that are too close to call share a rank, and a letter of their groups.
+constexpr std::array point_columns{"_mean", "_min", "_max", "_rank", "_groups"};
+
+struct PointColumns {
+  std::vector<store::Summary> summaries;
+  std::vector<int> ranks;
+  std::vector<std::vector<int>> groups;
+  bool is_whole = false;
+};
+
+std::vector<PointColumns> point_columns_of(const std::vector<store::Point>& points,
+                                           bool with_times) {
+  std::vector<PointColumns> columns;
+  for (std::size_t metric = 0; metric < store::metric_infos().size(); ++metric) {
+    const store::MetricInfo& info = store::metric_infos()[metric];
+    if (!with_times && info.is_time) continue;
+    const std::vector<store::Summary> summaries = store::summaries_of(points, metric);
+    columns.push_back(
+        {summaries, store::shared_ranks(summaries), store::close_groups(summaries), info.is_whole});
+  }
+  return columns;
+}
+
+void add_point_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
+  ColumnNames names;
+  for (const char* name : {"point", "label"}) rows.add(names.unique(name, "_"));
+  add_parameter_names(manifest, names, rows);
+  for (const char* name : {"runs", "ended", "judged", "broken"})
+    rows.add(names.unique(name, "_done"));
+  for (const store::MetricInfo& metric : store::metric_infos())
+    if (with_times || !metric.is_time)
+      for (const char* column : point_columns)
+        rows.add(names.unique(std::string(metric.name) + column, "_done"));
+  rows.end();
+}
+
+void add_cells(const PointColumns& column, std::size_t point, Rows& rows) {
+  const store::Summary& s = column.summaries[point];
+  if (s.count == 0) {
+    for (std::size_t k = 0; k < point_columns.size(); ++k) rows.add("");
+    return;
+  }
+  rows.add(float_text(s.mean));
+  for (const double end : {s.min, s.max})
+    rows.add(column.is_whole ? whole_text(end) : float_text(end));
+  rows.add(std::to_string(column.ranks[point]));
+  rows.add(store::group_letters(column.groups[point]));
+}
+
 }  // namespace
+
+std::string points_csv(const store::Manifest& manifest,
+                       const std::vector<store::RunResult>& results, bool with_times) {
+  if (manifest.seeds == 1) return {};
+  const store::Manifest shown = store::first_draws(manifest);
+  const std::vector<store::Point> points = store::points_of(manifest, results);
+  const std::vector<PointColumns> columns = point_columns_of(points, with_times);
+  Rows rows;
+  add_point_header(shown, with_times, rows);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Run& run = shown.runs[k];
+    rows.add(std::to_string(k));
+    rows.add(cell(run.label.empty() ? "point " + std::to_string(k) : run.label, "string"));
+    add_parameters(shown, run, rows);
+    for (const std::size_t count :
+         {points[k].count, points[k].ended, points[k].judged, points[k].broken})
+      rows.add(std::to_string(count));
+    for (const PointColumns& column : columns) add_cells(column, k, rows);
+    rows.end();
+  }
+  return rows.text();
+}
 
 std::string data_csv(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
                      bool with_times) {

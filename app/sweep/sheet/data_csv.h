@@ -16,4 +16,10 @@ namespace neve::app::sweep::sheet {
 std::string data_csv(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
                      bool with_times = true);
 
+/// points.csv of a sweep with seeds: one row per point. Columns: point, label, the parameters,
+/// runs, ended, judged, broken, and for each metric its mean, min and max, its rank, which points
+/// that are too close to call share, and the letters of its groups. "" without seeds.
+std::string points_csv(const store::Manifest& manifest,
+                       const std::vector<store::RunResult>& results, bool with_times = true);
+
 }  // namespace neve::app::sweep::sheet

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "app/support/text.h"
 #include "app/sweep/plan/designs.h"
+#include "app/sweep/store/points.h"
 #include "render/overlay/svg.h"
 
 namespace neve::app::sweep::sheet {
@@ -32,12 +34,6 @@ Step step_between(const Run& a, const Run& b) {
     step = {static_cast<int>(k), levels / (plan::morris_levels - 1)};
   }
   return step;
-}
-
-bool is_comparable(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
-                   std::size_t run, std::size_t metric) {
-  return results[run].metrics[metric] && (store::metric_infos()[metric].is_cost ||
-                                          store::is_whole(manifest.runs[run], results[run]));
 }
 
 Effect effect_of(const std::vector<double>& changes) {
@@ -84,7 +80,7 @@ std::vector<std::size_t> strongest_first(const std::vector<Column>& columns, std
   std::vector<double> share(axes, 0);
   for (const Column& column : columns)
     for (std::size_t a = 0; a < axes; ++a)
-      share[a] += column.effects[a].strength / column.strongest;
+      if (!column.effects[a].is_noise) share[a] += column.effects[a].strength / column.strongest;
   std::vector<std::size_t> order(axes);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -110,10 +106,12 @@ struct Shown {
   Shown(const Effect& e, bool is_ordered_axis)
       : effect(e), is_signed(is_ordered_axis && e.is_one_way()) {}
   const char* way() const {
+    if (effect.is_noise) return "noise";
     if (!is_signed) return "both";
     return effect.mean > 0 ? "rises" : "falls";
   }
   std::string text() const {
+    if (effect.is_noise) return "within noise";
     if (is_signed) return rough_text(effect.mean);
     return effect.strength > 0 ? "\u00b1" + rough_text(effect.strength) : "0";
   }
@@ -126,6 +124,7 @@ constexpr const char* bar_style = R"(<style>
 text { font-family: "DejaVu Sans", Verdana, sans-serif; fill: #55606e; font-size: 11px }
 .name { font-size: 12px; fill: #20262e } .head { fill: #20262e } .rule { stroke: #e2e7ec; stroke-width: 1 }
 .rises { fill: #2b6cb0 } .falls { fill: #d9561e } .both { fill: #8a94a0 }
+.noise { fill: #dde2e8 }
 .spread { stroke: #20262e; stroke-width: 1.4 }
 </style>
 )";
@@ -149,12 +148,15 @@ std::string bar(const Shown& shown, double strongest, double x, double y) {
   return svg + svg_text(x, y + bar_height + 10, "start", "", shown.text());
 }
 
-std::string bar_legend(double y) {
+std::string bar_legend(double y, bool has_noise) {
   std::string svg;
   double x = 12;
-  for (const auto& [kind, words] :
-       {std::pair{"rises", "the metric rises with the parameter"}, std::pair{"falls", "it falls"},
-        std::pair{"both", "it does both, or the parameter is a choice"}}) {
+  std::vector<std::pair<const char*, const char*>> kinds{
+      {"rises", "the metric rises with the parameter"},
+      {"falls", "it falls"},
+      {"both", "it does both, or the parameter is a choice"}};
+  if (has_noise) kinds.emplace_back("noise", "within noise: another seed changes as much");
+  for (const auto& [kind, words] : kinds) {
     svg += "<rect x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) +
            "\" width=\"12\" height=\"12\" class=\"" + std::string(kind) + "\"/>\n" +
            svg_text(x + 17, y + 10, "start", "", words);
@@ -171,37 +173,48 @@ std::string bar_legend(double y) {
 std::vector<Effect> effects_on(const store::Manifest& manifest,
                                const std::vector<store::RunResult>& results, std::size_t metric) {
   const std::size_t axes = manifest.screened.size();
-  std::vector<std::vector<double>> changes(axes);
   if (axes == 0) return {};
-  for (std::size_t k = 0; k + 1 < results.size(); ++k) {
-    const Run &a = manifest.runs[k], &b = manifest.runs[k + 1];
+  std::vector<std::vector<double>> changes(axes);
+  std::vector<std::vector<std::pair<store::Summary, store::Summary>>> steps(axes);
+  const std::vector<store::Point> points = store::points_of(manifest, results);
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    const Run &a = manifest.runs[points[k].first], &b = manifest.runs[points[k + 1].first];
     const bool is_last_of_trajectory = k % (axes + 1) == axes;
     if (is_last_of_trajectory || a.coordinates.size() != axes || b.coordinates.size() != axes)
       continue;
-    if (!is_comparable(manifest, results, k, metric) ||
-        !is_comparable(manifest, results, k + 1, metric))
-      continue;
+    const store::Summary &before = points[k].metrics[metric],
+                         &after = points[k + 1].metrics[metric];
+    if (before.count == 0 || after.count == 0) continue;
     const Step step = step_between(a, b);
     if (step.axis < 0) continue;
-    changes[static_cast<std::size_t>(step.axis)].push_back(
-        (*results[k + 1].metrics[metric] - *results[k].metrics[metric]) / step.share);
+    const auto axis = static_cast<std::size_t>(step.axis);
+    changes[axis].push_back((after.mean - before.mean) / step.share);
+    steps[axis].emplace_back(before, after);
   }
   std::vector<Effect> effects;
-  for (const std::vector<double>& list : changes) effects.push_back(effect_of(list));
+  for (std::size_t a = 0; a < axes; ++a) {
+    effects.push_back(effect_of(changes[a]));
+    effects.back().is_noise = manifest.seeds > 1 && !store::change(steps[a]);
+  }
   return effects;
 }
 
 std::string effects_csv(const store::Manifest& manifest,
                         const std::vector<store::RunResult>& results) {
   if (manifest.screened.empty()) return {};
-  std::string csv = "metric,unit,parameter,steps,mean,mean_of_sizes,standard_deviation\n";
+  const bool has_noise = manifest.seeds > 1;
+  std::string csv = "metric,unit,parameter,steps,mean,mean_of_sizes,standard_deviation";
+  csv += has_noise ? ",within_noise\n" : "\n";
   for (std::size_t metric = 0; metric < store::metric_infos().size(); ++metric) {
     const store::MetricInfo& info = store::metric_infos()[metric];
     const std::vector<Effect> effects = effects_on(manifest, results, metric);
     for (std::size_t a = 0; a < effects.size(); ++a)
-      csv += fmt::format("{},{},\"{}\",{},{:.6g},{:.6g},{:.6g}\n", info.name, info.unit,
+      csv += fmt::format("{},{},\"{}\",{},{:.6g},{:.6g},{:.6g}{}\n", info.name, info.unit,
                          joined(manifest.screened[a].addresses, " "), effects[a].steps,
-                         effects[a].mean, effects[a].strength, effects[a].spread);
+                         effects[a].mean, effects[a].strength, effects[a].spread,
+                         !has_noise            ? ""
+                         : effects[a].is_noise ? ",1"
+                                               : ",0");
   }
   return csv;
 }
@@ -234,7 +247,7 @@ std::string effects_svg(const store::Manifest& manifest,
             svg_number(left + static_cast<double>(columns.size()) * column_width) + "\" y1=\"" +
             svg_number(y - 3) + "\" y2=\"" + svg_number(y - 3) + "\" class=\"rule\"/>\n";
   }
-  body += bar_legend(y + 14);
+  body += bar_legend(y + 14, manifest.seeds > 1);
   const double width = std::max(left + static_cast<double>(columns.size()) * column_width, 940.0);
   return render::overlay::svg_drawing(width, y + foot, is_document ? "#ffffff" : "",
                                       bar_style + body, is_document);
@@ -247,7 +260,8 @@ std::vector<std::string> effect_lines(const store::Manifest& manifest,
     std::vector<std::size_t> order(column.effects.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return column.effects[a].strength > column.effects[b].strength;
+      const Effect &x = column.effects[a], &y = column.effects[b];
+      return x.is_noise != y.is_noise ? y.is_noise : x.strength > y.strength;
     });
     const auto part = [&](std::size_t a) {
       const store::AxisLabels& axis = manifest.screened[a];

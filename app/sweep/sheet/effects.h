@@ -12,10 +12,11 @@ namespace neve::app::sweep::sheet {
 /// Elementary effects of an axis on a metric, each the change of the metric for the axis's whole
 /// range, by one step between two runs that differ in nothing else.
 struct Effect {
-  int steps = 0;        ///< between runs that both got to their end
-  double mean = 0;      ///< mu: with its sign
-  double strength = 0;  ///< mu*: the mean of their sizes
-  double spread = 0;    ///< sigma: large where it depends on the other axes or is not straight
+  int steps = 0;          ///< between runs that both got to their end
+  double mean = 0;        ///< mu: with its sign
+  double strength = 0;    ///< mu*: the mean of their sizes
+  double spread = 0;      ///< sigma: large where it depends on the other axes or is not straight
+  bool is_noise = false;  ///< with seeds: no step changes the metric by more than another seed does
 
   /// The metric always rises or always falls, more or less.
   bool is_one_way() const { return std::abs(mean) > 0.8 * strength; }

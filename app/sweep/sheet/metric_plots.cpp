@@ -1,9 +1,13 @@
 #include "app/sweep/sheet/metric_plots.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/support/text.h"
+#include "app/sweep/store/points.h"
 #include "render/overlay/svg.h"
 
 namespace neve::app::sweep::sheet {
@@ -22,13 +26,13 @@ struct Across {
 
 Across by_run(const store::Manifest& manifest) {
   Across across;
-  across.title = "run";
-  const auto count = manifest.runs.size();
+  const auto seeds = static_cast<std::size_t>(manifest.seeds);
+  across.title = seeds > 1 ? "point" : "run";
+  const std::size_t count = manifest.runs.size() / seeds;
   for (std::size_t k = 0; k < count; ++k) {
     const double at = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-    across.place.emplace_back(at);
-    if (count <= 12 || k % (count / 6) == 0)
-      across.ticks.push_back({at, std::to_string(manifest.runs[k].index)});
+    across.place.insert(across.place.end(), seeds, at);
+    if (count <= 12 || k % (count / 6) == 0) across.ticks.push_back({at, std::to_string(k)});
   }
   return across;
 }
@@ -97,6 +101,7 @@ Across by_number(const Parameter& parameter, const std::vector<std::optional<dou
 std::vector<Across> parameters_across(const store::Manifest& manifest) {
   std::vector<Across> columns;
   for (const Parameter& parameter : manifest.parameters) {
+    if (manifest.seeds > 1 && parameter.address == "seed") continue;
     std::vector<std::optional<double>> values;
     std::size_t numbers = 0, given = 0;
     for (const Run& run : manifest.runs) {
@@ -135,13 +140,70 @@ std::optional<Extent> extent_of(const store::Manifest& manifest,
   return Extent{e.low - room, e.high + room};
 }
 
-/// Whole runs as dots, others as rings.
+using Colour = std::array<std::uint8_t, 3>;
+constexpr Colour blue{86, 180, 233}, pale_blue{62, 96, 118}, grey{142, 150, 162},
+    pale_grey{84, 90, 98};
+
+/// The place of each point, so that those with one value lie side by side.
+std::vector<std::optional<double>> places_of(const Across& across,
+                                             const std::vector<store::Point>& points) {
+  constexpr double apart = 0.022;
+  std::vector<std::optional<double>> places;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::optional<double> own = across.place[points[k].first];
+    double before = 0, all = 0;
+    for (std::size_t other = 0; own && other < points.size(); ++other)
+      if (across.place[points[other].first] == own) {
+        before += other < k;
+        ++all;
+      }
+    const double step = all > 1 ? std::min(apart, 0.12 / (all - 1)) : 0;
+    places.push_back(own ? std::optional(*own + step * (before - 0.5 * (all - 1))) : std::nullopt);
+  }
+  return places;
+}
+
+void add_line(double x0, double y0, double x1, double y1, render::PlotSeries& lines) {
+  for (const double x : {x0, x1, x1}) lines.x.push_back(static_cast<float>(x));
+  for (const double y : {y0, y1, std::nan("")}) lines.value.push_back(static_cast<float>(y));
+}
+
+/// From min to max of each point, with the mean.
+void add_whiskers(const std::vector<std::optional<double>>& places,
+                  const std::vector<store::Point>& points, std::size_t metric, bool is_noise,
+                  render::Plot& plot) {
+  render::PlotSeries lines{.name = {}, .color = is_noise ? grey : blue, .x = {}, .value = {}};
+  render::PlotSeries means = lines;
+  means.dot_radius = 4.2f;
+  constexpr double cap = 0.008;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const store::Summary& s = points[k].metrics[metric];
+    if (s.count == 0 || !places[k]) continue;
+    const double x = *places[k];
+    add_line(x, s.min, x, s.max, lines);
+    for (const double end : {s.min, s.max}) add_line(x - cap, end, x + cap, end, lines);
+    means.x.push_back(static_cast<float>(x));
+    means.value.push_back(static_cast<float>(s.mean));
+    means.notes.push_back(fmt::format("point {}: mean {}, {} to {} in {} runs", k,
+                                      rough_text(s.mean), rough_text(s.min), rough_text(s.max),
+                                      s.count));
+  }
+  plot.series.push_back(std::move(lines));
+  plot.series.push_back(std::move(means));
+}
+
+/// Whole runs as dots, others as rings; with seeds small ones, and a whisker for each point.
 render::Plot plot_of(const Across& across, const std::vector<store::RunResult>& results,
-                     const store::Manifest& manifest, std::size_t metric, const Extent& extent) {
+                     const store::Manifest& manifest, const std::vector<store::Point>& points,
+                     std::size_t metric, const Extent& extent) {
   const store::MetricInfo& info = store::metric_infos()[metric];
-  render::PlotSeries whole{.name = {}, .color = {86, 180, 233}, .x = {}, .value = {}},
+  const bool has_seeds = manifest.seeds > 1, is_noise = store::is_noise(manifest, points, metric);
+  const std::vector<std::optional<double>> places = places_of(across, points);
+  const Colour dots = !has_seeds ? blue : is_noise ? pale_grey : pale_blue;
+  render::PlotSeries whole{.name = {}, .color = dots, .x = {}, .value = {}},
       failed{.name = {}, .color = {230, 120, 60}, .x = {}, .value = {}};
-  whole.dot_radius = failed.dot_radius = 4.2f;
+  whole.dot_radius = has_seeds ? 2.4f : 4.2f;
+  failed.dot_radius = 4.2f;
   failed.has_rings = true;
   for (std::size_t k = 0; k < results.size(); ++k) {
     const std::optional<double>& value = results[k].metrics[metric];
@@ -149,7 +211,8 @@ render::Plot plot_of(const Across& across, const std::vector<store::RunResult>& 
     const Run& run = manifest.runs[k];
     const bool is_ok = results[k].status.state == store::RunState::ok;
     render::PlotSeries& series = is_ok ? whole : failed;
-    series.x.push_back(static_cast<float>(*across.place[k]));
+    const std::size_t point = k / static_cast<std::size_t>(manifest.seeds);
+    series.x.push_back(static_cast<float>(has_seeds ? *places[point] : *across.place[k]));
     // One that exploded lies far beyond; its note has the number.
     series.value.push_back(static_cast<float>(std::clamp(*value, extent.low, extent.high)));
     series.notes.push_back("run " + std::to_string(run.index) + ": " +
@@ -157,10 +220,12 @@ render::Plot plot_of(const Across& across, const std::vector<store::RunResult>& 
   }
   render::Plot plot;
   plot.title = info.title;
+  if (is_noise) plot.title += ": noise here";
   plot.unit = info.unit;
   plot.min = static_cast<float>(extent.low);
   plot.max = static_cast<float>(extent.high);
   plot.series = {whole, failed};
+  if (has_seeds) add_whiskers(places, points, metric, is_noise, plot);
   plot.x_title = across.title;
   plot.x_unit.clear();
   plot.x_ticks = across.ticks;
@@ -172,6 +237,7 @@ render::Plot plot_of(const Across& across, const std::vector<store::RunResult>& 
 std::string metric_plots_svg(const store::Manifest& manifest,
                              const std::vector<store::RunResult>& results) {
   const std::vector<Across> columns = parameters_across(manifest);
+  const std::vector<store::Point> points = store::points_of(manifest, results);
   const float row_height = top_room + panel_height + bottom_room;
   const float block_width = left_room + static_cast<float>(columns.size()) * (panel_width + gap);
   const int side_by_side = std::max(1, static_cast<int>(page_width / block_width));
@@ -186,7 +252,7 @@ std::string metric_plots_svg(const store::Manifest& manifest,
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const float x = left + static_cast<float>(c) * (panel_width + gap);
       const bool is_first = c == 0;
-      render::overlay::draw_plot(plot_of(columns[c], results, manifest, metric, *extent),
+      render::overlay::draw_plot(plot_of(columns[c], results, manifest, points, metric, *extent),
                                  {x, x + panel_width, top, top + panel_height},
                                  {.has_title = is_first, .has_values = is_first}, canvas);
     }

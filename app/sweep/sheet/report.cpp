@@ -52,7 +52,8 @@ std::string paper_section(const store::Manifest& manifest, const SheetLayout& la
       "src=\"data:image/png;base64," +
       base64(png) + "\">\n";
   for (const SheetTile& tile : layout.tiles) {
-    const std::string run = std::to_string(manifest.runs[tile.run].index);
+    const std::size_t first = tile.run * static_cast<std::size_t>(manifest.seeds);
+    const std::string run = std::to_string(manifest.runs[first].index);
     html += "<a href=\"#run-" + run + "\" data-run=\"" + run + "\" title=\"run " + run +
             "\" style=\"left:" + css_percent(tile.x, layout.width) +
             ";top:" + css_percent(tile.y, layout.height) +
@@ -102,8 +103,11 @@ std::string summary_of(const store::Manifest& manifest,
     ok += result.status.state == store::RunState::ok;
   }
   const int open = static_cast<int>(manifest.runs.size()) - ok - failed;
-  std::string text = std::to_string(manifest.runs.size()) + " runs of " + manifest.scene_file +
-                     ": " + std::to_string(ok) + " ok";
+  const std::size_t seeds = static_cast<std::size_t>(manifest.seeds), runs = manifest.runs.size();
+  std::string text =
+      std::to_string(runs) + " runs of " + manifest.scene_file + ": " + std::to_string(ok) + " ok";
+  if (seeds > 1)
+    text = std::to_string(runs / seeds) + " points of " + std::to_string(seeds) + " seeds, " + text;
   if (failed > 0) text += ", " + std::to_string(failed) + " failed";
   if (open > 0) text += ", " + std::to_string(open) + " not finished";
   return text + "; neve " + manifest.version;
@@ -127,7 +131,8 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
                         const std::vector<store::RunResult>& results, const SheetLayout& layout,
                         const std::vector<std::uint8_t>& sheet_png, std::size_t pages) {
   std::string script;
-  for (const char* file : {"study.js", "page.js", "walk.js", "lists.js", "charts.js", "start.js"})
+  for (const char* file :
+       {"study.js", "noise.js", "page.js", "walk.js", "lists.js", "charts.js", "start.js"})
     script += find_embedded_report(file);
   return fill_page(find_embedded_report("page.html"),
                    {{"title", render::overlay::xml_text(manifest.title)},

@@ -7,6 +7,8 @@
 
 #include "app/options/arguments.h"
 #include "app/support/text.h"
+#include "app/sweep/sheet/seals.h"
+#include "app/sweep/store/points.h"
 
 namespace neve::app::sweep::sheet {
 
@@ -33,7 +35,8 @@ Json column_names(const store::Manifest& manifest) {
   columns.push_back(column("run", "run", false));
   if (has_labels(manifest)) columns.push_back(column("name", "name", true));
   for (const Parameter& p : manifest.parameters)
-    columns.push_back(column("parameter", p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
+    columns.push_back(column(manifest.seeds > 1 && p.address == "seed" ? "seed" : "parameter",
+                             p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
                              p.type != "number" && p.type != "integer", p.address));
   columns.push_back(column("state", "state", true));
   columns.push_back(column("warnings", "warnings", false, "hover over a cell for the text"));
@@ -108,6 +111,7 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
           {"failed", store::has_failed(result.status.state)},
           {"reason", result.status.reason},
           {"warnings", result.warnings},
+          {"broken", result.has_broken ? Json(*result.has_broken) : Json()},
           {"levels", run.coordinates},
           {"frames", ranges_of(result.frames)},
           {"pictures", pictures},
@@ -128,6 +132,45 @@ Json axes_of(const store::Manifest& manifest) {
   return axes;
 }
 
+/// A metric at each point, with the noise of its runs: what the page compares, it does not compute.
+Json noise_of(const store::Manifest& manifest, const std::vector<store::Point>& points,
+              std::size_t metric) {
+  const std::vector<store::Summary> summaries = store::summaries_of(points, metric);
+  const std::vector<int> ranks = store::shared_ranks(summaries);
+  const std::vector<double> shared = store::shared_means(summaries, ranks);
+  const std::vector<std::vector<int>> groups = store::close_groups(summaries);
+  Json list = Json::array();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const store::Summary& s = summaries[k];
+    list.push_back(s.count == 0 ? Json()
+                                : Json{{"mean", s.mean},
+                                       {"min", s.min},
+                                       {"max", s.max},
+                                       {"rank", ranks[k]},
+                                       {"shared", shared[k]},
+                                       {"groups", groups[k]},
+                                       {"letters", store::group_letters(groups[k])}});
+  }
+  return {{"metric", store::metric_infos()[metric].name},
+          {"noise", store::is_noise(manifest, points, metric)},
+          {"points", list}};
+}
+
+void add_noise(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
+               Json& data) {
+  data["seeds"] = manifest.seeds;
+  if (manifest.seeds == 1) return;
+  const std::vector<store::Point> points = store::points_of(manifest, results);
+  data["outcomes"] = Json::array();
+  for (const store::Point& point : points)
+    data["outcomes"].push_back(
+        {{"text", store::outcome_text(point)}, {"undecided", store::is_undecided(point)}});
+  data["groupColours"] = group_colours;
+  data["noise"] = Json::array();
+  for (std::size_t metric = 0; metric < store::metric_infos().size(); ++metric)
+    data["noise"].push_back(noise_of(manifest, points, metric));
+}
+
 /// Tiles side by side, as sheet.png has them where its axes are along its edges; 0: as many as fit.
 std::size_t columns_of_sheet(const store::Manifest& manifest) {
   if (manifest.wrap > 0) return static_cast<std::size_t>(manifest.wrap);
@@ -144,6 +187,7 @@ Json report_data(const std::string& folder, const store::Manifest& manifest,
   data["across"] = columns_of_sheet(manifest);
   data["axes"] = axes_of(manifest);
   data["columns"] = column_names(manifest);
+  add_noise(manifest, results, data);
   data["rows"] = Json::array();
   for (std::size_t k = 0; k < manifest.runs.size(); ++k)
     data["rows"].push_back(row_of(folder, manifest, manifest.runs[k], results[k]));

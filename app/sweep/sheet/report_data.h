@@ -11,6 +11,7 @@ namespace neve::app::sweep::sheet {
 
 /// "columns" and "rows" of the table; each row also with the frames that have pictures, where these
 /// are from the folder of the sweep, its levels on "axes", and commands to paste.
+/// With seeds also "outcomes" of the points and "noise" of the metrics.
 /// @param folder as the commands name it
 Json report_data(const std::string& folder, const store::Manifest& manifest,
                  const std::vector<store::RunResult>& results);

@@ -1,5 +1,7 @@
 #include "app/sweep/sheet/sheet.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -95,7 +97,9 @@ std::pair<std::string, std::string> split_state(const std::string& text) {
   return {text.substr(0, end), end < text.size() ? text.substr(end + 1) : ""};
 }
 
-std::string run_count_text(const std::vector<store::RunResult>& results) {
+/// "12 runs, 1 failed", "3 points, 12 runs".
+std::string run_count_text(const store::Manifest& manifest,
+                           const std::vector<store::RunResult>& results) {
   int ok = 0, failed = 0;
   for (const store::RunResult& result : results) {
     ok += result.status.state == store::RunState::ok;
@@ -103,6 +107,10 @@ std::string run_count_text(const std::vector<store::RunResult>& results) {
   }
   const int open = static_cast<int>(results.size()) - ok - failed;
   std::string text = std::to_string(results.size()) + (results.size() == 1 ? " run" : " runs");
+  if (manifest.seeds > 1)
+    text = fmt::format("{} points of {} seeds, {}",
+                       results.size() / static_cast<std::size_t>(manifest.seeds), manifest.seeds,
+                       text);
   if (failed > 0) text += ", " + std::to_string(failed) + " failed";
   if (open > 0) text += ", " + std::to_string(open) + " not finished";
   return text;
@@ -114,13 +122,15 @@ SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& mani
                        const std::vector<store::RunResult>& results,
                        const std::vector<render::Legend>& legends, render::Renderer& renderer)
     : folder_(std::move(folder)),
-      manifest_(manifest),
-      results_(results),
+      manifest_(store::first_draws(manifest)),
+      results_(store::first_draws(manifest, results)),
+      seals_(seals_of(manifest, results)),
+      counts_(run_count_text(manifest, results)),
       legends_(legends),
       renderer_(renderer),
-      head_(manifest),
-      named_(manifest),
-      pages_(layout_pages(manifest, !legends.empty(), renderer.max_size())) {
+      head_(manifest_),
+      named_(manifest_),
+      pages_(layout_pages(manifest_, !legends.empty(), renderer.max_size())) {
   head_.runs.clear();
   if (named_.tile_label == "none") named_.tile_label = "differences";
 }
@@ -165,6 +175,7 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
     words.notes.push_back({left, top + 1.25f * size * static_cast<float>(lines.size()),
                            "! " + store::warning_count_text(tile.result->warnings.size()),
                            render::Note::Anchor::left, room, false, caution});
+  add_seal(layout, tile, words);
   if (!is_dark) return;
   const auto [state, reason] = split_state(jobs::tile_text(tile.result->status));
   const bool is_alarm = store::has_failed(tile.result->status.state);
@@ -178,6 +189,15 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
   if (!state.empty() && !reason.empty())
     words.notes.push_back(
         {middle, y + 1.6f * size, reason, render::Note::Anchor::middle, room, false, bright});
+}
+
+void SheetMaker::add_seal(const SheetLayout& layout, const Tile& tile, render::Frame& words) const {
+  if (seals_.of_points.empty() || manifest_.tile_label == "none") return;
+  draw_seal(seals_.of_points[manifest_.place_of(*tile.run)], seals_.is_noise,
+            {static_cast<float>(tile.x), static_cast<float>(tile.y),
+             static_cast<float>(layout.tile_width), static_cast<float>(layout.tile_height),
+             static_cast<float>(layout.font_size)},
+            words);
 }
 
 render::Frame SheetMaker::frame_of(const SheetLayout& layout, const std::string& line) const {
@@ -217,11 +237,16 @@ render::Image SheetMaker::sheet(int frame, std::size_t page) {
     tiles.push_back({&manifest_.runs[place.run], &results_[place.run], frame, place.x, place.y});
   const std::string line =
       "frame " + std::to_string(frame) + "   t = " + fixed_text(manifest_.time_of(frame), 3) +
-      " s" + dot + run_count_text(results_) +
+      " s" + dot + counts_ +
       (pages_.size() > 1
            ? dot + ("page " + std::to_string(page + 1)) + " of " + std::to_string(pages_.size())
            : "");
   render::Frame words = frame_of(layout, line);
+  const auto size = static_cast<float>(layout.font_size);
+  if (!seals_.key.empty())
+    words.notes.push_back({size, static_cast<float>(layout.height) - 1.7f * size, seals_.key,
+                           render::Note::Anchor::left, static_cast<float>(layout.width) - 2 * size,
+                           false, soft});
   return compose(layout, tiles, words);
 }
 
@@ -242,8 +267,10 @@ std::vector<render::Image> SheetMaker::strips() {
 
 render::Image SheetMaker::strips_of(const std::vector<int>& frames, std::size_t first,
                                     const SheetLayout& layout) {
-  render::Frame words =
-      frame_of(layout, "moments of every run" + std::string(dot) + run_count_text(results_));
+  render::Frame words = frame_of(
+      layout,
+      (seals_.of_points.empty() ? "moments of every run" : "moments of every point, first seed") +
+          std::string(dot) + counts_);
   std::vector<render::Tile> pictures;
   for (const SheetTile& place : layout.tiles) {
     const std::size_t run = first + place.run / frames.size();
@@ -272,6 +299,7 @@ std::vector<int> SheetMaker::moments() const {
 store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames, std::size_t first,
                                        std::size_t count) const {
   store::Manifest grid = head_;
+  grid.apart = 1;
   grid.columns = 1;
   grid.rows = 0;
   grid.tile_width = std::max(160, manifest_.tile_width * 2 / 3);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/sweep/sheet/seals.h"
 #include "app/sweep/sheet/sheet_layout.h"
 #include "app/sweep/store/results.h"
 #include "render/renderer.h"
@@ -14,8 +15,8 @@ namespace neve::app::sweep::sheet {
 
 class SheetMaker {
  public:
-  /// @param legends shared by all tiles
-  /// All but the path must outlive it.
+  /// With seeds, each point has one tile: its first run.
+  /// @param legends shared by all tiles; they and the renderer must outlive it
   SheetMaker(std::filesystem::path folder, const store::Manifest& manifest,
              const std::vector<store::RunResult>& results,
              const std::vector<render::Legend>& legends, render::Renderer& renderer);
@@ -43,6 +44,7 @@ class SheetMaker {
   render::Image tile_picture(const Tile& tile, int width, int height, bool is_late) const;
   void add_tile_words(const SheetLayout& layout, const Tile& tile, bool is_late,
                       render::Frame& words) const;
+  void add_seal(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
   void add_state(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
   /// Frames that strips show.
   std::vector<int> moments() const;
@@ -54,8 +56,10 @@ class SheetMaker {
   render::Frame frame_of(const SheetLayout& layout, const std::string& line) const;
 
   std::filesystem::path folder_;
-  const store::Manifest& manifest_;
-  const std::vector<store::RunResult>& results_;
+  store::Manifest manifest_;               ///< of the runs that have a tile
+  std::vector<store::RunResult> results_;  ///< theirs
+  Seals seals_;
+  std::string counts_;  ///< "12 runs, 1 failed", of all runs
   const std::vector<render::Legend>& legends_;
   render::Renderer& renderer_;
   store::Manifest head_;   ///< without runs

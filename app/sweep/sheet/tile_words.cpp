@@ -35,7 +35,7 @@ bool is_of(const store::AxisLabels& axis, const std::string& address) {
 /// "hardening = 8.333, was 5" for each parameter of the axis.
 std::vector<std::string> changed_words(const store::Manifest& manifest, const Run& run,
                                        const store::AxisLabels& axis) {
-  const Run& before = manifest.runs[static_cast<std::size_t>(run.index) - 1];
+  const Run& before = manifest.runs[manifest.place_of(run) - 1];
   std::vector<std::string> words;
   for (const Parameter& parameter : manifest.parameters)
     if (is_of(axis, parameter.address))
@@ -88,11 +88,12 @@ std::vector<std::string> fitted(const std::vector<std::string>& words, const Wor
 
 int changed_axis(const store::Manifest& manifest, const Run& run) {
   if (manifest.screened.empty() || run.index == 0) return -1;
-  const Run& before = manifest.runs[static_cast<std::size_t>(run.index) - 1];
+  const std::size_t place = manifest.place_of(run);
+  const Run& before = manifest.runs[place - 1];
   if (run.coordinates.empty() || run.coordinates.size() != before.coordinates.size()) return -1;
   // A start may lie one step from the end before: trajectories have a run more than axes.
   const std::size_t length = manifest.screened.size() + 1;
-  if (static_cast<std::size_t>(run.index) % length == 0) return -1;
+  if (place % length == 0) return -1;
   int changed = -1;
   for (std::size_t a = 0; a < run.coordinates.size(); ++a)
     if (run.coordinates[a] != before.coordinates[a]) {

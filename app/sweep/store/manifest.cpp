@@ -205,6 +205,9 @@ void check_values(const Manifest& m) {
   check(is_amount(m.timeout) && is_amount(m.memory), "its limits are invalid");
   check(is_amount(m.seconds_per_work), "its seconds per work are invalid");
   check(!m.runs.empty(), "it has no runs");
+  check(m.seeds >= 1 && m.seeds <= read::max_seeds &&
+            m.runs.size() % static_cast<std::size_t>(m.seeds) == 0,
+        "its runs are not whole points");
   check(m.runs.size() <= max_runs, "it has too many runs");
   double places = 1;
   for (const AxisLabels& axis : m.axes) places *= static_cast<double>(axis.values.size());
@@ -269,6 +272,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   m.tile_label = scene::name(plan.sweep.sheet.label);
   m.timeout = plan.sweep.limits.timeout.seconds;
   m.memory = static_cast<double>(plan.sweep.limits.memory);
+  m.seeds = plan.sweep.runs_per_point();
   m.parameters = plan::varied_parameters(plan);
   m.varied = axis_addresses(plan.sweep);
   if (plan.sweep.settings.method == read::Method::grid)
@@ -350,6 +354,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
                          {"source", m.beginning->source}};
   json["keeps_states"] = m.keeps_states;
   json["seconds_per_work"] = m.seconds_per_work;
+  json["seeds"] = m.seeds;
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
   output::write_file(manifest_path(folder), record::with_own_hash(json));
@@ -404,6 +409,7 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
       m.beginning = {json.at("beginning").at("time").get<double>(),
                      run_of(json.at("beginning").at("run")),
                      json.at("beginning").value("source", "")};
+    m.seeds = whole_number_or(json, "seeds", 1);
     m.keeps_states = json.value("keeps_states", false);
     m.seconds_per_work = json.value("seconds_per_work", 0.0);
     check_values(m);

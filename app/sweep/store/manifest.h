@@ -53,6 +53,12 @@ struct Manifest {
   /// Addresses of all axes, for any method; sorted. Nothing in files of before they had it.
   std::optional<std::vector<std::string>> varied;
   std::vector<Run> runs;
+  /// Runs of each point, which follow each other and differ in their seed alone.
+  int seeds = 1;
+  /// From the number of a run to that of the next one: more than 1 where some runs of each point
+  /// are omitted, see first_draws(). In no file.
+  int apart = 1;
+  std::size_t place_of(const Run& run) const { return static_cast<std::size_t>(run.index / apart); }
   double seconds_per_work = 0;  ///< s of one thread, by the forecast; 0: not known
   std::optional<Beginning> beginning{};
   bool keeps_states = false;  ///< of drawn frames

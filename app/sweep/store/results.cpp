@@ -139,6 +139,8 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   else if (result.status.key == run.key)
     result.flaws = flaws_of_run(folder, run, result.status);
   result.metrics = metrics_of(frames, result.status, notes.diverged_at);
+  if (!frames.empty() && is_whole(run, result))
+    result.has_broken = record::has_broken(frames.front().metrics, frames.back().metrics);
   return result;
 }
 

@@ -28,6 +28,8 @@ struct RunResult {
   /// That the run ended with: its numbers may be misleading.
   std::vector<std::string> warnings{};
   std::string flaws{};  ///< see flaws_of_run
+  /// Of a run that got to its last frame, against its first picture; see record::has_broken.
+  std::optional<bool> has_broken{};
 
   std::optional<int> last_frame() const {
     return frames.empty() ? std::nullopt : std::optional(frames.back());

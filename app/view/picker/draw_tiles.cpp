@@ -90,6 +90,17 @@ std::string badge_text(const PickerState& state, int tile) {
   return is_favourite && has_room ? number + "  favourite so far" : number;
 }
 
+/// At the lower edge, what the other seeds of a tile say.
+void draw_noise(const PickerState& state, const Frame& frame, int tile) {
+  const auto k = static_cast<std::size_t>(tile);
+  if (k >= state.noise.tiles.size() || state.noise.tiles[k].empty()) return;
+  const float inset = 0.3f * em();
+  ImGui::PushClipRect(frame.low, frame.high, true);
+  draw_badge(ImVec2(frame.low.x + inset, frame.high.y - 1.9f * em()), state.noise.tiles[k],
+             colour::text);
+  ImGui::PopClipRect();
+}
+
 void draw_tile(PickerState& state, int tile) {
   const ShownTile& shown = state.tiles[static_cast<std::size_t>(tile)];
   const Frame frame = frame_of(state.layout.grid, tile);
@@ -109,6 +120,7 @@ void draw_tile(PickerState& state, int tile) {
   const float inset = 0.3f * em();
   draw_badge(ImVec2(frame.low.x + inset, frame.low.y + inset), badge_text(state, tile),
              state.first == tile ? colour::liked : colour::text);
+  draw_noise(state, frame, tile);
   if (is_clicked) click_tile(state, tile, ImGui::GetIO().KeyShift);
   // A finger that rests is the right button.
   if (ImGui::IsItemClicked(1) && shown.is_new) state.closer = tile;

@@ -95,6 +95,7 @@ void Picker::begin_round() {
     state_.closer.reset();
     for (ShownTile& tile : state_.tiles) tile.is_new = false;
     state_.runs.runs.clear();
+    state_.noise = {};
     process_.reset();
     process_.emplace(game_.begin_round(), this_program(), game_.folder() / "round.log",
                      round_grace);
@@ -123,7 +124,8 @@ void Picker::follow_round() {
 }
 
 /// Shows tiles whose runs have ended.
-void Picker::look_at(const sweep::jobs::SweepProgress& progress) {
+void Picker::look_at(const sweep::jobs::SweepProgress& runs) {
+  const sweep::jobs::SweepProgress progress = pick::tiles_of(runs);
   state_.runs = progress;
   const std::size_t count = std::min<std::size_t>(tile_count, progress.runs.size());
   for (std::size_t k = 0; k < count; ++k) {
@@ -162,9 +164,11 @@ void Picker::end_round(int code) {
 /// All nine runs have ended. @throws Error where the page cannot be written
 void Picker::ask() {
   game_.write_page(state_.runs);
+  state_.noise = pick::noise_of_round(game_.folder());
   state_.phase = Phase::asking;
   state_.note = pick::all_failed_text(state_.runs);
   if (!state_.note.empty()) state_.note += "; None of them makes nine others";
+  if (state_.note.empty()) state_.note = state_.noise.key;
   settle_ = 3;
   if (options_.tell) options_.tell(state_);
 }

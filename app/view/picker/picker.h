@@ -41,7 +41,7 @@ class Picker {
   void attempt(const std::function<void()>& action);
   void begin_round();
   void follow_round();
-  void look_at(const sweep::jobs::SweepProgress& progress);
+  void look_at(const sweep::jobs::SweepProgress& runs);
   void end_round(int code);
   void ask();
   void heed();

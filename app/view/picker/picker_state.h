@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/pick/game.h"
+#include "app/pick/round_noise.h"
 #include "app/view/picker/layout.h"
 #include "app/view/picker/tile_movies.h"
 
@@ -39,6 +40,7 @@ struct PickerState {
   Phase phase = Phase::making;
   std::array<ShownTile, tile_count> tiles{};
   sweep::jobs::SweepProgress runs{};      ///< of the present round
+  pick::RoundNoise noise{};               ///< of its tiles, once all have ended
   bool takes_two = false;                 ///< the next two clicks are one answer
   std::optional<int> first{};             ///< of two
   int pointed = -1;                       ///< tile under the pointer

@@ -112,7 +112,7 @@ function drawPoint(pen, at, x, y, radius) {
 function startColour() {
   const select = by('colour');
   for (const column of drawn)
-    if (!column.scale.isChoice) select.append(make('option', {value: column.at, textContent: column.title}));
+    if (!column.scale.isChoice) select.append(make('option', {value: column.at, textContent: titleOf(column)}));
   select.value = state.colour;
   select.closest('label').hidden = select.options.length === 0;
   select.addEventListener('change', () => {
@@ -124,9 +124,9 @@ function startColour() {
   const drawing = {canvases: [canvas], width: 150, height: 26};
   addPainter(null, ['colour', 'theme'], () => {
     if (state.colour < 0) return;
-    const pen = penOf(drawing, 0), {scale} = columns[state.colour];
+    const pen = penOf(drawing, 0), {scale, isNoise} = columns[state.colour];
     for (let x = 0; x < 150; ++x) {
-      pen.fillStyle = rampColour(x / 149);
+      pen.fillStyle = isNoise ? theme.soft : rampColour(x / 149);
       pen.fillRect(x, 0, 1.5, 10);
     }
     drawText(pen, scale.text(0), 0, 23, 70);
@@ -223,17 +223,18 @@ function drawParallelAxis(pen, drawing, column, k) {
 }
 
 function drawParallelWords(pen, column, [x0, y0], [x1, y1]) {
-  const {scale, title} = column, room = parallel.isTall ? x1 - x0 : parallel.step - 8;
+  const {scale} = column, title = titleOf(column), room = parallel.isTall ? x1 - x0 : parallel.step - 8;
   if (parallel.isTall) {
     const low = scale.isChoice ? scale.kinds[0] : scale.text(0);
     const high = scale.isChoice ? scale.kinds[scale.kinds.length - 1] : scale.text(1);
     drawText(pen, title, (x0 + x1) / 2, y0 - 12, room * 0.56,
-             {align: 'center', colour: theme.ink, isBacked: true});
+             {align: 'center', colour: column.isNoise ? theme.strong : theme.ink, isBacked: true});
     drawText(pen, low, x0 - 8, y0 - 12, room * 0.2, {isBacked: true});
     drawText(pen, high, x1 + 8, y0 - 12, room * 0.2, {align: 'right', isBacked: true});
     return;
   }
-  drawText(pen, title, x0, 30, room, {align: 'center', colour: theme.ink, most: 2});
+  drawText(pen, title, x0, 30, room,
+           {align: 'center', colour: column.isNoise ? theme.strong : theme.ink, most: 2});
   const words = scale.isChoice ? scale.kinds.map(kind => [String(kind), scale.at(kind)])
                                : [[scale.text(0), 0], [scale.text(1), 1]];
   for (const [word, place] of words) {
@@ -399,8 +400,31 @@ function drawScatterWords(pen, box) {
            {align: 'center', colour: theme.ink});
 }
 
+/** From min to max of each point, up and across, through its mean. */
+function drawScatterWhiskers(pen, box) {
+  const across = columns[scatter.x], up = columns[scatter.y];
+  const ends = (column, at) => {
+    const s = summaryOf(column, at);
+    return s ? [s.min, s.mean, s.max].map(x => clamp01(column.scale.at(x))) : Array(3).fill(column.places[at]);
+  };
+  pen.lineWidth = 1.6;
+  for (const at of state.shown) {
+    const x = ends(across, at), y = ends(up, at);
+    if ([...x, ...y].some(isNaN)) continue;
+    const left = k => box.x + x[k] * box.width, top = k => box.y + (1 - y[k]) * box.height;
+    pen.strokeStyle = pen.fillStyle = colourOf(at);
+    pen.beginPath();
+    pen.moveTo(left(0), top(1));
+    pen.lineTo(left(2), top(1));
+    pen.moveTo(left(1), top(0));
+    pen.lineTo(left(1), top(2));
+    pen.stroke();
+    pen.fillRect(left(1) - 4, top(1) - 4, 8, 8);
+  }
+}
+
 function drawScatterPoints(pen, box) {
-  const radius = rows.length > 200 ? 3 : 4.2;
+  const radius = hasSeeds ? 2.4 : rows.length > 200 ? 3 : 4.2;
   pen.lineWidth = 1.8;
   for (const isKept of [false, true])
     for (const row of rows) {
@@ -459,12 +483,13 @@ function startScatter() {
   drawing.element.style.touchAction = 'pan-y';
   fillSelect(by('scatter-x'), options, scatter.x, c => { scatter.x = c; change('scatter'); });
   fillSelect(by('scatter-y'), options, scatter.y, c => { scatter.y = c; change('scatter'); });
-  addPainter(drawing.element, ['brush', 'colour', 'scatter', 'size', 'theme'], () => {
+  addPainter(drawing.element, ['brush', 'colour', 'scatter', 'size', 'theme', 'draw'], () => {
     const pen = penOf(drawing, 0), box = scatterBox(drawing);
     drawFrame(pen, box);
     drawScatterWords(pen, box);
     drawScatterBrush(pen, box);
     drawScatterPoints(pen, box);
+    if (hasSeeds) drawScatterWhiskers(pen, box);
   });
   addPainter(drawing.element, ['run', 'hover', 'scatter', 'size', 'theme'], () => drawScatterLit(drawing));
   const nearest = ({x, y}) => nearestDrawn(at => {
@@ -508,19 +533,20 @@ function cellsOf(axis) {
 /** Runs of each cell: all that are kept, or those at the sliders of the other axes. */
 function gatherCells(across, up, isSlice) {
   const cells = Array.from({length: across.count * up.count},
-                           () => ({runs: [], failed: 0, sum: 0, count: 0}));
+                           () => ({runs: [], failed: 0, sum: 0, colour: 0, count: 0}));
   for (const at of state.kept) {
     const x = axes[heat.x].stopOf[at], y = axes[heat.y].stopOf[at];
     if (x < 0 || y < 0) continue;
     const isThere = axes.every(
-      (axis, k) => k === heat.x || k === heat.y || axis.stopOf[at] === state.stops[k]);
+      (axis, k) => k === heat.x || k === heat.y || axis.isSeed || axis.stopOf[at] === state.stops[k]);
     if (isSlice && !isThere) continue;
     const cell = cells[up.of[y] * across.count + across.of[x]];
-    const value = state.colour < 0 ? NaN : columns[state.colour].places[at];
+    const column = columns[state.colour], value = state.colour < 0 ? NaN : column.places[at];
     cell.runs.push(at);
     if (rows[at].failed) ++cell.failed;
     else if (!isNaN(value)) {
       cell.sum += value;
+      cell.colour += colourPlace(column, at);
       ++cell.count;
     }
   }
@@ -548,13 +574,22 @@ function drawStripes(pen, x, y, width, height, isAll) {
 
 function drawHeatCell(pen, cell, x, y, width, height) {
   if (cell.runs.length === 0) return;
-  pen.fillStyle = cell.count > 0 ? rampColour(cell.sum / cell.count) : theme.card;
+  const colour = cell.colour / cell.count;  // no number where the metric is noise
+  pen.fillStyle = isNaN(colour) ? theme.faint : rampColour(colour);
   pen.fillRect(x, y, width, height);
   if (cell.failed > 0) drawStripes(pen, x, y, width, height, cell.count === 0);
   if (cell.count === 0 || width < 44 || height < 18) return;
   const {scale} = columns[state.colour];
-  drawText(pen, scale.text(cell.sum / cell.count), x + width / 2, y + height / 2 + 4, width - 4,
-           {align: 'center', colour: cell.sum / cell.count > 0.35 ? '#10161d' : '#fff'});
+  const ink = isNaN(colour) ? theme.ink : colour > 0.35 ? '#10161d' : '#fff', column = columns[state.colour];
+  const s = cell.runs.every(at => pointOf(at) === pointOf(cell.runs[0])) && summaryOf(column, cell.runs[0]);
+  const text = scale.text(cell.sum / cell.count) + (s && !column.isNoise ? '  ' + s.letters : '');
+  drawText(pen, text, x + width / 2, y + height / 2 + 4, width - 4, {align: 'center', colour: ink});
+  if (!s || height < 34) return;
+  // Its whisker, along the lower edge.
+  const at = value => x + 6 + clamp01(scale.at(value)) * (width - 12), line = y + height - 9;
+  pen.fillStyle = ink;
+  pen.fillRect(at(s.min), line - 1, at(s.max) - at(s.min) + 1, 2);
+  pen.fillRect(at(s.mean) - 3, line - 3, 6, 6);
 }
 
 function drawHeat(drawing) {
@@ -598,6 +633,7 @@ function heatTip(cell) {
   const lines = [cell.runs.length === 1 ? rows[cell.runs[0]].name : cell.runs.length + ' runs'];
   if (cell.count > 0)
     lines.push(columns[state.colour].title + ' ' + columns[state.colour].scale.text(cell.sum / cell.count));
+  if (hasSeeds && cell.runs.length <= seeds) lines.push(pointText(columns[state.colour], cell.runs[0]));
   if (cell.failed > 0) lines.push(cell.failed === 1 ? '1 failed' : cell.failed + ' failed');
   return lines.join('\n');
 }
@@ -613,9 +649,10 @@ function heatKey(event) {
 
 function startHeat() {
   const section = by('heat').closest('section');
-  section.hidden = axes.length < 2 || state.colour < 0;
+  const options = axes.map((axis, k) => [k, axis.name]).filter(([k]) => k !== seedAxis);
+  section.hidden = options.length < 2 || state.colour < 0;
   if (section.hidden) return;
-  const drawing = watchCanvas(by('heat')), options = axes.map((axis, k) => [k, axis.name]);
+  const drawing = watchCanvas(by('heat'));
   const pick = (own, other) => k => {
     // A map needs two different axes: swap them.
     if (heat[other] === k) heat[other] = heat[own];
@@ -626,11 +663,11 @@ function startHeat() {
   };
   fillSelect(by('heat-x'), options, heat.x, pick('x', 'y'));
   fillSelect(by('heat-y'), options, heat.y, pick('y', 'x'));
-  by('heat-of').closest('label').hidden = axes.length < 3;
+  by('heat-of').closest('label').hidden = options.length < 3;
   by('heat-of').addEventListener('change', () => change('heat'));
   addPainter(drawing.element, ['brush', 'colour', 'run', 'heat', 'size', 'theme'], () => {
     drawHeat(drawing);
-    by('heat-title').textContent = 'Heat map of ' + columns[state.colour].title;
+    by('heat-title').textContent = 'Heat map of ' + titleOf(columns[state.colour]);
     drawing.canvases[0].setAttribute('aria-label', `heat map of ${columns[state.colour].title} across ` +
       `${axes[heat.x].name} and ${axes[heat.y].name}; arrow keys move along them`);
   });

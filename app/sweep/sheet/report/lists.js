@@ -33,7 +33,7 @@ function watchBox(element, room = 0) {
 /** A run's own values on the axes, or its label. */
 function tileText(row) {
   if (row.label) return row.label;
-  return axes.slice(0, 3).map((axis, k) => axis.stopOf[row.at] >= 0 && axis.name !== 'run'
+  return axes.filter(axis => !axis.isSeed).slice(0, 3).map((axis, k) => axis.stopOf[row.at] >= 0 && axis.name !== 'run'
     ? axis.name + ' ' + axis.texts[axis.stopOf[row.at]] : '').filter(text => text).join(', ');
 }
 
@@ -59,29 +59,59 @@ function makeTile(row) {
   tile.dataset.at = row.at;
   tile.dataset.run = row.run;
   tile.setAttribute('aria-label', `${row.name}, ${row.state}, ${text}`);
+  if (hasSeeds) sealTile(tile, row);
   return tile;
+}
+
+/** How often the snow of a point breaks, and the noise of the metric that gives the colours. */
+function sealTile(tile, row) {
+  const column = columns[state.colour], outcome = outcomeText(row.at);
+  const seal = make('span', {className: 'seal'}, make('em', {textContent: outcome,
+    className: study.outcomes[pointOf(row.at)].undecided ? 'undecided' : ''}));
+  const s = column && summaryOf(column, row.at);
+  if (s) {
+    seal.append(make('span', {}, whiskerOf(column, row.at), ...lettersOf(column, s)));
+  }
+  tile.classList.add('sealed');
+  tile.append(seal);
+  tile.setAttribute('aria-label', `${tile.getAttribute('aria-label')}, ${outcome}` +
+    (s ? `, ${column.title} ${pointText(column, row.at)}` : ''));
+}
+
+/** Explains the marks on the tiles. */
+function sealHint() {
+  const column = columns[state.colour];
+  if (!hasSeeds || !column || !column.points) return '';
+  const start = `Whisker: ${column.title} over ${seeds} seeds, from min to max, with the mean. `;
+  return start + (column.isNoise ? 'It is noise here: all tiles are too close to call.'
+    : 'Tiles that share a letter are too close to call; they share a colour where they share a rank.');
 }
 
 function tileLayout(width) {
   const across = study.across, least = width < 600 ? 140 : 180, most = Math.max(1, Math.floor(width / least));
   const fits = across > 1 && across <= most + 2 && width / across >= 120;
-  const count = fits ? across : Math.min(most, Math.max(rows.length, 2));
+  const count = fits ? across : Math.min(most, Math.max(rows.length / seeds, 2));
   const side = Math.min(320, Math.floor(width / count));
-  return {count, side, height: Math.round(side * study.tile[1] / study.tile[0]) + 40};
+  return {count, side, height: Math.round(side * study.tile[1] / study.tile[0]) + (hasSeeds ? 82 : 40)};
 }
 
 function startTiles() {
   const element = by('tiles'), room = by('tiles-room'), box = watchBox(element, 12), tiles = new Map();
-  const paint = () => {
+  const paint = parts => {
+    if (hasSeeds && parts.has('colour')) {
+      for (const tile of tiles.values()) tile.remove();
+      tiles.clear();
+      by('seal-hint').textContent = sealHint();
+    }
     const {count, side, height} = tileLayout(box.width);
-    const lines = Math.ceil(state.kept.length / count);
+    const lines = Math.ceil(state.shown.length / count);
     room.style.height = lines * height + 'px';
     // As high as for all runs: nothing below it may move while somebody drags there.
-    element.style.height = Math.min(box.height, Math.ceil(rows.length / count) * height + 12) + 'px';
+    element.style.height = Math.min(box.height, Math.ceil(rows.length / seeds / count) * height + 12) + 'px';
     const [first, last] = sightOf(box, height, lines, 1);
     const wanted = new Set();
     let before = null;
-    state.kept.slice(first * count, last * count).forEach((at, k) => {
+    state.shown.slice(first * count, last * count).forEach((at, k) => {
       wanted.add(at);
       if (!tiles.has(at)) tiles.set(at, makeTile(rows[at]));
       const tile = tiles.get(at), place = first * count + k;
@@ -106,7 +136,7 @@ function startTiles() {
     tile.classList.toggle('here', at === state.run);
     tile.classList.toggle('lit', at === state.hover);
   });
-  addPainter(element, ['brush', 'sort', 'size', 'scroll'], paint);
+  addPainter(element, ['brush', 'sort', 'size', 'scroll', ...hasSeeds ? ['draw', 'colour'] : []], paint);
   addPainter(element, ['run', 'hover'], markTiles);
   // A moment is drawn in the sheet when the slider rests: twenty pictures take longer than one.
   let rest = 0;
@@ -138,7 +168,8 @@ const rowHeight = 30;
 function columnLetters(column) {
   let most = 5;
   const extra = column.kind === 'state' ? 4 : 1;  // the mark
-  for (const row of rows) most = Math.max(most, cellText(row, column.at).length + extra);
+  for (const row of rows)
+    most = Math.max(most, (pointText(column, row.at) || cellText(row, column.at)).length + extra);
   const word = Math.max(...column.title.split(/[ _]/).map(part => part.length)) + 2;
   return Math.min(Math.max(most, word), column.kind === 'reason' ? 48 : 26);
 }
@@ -155,12 +186,14 @@ function makeTableHead(table) {
   columns.forEach((column, c) => {
     // Long names break behind an underscore.
     const title = column.title.replaceAll('_', '_\u200b');
-    const button = make('button', {type: 'button', textContent: title, title: column.help});
+    const button = make('button', {type: 'button', textContent: title + (column.isNoise ? ': noise' : ''),
+      title: column.isNoise ? noiseWords : column.help});
     button.addEventListener('click', () => {
       state.sort = {column: c, way: state.sort.column === c ? -state.sort.way : 1};
       change('sort');
     });
-    const cell = make('th', {scope: 'col', className: column.text ? 'text' : ''}, button);
+    const cell = make('th', {scope: 'col',
+      className: (column.text ? 'text' : '') + (column.isNoise ? ' noise' : '')}, button);
     head.append(cell);
   });
   head.append(make('th', {scope: 'col'}, make('button', {type: 'button', textContent: 'neve view',
@@ -175,7 +208,8 @@ function makeTableRow(row) {
   line.dataset.at = row.at;
   line.dataset.run = row.run;
   columns.forEach((column, c) => {
-    const cell = make('td', {className: column.text ? 'text' : '', textContent: cellText(row, c)});
+    const cell = make('td', {className: column.text ? 'text' : '', textContent: pointText(column, row.at) || cellText(row, c)});
+    cell.classList.toggle('noise', Boolean(column.isNoise));
     if (column.kind === 'state') cell.prepend(markOf(row));
     if (column.kind === 'reason') cell.title = cell.textContent;
     if (column.kind === 'warnings' && row.warnings.length > 0) {
@@ -202,15 +236,15 @@ function startTable() {
     line.classList.toggle('here', at === state.run);
     line.classList.toggle('lit', at === state.hover);
   });
-  addPainter(element, ['brush', 'sort', 'size', 'scroll'], parts => {
+  addPainter(element, ['brush', 'sort', 'size', 'scroll', 'draw'], parts => {
     if (parts.has('sort')) heads.forEach((head, c) => c !== state.sort.column
       ? head.removeAttribute('aria-sort')
       : head.setAttribute('aria-sort', state.sort.way > 0 ? 'ascending' : 'descending'));
-    element.style.minHeight = Math.min(box.height, rows.length * rowHeight + 80) + 'px';
-    const [first, last] = sightOf(box, rowHeight, state.kept.length, 4);
+    element.style.minHeight = Math.min(box.height, rows.length / seeds * rowHeight + 80) + 'px';
+    const [first, last] = sightOf(box, rowHeight, state.shown.length, 4);
     above.firstChild.style.height = first * rowHeight + 'px';
-    below.firstChild.style.height = (state.kept.length - last) * rowHeight + 'px';
-    const wanted = state.kept.slice(first, last), isWanted = new Set(wanted);
+    below.firstChild.style.height = (state.shown.length - last) * rowHeight + 'px';
+    const wanted = state.shown.slice(first, last), isWanted = new Set(wanted);
     for (const [at, line] of lines) {
       if (isWanted.has(at)) continue;
       line.remove();

@@ -56,8 +56,9 @@ const state = {
   hover: -1,
   brushes: new Map(),        // column -> [low, high] in places
   sort: {column: -1, way: 1},
-  colour: measured.length > 0 ? measured[0].at : -1,
+  colour: measured.length > 0 ? (measured.find(column => !column.isNoise) || measured[0]).at : -1,
   kept: rows.map(row => row.at),  // by all brushes, sorted
+  shown: [],                      // of those, the runs that have a tile: one of each point
   isKept: rows.map(() => true),
 };
 
@@ -87,7 +88,7 @@ function ask() {
   requestAnimationFrame(paintAll);
 }
 
-/** @param parts run, frame, mode, hover, brush, sort, colour, columns, size, scroll, peek, theme */
+/** @param parts run, draw, frame, mode, hover, brush, sort, colour, columns, size, scroll, peek, theme */
 function change(...parts) {
   for (const part of parts) changed.add(part);
   ask();
@@ -95,7 +96,7 @@ function change(...parts) {
 
 function paintAll() {
   isAsked = false;
-  if (changed.has('brush') || changed.has('sort')) filterRuns();
+  if (changed.has('brush') || changed.has('sort') || changed.has('draw')) filterRuns();
   for (const painter of painters) {
     for (const part of changed) if (painter.parts.has(part)) painter.waiting.add(part);
     if (painter.waiting.size === 0 || !(painter.isSeen || isFirst)) continue;
@@ -117,9 +118,27 @@ function filterRuns() {
       return place >= low && place <= high;
     });
   state.kept = rows.filter(row => state.isKept[row.at]).map(row => row.at);
+  sortRuns();
+  showPoints();
+}
+
+/** One run of each point: that of the seed on the slider, or the first that is kept. */
+function showPoints() {
+  state.shown = state.kept;
+  if (!hasSeeds) return;
+  const draw = state.stops[seedAxis], points = new Map();
+  for (const at of state.kept)
+    if (!points.has(pointOf(at)) || drawOf(at) === draw) points.set(pointOf(at), at);
+  state.shown = [...points.values()];
+}
+
+function sortRuns() {
   const {column, way} = state.sort;
   if (column < 0) return;
-  const cell = at => rows[at].cells[column];
+  // A difference within noise is no reason for an order.
+  const isRanked = hasSeeds && columns[column].points;
+  const cell = at => isRanked ? columns[column].isNoise ? null : rankOf(columns[column], at)
+                              : rows[at].cells[column];
   state.kept.sort((a, b) => {
     const x = cell(a), y = cell(b);
     if (!isGiven(x) || !isGiven(y)) return isGiven(y) - isGiven(x);
@@ -150,7 +169,7 @@ function placeOfText(scale, text) {
 
 function startFilter() {
   const column = by('filter-column');
-  for (const c of drawn) column.append(make('option', {value: c.at, textContent: c.title}));
+  for (const c of drawn) column.append(make('option', {value: c.at, textContent: titleOf(c)}));
   by('filter-form').addEventListener('submit', event => {
     event.preventDefault();
     const {scale, at} = columns[column.value];
@@ -162,6 +181,7 @@ function startFilter() {
   addPainter(null, ['brush'], () => {
     by('count').textContent = state.kept.length === rows.length ? rows.length + ' runs'
       : state.kept.length + ' of ' + rows.length + ' runs';
+    if (hasSeeds) by('count').textContent += ` of ${state.shown.length} points`;
     const chips = [...state.brushes].map(([c, range]) => make('button', {
       type: 'button', textContent: rangeText(c, range) + ' \u2715', title: 'drop this filter',
       onclick: () => setBrush(c, null)}));
@@ -222,6 +242,6 @@ function readTheme() {
 /** Of a run in drawings; failed ones have theirs whatever they measured. */
 function colourOf(at) {
   if (rows[at].failed) return theme.bad;
-  const place = state.colour < 0 ? NaN : columns[state.colour].places[at];
+  const place = state.colour < 0 ? NaN : colourPlace(columns[state.colour], at);
   return isNaN(place) ? theme.soft : rampColour(place);
 }

@@ -17,6 +17,7 @@ function start() {
   readTheme();
   startStage();
   startSliders();
+  startDraws();
   startTime();
   startPeek();
   startFacts();

@@ -129,18 +129,27 @@ function axisOfLevels(axis, k) {
 }
 
 function axisOfRuns() {
-  const last = Math.max(1, rows.length - 1);
-  const stops = rows.map((row, at) => ({text: row.name, place: at / last}));
-  return makeAxis('run', stops, rows.map((_, at) => at), false);
+  const firsts = rows.filter(row => row.at % study.seeds === 0), last = Math.max(1, firsts.length - 1);
+  const stops = firsts.map((row, k) => ({text: row.name, place: k / last}));
+  return makeAxis('run', stops, rows.map((_, at) => Math.floor(at / study.seeds)), false);
 }
 
-function makeAxes() {
+/** Runs of a point, one after the other. */
+function axisOfSeeds() {
+  const column = columns.find(c => c.kind === 'seed');
+  const stops = rows.slice(0, study.seeds).map((row, k) => (
+    {text: cellText(row, column.at), place: k / (study.seeds - 1)}));
+  return {...makeAxis('seed', stops, rows.map((_, at) => at % study.seeds), true), isSeed: true};
+}
+
+function makePointAxes() {
   const levelled = study.axes.map(axisOfLevels).filter(axis => axis.texts.length > 1);
   if (levelled.length > 0) return levelled;
   const varied = columns.filter(c => c.kind === 'parameter' && c.scale && c.scale.count > 1);
   return varied.length > 0 ? varied.map(axisOfColumn) : [axisOfRuns()];
 }
-const axes = makeAxes();
+const axes = makePointAxes();
+if (study.seeds > 1) axes.push(axisOfSeeds());
 
 /** A run that has a stop on every axis. */
 const isOnAxes = at => axes.every(axis => axis.stopOf[at] >= 0);

@@ -2,15 +2,47 @@
 /** Goes to a run; the sliders follow where it is on the axes. */
 function goTo(at) {
   state.run = at;
+  const draw = state.stops[seedAxis];
   axes.forEach((axis, k) => { if (axis.stopOf[at] >= 0) state.stops[k] = axis.stopOf[at]; });
-  change('run');
+  change('run', ...state.stops[seedAxis] !== draw ? ['draw'] : []);
 }
 
 /** Goes to a stop of one axis, and to the run that is nearest there. */
 function slideTo(k, stop) {
   state.stops[k] = Math.max(0, Math.min(axes[k].texts.length - 1, stop));
   state.run = nearestRun(state.stops);
-  change('run');
+  change('run', ...axes[k].isSeed ? ['draw'] : []);
+}
+
+/** A button for each seed of the point that is shown, with how its snow ended; [ and ] go through them. */
+function startDraws() {
+  const box = by('draws');
+  box.hidden = !hasSeeds;
+  if (!hasSeeds) return;
+  const flip = by => slideTo(seedAxis, (state.stops[seedAxis] + by + seeds) % seeds);
+  const buttons = axes[seedAxis].texts.map((text, k) => {
+    const button = make('button', {type: 'button', textContent: 'seed ' + text});
+    button.addEventListener('click', () => slideTo(seedAxis, k));
+    return button;
+  });
+  const words = make('span');
+  box.append(...buttons, words);
+  addEventListener('keydown', event => {
+    if (event.target.closest('input:not([type="range"]), select') || event.ctrlKey || event.metaKey) return;
+    if (event.key === '[') flip(-1);
+    if (event.key === ']') flip(1);
+  });
+  addPainter(null, ['run', 'mode'], () => {
+    const at = rows[state.mode === 'one' ? state.run : runAt('b')].at, first = at - drawOf(at);
+    buttons.forEach((button, k) => {
+      const {broken, failed} = rows[first + k];
+      button.setAttribute('aria-pressed', String(drawOf(at) === k));
+      button.textContent = 'seed ' + axes[seedAxis].texts[k] +
+        (failed ? ' \u2715' : broken === null ? '' : broken ? ' breaks' : ' holds');
+    });
+    words.textContent = outcomeText(at);
+    words.className = study.outcomes[pointOf(at)].undecided ? 'undecided' : '';
+  });
 }
 
 function startSliders() {
@@ -124,7 +156,7 @@ function compareText() {
   const name = at => rows[at].name, a = name(runAt('a')), b = name(runAt('b'));
   const follows = state.pins.b < 0 ? ', which follows the sliders' : '';
   const start = state.mode === 'side' ? '' : 'Black where A and B are the same. ';
-  return `${start}A: ${a}. B: ${b}${follows}.`;
+  return `${start}A: ${a}. B: ${b}${follows}.${differenceText(runAt('a'), runAt('b'))}`;
 }
 
 function pin(plate) {
@@ -207,11 +239,18 @@ function noteOf(row) {
     .filter(text => text).join('\n');
 }
 
+/** Of a metric with seeds also its range over them. */
+function factText(column, row) {
+  const text = cellText(row, column.at), s = summaryOf(column, row.at);
+  return !s || s.min === s.max ? text : `${text} (${roughText(s.min)} to ${roughText(s.max)})`;
+}
+
 function factRows() {
   const told = columns.filter(column => ['parameter', 'metric'].includes(column.kind) && column.scale);
   return told.map(column => {
     const a = make('td', {className: 'a'}), b = make('td');
-    const head = make('th', {scope: 'row', textContent: column.title, title: column.help});
+    const head = make('th', {scope: 'row', textContent: column.title,
+      title: column.isNoise ? noiseWords : column.help});
     const line = make('tr', {}, head, a, b);
     by('facts').tBodies[0].append(line);
     return {column, a, b, line};
@@ -225,10 +264,11 @@ function startFacts() {
     const other = rows[state.mode === 'one' ? state.run : runAt('a')];
     by('facts').classList.toggle('one', state.mode === 'one');
     for (const {column, a, b, line} of facts) {
-      a.textContent = cellText(other, column.at);
-      b.textContent = cellText(row, column.at);
-      line.className = (column.kind === 'parameter' ? 'parameter' : '') +
-        (a.textContent !== b.textContent ? ' other' : '');
+      a.textContent = factText(column, other);
+      b.textContent = factText(column, row);
+      const isOther = a.textContent !== b.textContent && !isClose(column, other.at, row.at);
+      line.className = (column.kind === 'parameter' ? 'parameter' : '') + (isOther ? ' other' : '') +
+        (column.isNoise ? ' noise' : '');
     }
     by('shown-mark').replaceChildren(markOf(row));
     by('shown-title').textContent = (state.mode === 'one' ? '' : 'B: ') + row.name;

@@ -1,0 +1,19 @@
+#pragma once
+/// What the seeds of a round say: how often the snow of a tile breaks, and which tiles are too
+/// close to call.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace neve::app::pick {
+
+struct RoundNoise {
+  std::vector<std::string> tiles;  ///< "breaks in 1 of 4, spread 0.42 m a"; none without seeds
+  std::string key;                 ///< explains the letters
+};
+
+/// @param folder  of a search whose round is made @throws IoError
+RoundNoise noise_of_round(const std::filesystem::path& folder);
+
+}  // namespace neve::app::pick

@@ -1,0 +1,87 @@
+// ---- points of several seeds: which differences are larger than noise -------------------------------
+/** Runs of each point; they follow each other and differ in their seed alone. */
+const seeds = study.seeds, hasSeeds = seeds > 1;
+const pointOf = at => Math.floor(at / seeds);
+const drawOf = at => at % seeds;
+/** The axis of the seeds, -1 without. */
+const seedAxis = axes.findIndex(axis => axis.isSeed);
+
+for (const own of study.noise || []) {
+  const column = columns.find(c => c.kind === 'metric' && c.help === own.metric);
+  column.isNoise = own.noise;
+  column.points = own.points;
+}
+const titleOf = column => column.title + (column.isNoise ? ': noise here' : '');
+const noiseWords = 'noise here: the points differ by no more than runs with other seeds';
+
+/** Mean, min and max of a metric at the point of a run; nothing without seeds, or where no run tells. */
+const summaryOf = (column, at) => hasSeeds && column.points ? column.points[pointOf(at)] : null;
+
+/** Two points that share a group are too close to call; false where one of them has no value. */
+function isClose(column, a, b) {
+  const x = summaryOf(column, a), y = summaryOf(column, b);
+  return Boolean(x && y) && x.groups.some(group => y.groups.includes(group));
+}
+
+/** "0.42 (0.4 to 0.45) ab" */
+function pointText(column, at) {
+  const s = summaryOf(column, at);
+  if (!s) return '';
+  const range = s.min === s.max ? '' : ` (${roughText(s.min)} to ${roughText(s.max)})`;
+  return roughText(Number(s.mean.toPrecision(4))) + range + (column.isNoise ? '' : ' ' + s.letters);
+}
+
+/** "breaks in 1 of 4: here" */
+function outcomeText(at) {
+  const outcome = study.outcomes[pointOf(at)], {broken} = rows[at];
+  if (!outcome.undecided || broken === null) return outcome.text;
+  return outcome.text + (broken ? ': here' : ': not here');
+}
+
+/** The place from 0 to 1 that gives a run its colour: points that share a rank share it. */
+function colourPlace(column, at) {
+  const s = summaryOf(column, at);
+  if (!hasSeeds || column.kind !== 'metric') return column.places[at];
+  return s && column.isDrawn && !column.isNoise ? column.scale.at(s.shared) : NaN;
+}
+
+/** A line from min to max on the scale of a column, with a dot at the mean. */
+function whiskerOf(column, at) {
+  const s = summaryOf(column, at), box = make('i', {className: 'whisker'});
+  if (!s || !column.scale) return box;
+  const [low, mean, high] = [s.min, s.mean, s.max].map(
+    x => 100 * Math.max(0, Math.min(1, column.scale.at(x))));
+  const line = make('i'), dot = make('b');
+  line.style.left = low + '%';
+  line.style.width = high - low + '%';
+  dot.style.left = mean + '%';
+  box.append(line, dot);
+  box.classList.toggle('noise', column.isNoise);
+  box.title = column.title + ' ' + pointText(column, at);
+  return box;
+}
+
+/** A square for each group of a point, in its colour; one for many. */
+function lettersOf(column, summary) {
+  if (column.isNoise) return [make('strong', {textContent: 'noise'})];
+  const isMany = summary.groups.length > 3;
+  return (isMany ? [summary.groups[0]] : summary.groups).map((group, k) => {
+    const square = make('strong', {textContent: isMany ? summary.letters : [...summary.letters.match(/[a-z]\d*/g)][k]});
+    square.style.background = `rgb(${study.groupColours[group % study.groupColours.length]})`;
+    return square;
+  });
+}
+
+/** The rank that orders points; those that are too close to call with each other keep their order. */
+const rankOf = (column, at) => { const s = summaryOf(column, at); return s ? -s.rank : null; };
+
+/** "They differ in spread. Too close to call: height." of two runs. */
+function differenceText(a, b) {
+  if (!hasSeeds) return '';
+  if (pointOf(a) === pointOf(b)) return ' One point with two seeds: the difference is noise.';
+  const told = measured.filter(c => summaryOf(c, a) && summaryOf(c, b) && !c.isNoise);
+  const names = list => list.map(c => c.title).join(', ');
+  const close = told.filter(c => isClose(c, a, b)), apart = told.filter(c => !isClose(c, a, b));
+  return (apart.length > 0 ? ` They differ in ${names(apart)}.` : ' No metric tells them apart.') +
+    (close.length > 0 ? ` Too close to call: ${names(close)}.` : '');
+}

@@ -1,0 +1,127 @@
+#include "app/sweep/sheet/seals.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "app/support/text.h"
+
+namespace neve::app::sweep::sheet {
+
+namespace {
+
+constexpr std::array<std::uint8_t, 3> seal_ink{240, 244, 250}, seal_grey{190, 199, 212},
+    seal_caution{255, 205, 96};
+constexpr std::array<std::uint8_t, 4> rail{96, 106, 122, 255}, whisker{240, 244, 250, 255},
+    grey_whisker{142, 150, 162, 255};
+
+struct Scale {
+  double low = 0, high = 0;
+
+  double place(double x) const { return high > low ? (x - low) / (high - low) : 0.5; }
+};
+
+Scale scale_of(const std::vector<store::Summary>& summaries) {
+  Scale scale{1e300, -1e300};
+  for (const store::Summary& s : summaries)
+    if (s.count > 0) scale = {std::min(scale.low, s.min), std::max(scale.high, s.max)};
+  return scale;
+}
+
+std::string with_unit(double x, const store::MetricInfo& info) {
+  return rough_text(x) + (info.unit[0] ? std::string(" ") + info.unit : "");
+}
+
+/// A square for each group, or one for many. @return the left end, px
+float draw_letters(const std::vector<int>& groups, float right, float y, float size,
+                   render::Frame& words) {
+  constexpr std::size_t max_squares = 3;
+  const auto square = [&](const std::string& text, int group, float width) {
+    right -= width;
+    const auto& c = group_colours[static_cast<std::size_t>(group) % group_colours.size()];
+    words.patches.push_back(
+        {right, y - 0.1f * size, width - 0.1f * size, 1.3f * size, {c[0], c[1], c[2], 255}});
+    words.notes.push_back(
+        {right + 0.5f * width, y, text, render::Note::Anchor::middle, width, false, seal_ink});
+  };
+  if (groups.size() > max_squares) {
+    square(store::group_letters(groups), groups.front(), 3.6f * size);
+    return right;
+  }
+  for (auto group = groups.rbegin(); group != groups.rend(); ++group)
+    square(store::group_letters({*group}), *group, 1.5f * size);
+  return right;
+}
+
+}  // namespace
+
+std::string outcome_at(const store::Point& point, const store::RunResult& run) {
+  const std::string text = store::outcome_text(point);
+  if (!store::is_undecided(point) || !run.has_broken) return text;
+  return text + (*run.has_broken ? ": here" : ": not here");
+}
+
+Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResult>& results) {
+  Seals seals;
+  if (manifest.seeds == 1) return seals;
+  const std::vector<store::Point> points = store::points_of(manifest, results);
+  const std::optional<std::size_t> telling = store::telling_metric(manifest, points);
+  seals.is_noise = !telling;
+  const store::MetricInfo& info = store::metric_infos()[telling.value_or(0)];
+  const std::vector<store::Summary> summaries = store::summaries_of(points, telling.value_or(0));
+  const std::vector<std::vector<int>> groups = store::close_groups(summaries);
+  const Scale scale = scale_of(summaries);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    Seal& seal = seals.of_points.emplace_back();
+    seal.outcome = outcome_at(points[k], results[points[k].first]);
+    seal.is_undecided = store::is_undecided(points[k]);
+    const store::Summary& s = summaries[k];
+    if (s.count == 0) continue;
+    seal.value = with_unit(s.mean, info);
+    if (!seals.is_noise) seal.groups = groups[k];
+    seal.min = scale.place(s.min);
+    seal.mean = scale.place(s.mean);
+    seal.max = scale.place(s.max);
+  }
+  if (scale.low > scale.high) return seals;
+  seals.key = fmt::format(
+      "whisker: {} of {} seeds, min to max and mean, on a scale from {} to {}; {}", info.title,
+      manifest.seeds, rough_text(scale.low), with_unit(scale.high, info),
+      seals.is_noise ? std::string("noise here: all tiles are ") + store::close_words
+                     : std::string("tiles that share a letter are ") + store::close_words);
+  return seals;
+}
+
+void draw_seal(const Seal& seal, bool is_noise, const SealPlace& tile, render::Frame& words) {
+  const float size = tile.font_size, line = 1.3f * size, edge = 0.6f * size;
+  const bool has_value = !seal.value.empty(), has_outcome = !seal.outcome.empty();
+  if (!has_value && !has_outcome) return;
+  const float height = line * static_cast<float>(has_value + has_outcome) + 0.5f * size;
+  const float top = tile.y + tile.height - height;
+  words.patches.push_back({tile.x, top, tile.width, height, {8, 10, 16, 190}});
+  float y = top + 0.25f * size;
+  if (has_outcome) {
+    words.notes.push_back({tile.x + edge, y, seal.outcome, render::Note::Anchor::left,
+                           tile.width - 2 * edge, false,
+                           seal.is_undecided ? seal_caution : seal_ink});
+    y += line;
+  }
+  if (!has_value) return;
+  const float right = draw_letters(seal.groups, tile.x + tile.width - edge, y, size, words);
+  const float room = 0.26f * tile.width, left = tile.x + edge,
+              length = right - 2 * edge - room - left, middle = y + 0.55f * size;
+  const auto at = [&](double place) { return left + static_cast<float>(place) * length; };
+  const float thin = std::max(1.0f, 0.1f * size), thick = std::max(2.0f, 0.22f * size),
+              dot = 0.6f * size;
+  const auto& color = is_noise ? grey_whisker : whisker;
+  words.patches.push_back({left, middle - 0.5f * thin, length, thin, rail});
+  words.patches.push_back({at(seal.min) - 0.5f * thick, middle - 0.5f * thick,
+                           at(seal.max) - at(seal.min) + thick, thick, color});
+  words.patches.push_back({at(seal.mean) - 0.5f * dot, middle - 0.5f * dot, dot, dot, color});
+  words.notes.push_back({right - 0.5f * edge, y, seal.value, render::Note::Anchor::right, room,
+                         false, is_noise ? seal_grey : seal_ink});
+}
+
+}  // namespace neve::app::sweep::sheet

@@ -1,0 +1,107 @@
+#include "app/sweep/store/points.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace neve::app::sweep::store {
+
+namespace {
+
+bool is_told(const Manifest& manifest, const std::vector<RunResult>& results, std::size_t run,
+             std::size_t metric) {
+  return results[run].metrics[metric] &&
+         (metric_infos()[metric].is_cost || is_whole(manifest.runs[run], results[run]));
+}
+
+/// a, b, ..., z, a2, b2, ...
+std::string letter(int group) {
+  constexpr int letters = 26;
+  const std::string text(1, static_cast<char>('a' + group % letters));
+  return group < letters ? text : text + std::to_string(group / letters + 1);
+}
+
+}  // namespace
+
+std::vector<Point> points_of(const Manifest& manifest, const std::vector<RunResult>& results) {
+  std::vector<Point> points;
+  const auto count = static_cast<std::size_t>(manifest.seeds);
+  for (std::size_t first = 0; first + count <= results.size(); first += count) {
+    Point& point = points.emplace_back();
+    point.first = first;
+    point.count = count;
+    for (std::size_t run = first; run < first + count; ++run) {
+      point.ended += is_whole(manifest.runs[run], results[run]);
+      point.judged += results[run].has_broken.has_value();
+      point.broken += results[run].has_broken.value_or(false);
+    }
+    for (std::size_t metric = 0; metric < metric_infos().size(); ++metric) {
+      std::vector<double> values;
+      for (std::size_t run = first; run < first + count; ++run)
+        if (is_told(manifest, results, run, metric))
+          values.push_back(*results[run].metrics[metric]);
+      point.metrics.push_back(summary_of(values));
+    }
+  }
+  return points;
+}
+
+std::vector<Summary> summaries_of(const std::vector<Point>& points, std::size_t metric) {
+  std::vector<Summary> summaries;
+  for (const Point& point : points) summaries.push_back(point.metrics[metric]);
+  return summaries;
+}
+
+bool is_noise(const Manifest& manifest, const std::vector<Point>& points, std::size_t metric) {
+  return manifest.seeds > 1 && points.size() > 1 && !vary(summaries_of(points, metric));
+}
+
+std::optional<std::size_t> telling_metric(const Manifest& manifest,
+                                          const std::vector<Point>& points) {
+  for (std::size_t metric = 0; metric < metric_infos().size(); ++metric)
+    if (!metric_infos()[metric].is_cost && !is_noise(manifest, points, metric)) return metric;
+  return std::nullopt;
+}
+
+std::string outcome_text(const Point& point) {
+  std::string text;
+  if (point.judged > 0)
+    text = point.broken > 0 ? fmt::format("breaks in {} of {}", point.broken, point.judged)
+                            : fmt::format("holds in {} of {}", point.judged, point.judged);
+  if (point.ended < point.count)
+    text += fmt::format("{}{} not ended", text.empty() ? "" : ", ", point.count - point.ended);
+  return text;
+}
+
+bool is_undecided(const Point& point) {
+  return point.broken > 0 && point.broken < point.judged;
+}
+
+std::string group_letters(const std::vector<int>& groups) {
+  constexpr std::size_t max_letters = 3;
+  if (groups.size() > max_letters) return letter(groups.front()) + " to " + letter(groups.back());
+  std::string text;
+  for (const int group : groups) text += letter(group);
+  return text;
+}
+
+Manifest first_draws(const Manifest& manifest) {
+  if (manifest.seeds == 1) return manifest;
+  Manifest shown = manifest;
+  shown.apart = manifest.seeds;
+  std::erase_if(shown.parameters, [](const Parameter& p) { return p.address == "seed"; });
+  std::erase_if(shown.runs, [&](const Run& run) { return run.index % manifest.seeds != 0; });
+  for (Run& run : shown.runs)
+    std::erase_if(run.settings, [](const scene::Override& s) { return s.address == "seed"; });
+  return shown;
+}
+
+std::vector<RunResult> first_draws(const Manifest& manifest,
+                                   const std::vector<RunResult>& results) {
+  std::vector<RunResult> shown;
+  for (std::size_t k = 0; k < results.size(); k += static_cast<std::size_t>(manifest.seeds))
+    shown.push_back(results[k]);
+  return shown;
+}
+
+}  // namespace neve::app::sweep::store

@@ -1,0 +1,275 @@
+/// Sweeps with seeds: the statistics of points, and what tiles and tables say of noise.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/sweep/plan/expand.h"
+#include "app/sweep/plan/order.h"
+#include "app/sweep/sheet/data_csv.h"
+#include "app/sweep/sheet/effects.h"
+#include "app/sweep/sheet/metric_plots.h"
+#include "app/sweep/sheet/seals.h"
+#include "app/sweep/store/points.h"
+#include "app/sweep/store/statistics.h"
+#include "tests/support/cinema.h"
+
+namespace neve::app::sweep::store {
+namespace {
+
+constexpr double rounding = 1e-12;
+
+TEST(Statistics, TailsOfStudentAreTheClosedFormsOfOneAndTwoDegrees) {
+  for (const double t : {0.0, 0.1, 0.7, 1.0, 2.5, 12.7062, 300.0}) {
+    EXPECT_NEAR(t_tail(t, 1), 1 - 2 / std::numbers::pi * std::atan(t), rounding) << t;
+    EXPECT_NEAR(t_tail(t, 2), 1 - t / std::sqrt(2 + t * t), rounding) << t;
+    EXPECT_EQ(t_tail(t, 3.7), t_tail(-t, 3.7)) << t;
+  }
+  // Tables have seven digits.
+  EXPECT_NEAR(t_tail(2.570582, 5), 0.05, 1e-7);
+  EXPECT_NEAR(t_tail(2.228139, 10), 0.05, 1e-7);
+  EXPECT_NEAR(t_tail(1.983972, 100), 0.05, 1e-7);
+}
+
+TEST(Statistics, TailsOfFAreTheClosedFormOfTwoDegreesAndTheSquareOfStudent) {
+  for (const double f : {0.0, 0.3, 1.0, 4.1028, 50.0}) {
+    for (const double within : {1.0, 3.0, 12.0, 200.0}) {
+      EXPECT_NEAR(f_tail(f, 2, within), std::pow(1 + 2 * f / within, -0.5 * within), rounding);
+      EXPECT_NEAR(f_tail(f, 1, within), t_tail(std::sqrt(f), within), rounding);
+    }
+  }
+  EXPECT_NEAR(f_tail(3.490295, 3, 12), 0.05, 1e-7);  // of a table
+  EXPECT_NEAR(f_tail(1e300, 3, 12), 0, rounding);
+}
+
+Summary point(double mean, double variance, std::size_t count = 4) {
+  return {count, mean, mean, mean, variance};
+}
+
+TEST(Statistics, TwoPointsDifferBeyondWelchsInterval) {
+  // Equal variances of four values each: t of 6 degrees, 2.446912, times sqrt(2 / 4).
+  EXPECT_FALSE(differ(point(0, 1), point(1.730, 1)));
+  EXPECT_TRUE(differ(point(0, 1), point(1.731, 1)));
+  // Only one varies: t of 3 degrees, 3.182446, times sqrt(1 / 4).
+  EXPECT_FALSE(differ(point(0, 0), point(-1.591, 1)));
+  EXPECT_TRUE(differ(point(0, 0), point(-1.592, 1)));
+  // Variances of 1 and 9, three and five values: 5.455 degrees, t = 2.507 by interpolating tables.
+  const double scale = std::sqrt(1.0 / 3 + 9.0 / 5);
+  EXPECT_FALSE(differ(point(0, 1, 3), point(2.4 * scale, 9, 5)));
+  EXPECT_TRUE(differ(point(0, 1, 3), point(2.6 * scale, 9, 5)));
+}
+
+TEST(Statistics, WithoutNoiseAnyDifferenceAboveRoundingIsOne) {
+  EXPECT_TRUE(differ(point(1, 0), point(1.001, 0)));
+  EXPECT_FALSE(differ(point(1, 0), point(1 + 1e-12, 0)));
+  EXPECT_TRUE(vary({point(1, 0), point(1, 0), point(2, 0)}));
+  EXPECT_FALSE(vary({point(1, 0), point(1, 0)}));
+}
+
+TEST(Statistics, OneRunTellsNothing) {
+  EXPECT_FALSE(differ(point(0, 0, 1), point(100, 0.01)));
+  EXPECT_FALSE(differ(point(0, 0, 0), point(100, 0.01)));
+  EXPECT_FALSE(vary({point(0, 0, 1), point(1, 0, 1)}));
+  EXPECT_FALSE(change({{point(0, 0, 1), point(1, 0, 1)}}));
+  EXPECT_EQ(summary_of({}).count, 0u);
+  EXPECT_EQ(summary_of({3}).variance, 0);
+}
+
+TEST(Statistics, AMetricVariesByTheTestOfAnAnalysisOfVariance) {
+  // A textbook's: F = 9.3 of 2 and 15 degrees.
+  const Summary a = summary_of({6, 8, 4, 5, 3, 4}), b = summary_of({8, 12, 9, 11, 6, 8}),
+                c = summary_of({13, 9, 11, 8, 7, 12});
+  EXPECT_DOUBLE_EQ(a.mean, 5);
+  EXPECT_DOUBLE_EQ(a.variance, 3.2);
+  EXPECT_EQ(b.min, 6);
+  EXPECT_EQ(b.max, 12);
+  EXPECT_TRUE(vary({a, b, c}));
+  EXPECT_FALSE(vary({b, c}));  // F = 1.5 of 1 and 10 degrees
+  // Three points of four values and variance 1: F = 4 times the variance of their means, 4.256495
+  // of 2 and 9 degrees.
+  const double edge = std::sqrt(4.256495 / 4);
+  EXPECT_FALSE(vary({point(-0.999 * edge, 1), point(0, 1), point(0.999 * edge, 1)}));
+  EXPECT_TRUE(vary({point(-1.001 * edge, 1), point(0, 1), point(1.001 * edge, 1)}));
+}
+
+TEST(Statistics, StepsChangeAMetricByTheTestOfTheirMeanSquare) {
+  // Two steps of d between points of four values: F = 2 d^2 of 2 and 12 degrees, 3.885294.
+  const double edge = std::sqrt(3.885294 / 2);
+  const auto steps = [&](double d) {
+    return std::vector<std::pair<Summary, Summary>>{{point(0, 1), point(d, 1)},
+                                                    {point(5, 1), point(5 - d, 1)}};
+  };
+  EXPECT_FALSE(change(steps(0.999 * edge)));
+  EXPECT_TRUE(change(steps(1.001 * edge)));
+}
+
+TEST(Statistics, PointsTooCloseToCallShareARankAndALetter) {
+  // The middle one is as wide as both ends are apart.
+  const std::vector<Summary> points{point(0, 0.01), point(1, 1), point(2, 0.01), {}};
+  EXPECT_EQ(shared_ranks(points), (std::vector<int>{2, 1, 1, 0}));
+  const auto groups = close_groups(points);
+  EXPECT_EQ(groups, (std::vector<std::vector<int>>{{1}, {0, 1}, {0}, {}}));
+  EXPECT_EQ(group_letters(groups[1]), "ab");
+  EXPECT_EQ(group_letters({0, 1, 2, 3, 27}), "a to b2");
+  const std::vector<double> shared = shared_means(points, shared_ranks(points));
+  EXPECT_EQ(shared[1], 1.5);
+  EXPECT_EQ(shared[1], shared[2]);
+  EXPECT_EQ(shared[0], 0);
+}
+
+TEST(Statistics, TwoPointsShareALetterExactlyWhereTheyAreTooCloseToCall) {
+  std::vector<Summary> points;
+  for (int k = 0; k < 40; ++k)
+    points.push_back(point(std::fmod(k * 7.3, 10), 0.05 + std::fmod(k * 1.7, 3)));
+  const auto groups = close_groups(points);
+  for (std::size_t a = 0; a < points.size(); ++a)
+    for (std::size_t b = a + 1; b < points.size(); ++b) {
+      const bool is_shared = std::any_of(groups[a].begin(), groups[a].end(), [&](int group) {
+        return std::count(groups[b].begin(), groups[b].end(), group) > 0;
+      });
+      ASSERT_EQ(is_shared, !differ(points[a], points[b])) << a << " and " << b;
+    }
+}
+
+/// Three points of four seeds, on an axis; spread tells them apart but for the first two, height is
+/// noise, and the second breaks in one seed.
+struct Study {
+  Manifest manifest;
+  std::vector<RunResult> results;
+};
+
+Study study_of_seeds() {
+  Study study;
+  Manifest& m = study.manifest;
+  m.view = "particles";
+  m.title = "Noise";
+  m.tile_label = "differences";
+  m.seeds = 4;
+  m.parameters = {{"m.hardening", "hardening", "", "number"}, {"seed", "seed", "", "integer"}};
+  m.axes = {{"hardening", {"5", "10", "20"}, {"m.hardening"}}};
+  const double spread[] = {0.50, 0.51, 0.90};
+  for (int k = 0; k < 12; ++k) {
+    Run& run = m.runs.emplace_back();
+    run.index = k;
+    run.folder = run_folder_name(k);
+    run.coordinates = {k / 4};
+    run.settings = {{"m.hardening", std::to_string(5 << (k / 4))},
+                    {"seed", std::to_string(1 + k % 4)}};
+    RunResult& result = study.results.emplace_back();
+    result.status.state = RunState::ok;
+    result.metrics.resize(metric_infos().size());
+    result.metrics[0] = spread[k / 4] + 0.01 * (k % 4);
+    result.metrics[1] = 0.1 + 0.02 * ((k * 5) % 4);
+    result.has_broken = k == 6;
+  }
+  return study;
+}
+
+TEST(Noise, ATileSaysHowOftenTheSnowBreaksAndWhichTilesAreTooCloseToCall) {
+  const Study study = study_of_seeds();
+  const sheet::Seals seals = sheet::seals_of(study.manifest, study.results);
+  ASSERT_EQ(seals.of_points.size(), 3u);
+  EXPECT_EQ(seals.of_points[0].outcome, "holds in 4 of 4");
+  EXPECT_EQ(seals.of_points[1].outcome, "breaks in 1 of 4: not here");
+  EXPECT_TRUE(seals.of_points[1].is_undecided);
+  EXPECT_EQ(seals.of_points[0].groups, std::vector<int>{1});
+  EXPECT_EQ(seals.of_points[1].groups, std::vector<int>{1});
+  EXPECT_EQ(seals.of_points[2].groups, std::vector<int>{0});
+  EXPECT_EQ(seals.of_points[0].min, 0);
+  EXPECT_EQ(seals.of_points[2].max, 1);
+  EXPECT_NE(seals.key.find("too close to call"), std::string::npos);
+  const std::vector<Point> points = points_of(study.manifest, study.results);
+  EXPECT_FALSE(is_noise(study.manifest, points, 0));
+  EXPECT_TRUE(is_noise(study.manifest, points, 1));
+}
+
+TEST(Noise, RunsThatFailAreCountedAndNotAveraged) {
+  Study study = study_of_seeds();
+  study.results[1].status.state = RunState::diverged;
+  study.results[1].has_broken.reset();
+  study.results[1].metrics[0] = 1e9;
+  const Point point = points_of(study.manifest, study.results).front();
+  EXPECT_EQ(point.ended, 3u);
+  EXPECT_EQ(point.metrics[0].count, 3u);
+  EXPECT_LT(point.metrics[0].max, 1);
+  EXPECT_EQ(outcome_text(point), "holds in 3 of 3, 1 not ended");
+}
+
+TEST(Noise, TablesHaveARowForEachRunAndARowForEachPoint) {
+  const Study study = study_of_seeds();
+  const std::vector<neve::test::CsvRow> runs =
+      neve::test::parse_csv(sheet::data_csv(study.manifest, study.results));
+  EXPECT_EQ(runs.size(), 13u);
+  const std::vector<neve::test::CsvRow> points =
+      neve::test::parse_csv(sheet::points_csv(study.manifest, study.results));
+  ASSERT_EQ(points.size(), 4u);
+  const auto cell = [&](std::size_t row, const std::string& name) {
+    const auto found = std::find(points[0].begin(), points[0].end(), name);
+    return found == points[0].end()
+               ? "no column " + name
+               : points[row][static_cast<std::size_t>(found - points[0].begin())];
+  };
+  EXPECT_EQ(cell(2, "m_hardening"), "10.0");
+  EXPECT_EQ(cell(1, "seed"), "no column seed");
+  EXPECT_EQ(cell(2, "broken"), "1");
+  EXPECT_EQ(cell(1, "spread_mean"), "0.515");
+  EXPECT_EQ(cell(1, "spread_min"), "0.5");
+  EXPECT_EQ(cell(1, "spread_max"), "0.53");
+  EXPECT_EQ(cell(1, "spread_rank"), "2");
+  EXPECT_EQ(cell(2, "spread_rank"), "2");
+  EXPECT_EQ(cell(3, "spread_rank"), "1");
+  EXPECT_EQ(cell(3, "spread_groups"), "a");
+  Manifest plain = study.manifest;
+  plain.seeds = 1;
+  EXPECT_EQ(sheet::points_csv(plain, study.results), "");
+}
+
+TEST(Noise, PlotsNameTheMetricsThatAreNoise) {
+  const Study study = study_of_seeds();
+  const std::string svg = sheet::metric_plots_svg(study.manifest, study.results);
+  EXPECT_NE(svg.find("height: noise here"), std::string::npos);
+  EXPECT_EQ(svg.find("spread: noise here"), std::string::npos);
+  EXPECT_NE(svg.find("point 0: mean 0.515, 0.5 to 0.53 in 4 runs"), std::string::npos);
+  EXPECT_EQ(svg.find(">seed<"), std::string::npos);
+}
+
+TEST(Noise, AScreeningSaysWhichEffectsAreWithinIt) {
+  Study study = study_of_seeds();
+  Manifest& m = study.manifest;
+  m.axes.clear();
+  m.screened = {{"hardening", {}, {"m.hardening"}}, {"friction", {}, {"c.friction"}}};
+  // One trajectory: hardening changes the spread by noise, friction by more.
+  for (std::size_t k = 0; k < 12; ++k) m.runs[k].coordinates = {k < 4 ? 0 : 2, k < 8 ? 0 : 2};
+  const std::vector<sheet::Effect> effects = sheet::effects_on(m, study.results, 0);
+  ASSERT_EQ(effects.size(), 2u);
+  EXPECT_EQ(effects[0].steps, 1);
+  EXPECT_TRUE(effects[0].is_noise);
+  EXPECT_FALSE(effects[1].is_noise);
+  EXPECT_NEAR(effects[1].mean, 0.39 * 1.5, 1e-9);  // for the whole range, of two thirds
+  const std::string csv = sheet::effects_csv(m, study.results);
+  EXPECT_NE(csv.find("within_noise"), std::string::npos);
+  const std::vector<std::string> lines = sheet::effect_lines(m, study.results);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines[0], "spread (m): friction 0.585, then hardening within noise");
+}
+
+TEST(Noise, FirstSeedsOfAllPointsStartBeforeSecondOnes) {
+  const std::vector<std::vector<int>> coordinates{{0}, {0}, {1}, {1}, {2}, {2}};
+  EXPECT_EQ(plan::coarse_first(coordinates, {3}, {0, 1, 0, 1, 0, 1}),
+            (std::vector<std::size_t>{0, 4, 2, 1, 5, 3}));
+}
+
+TEST(Noise, EachPointHasTheSeedsFromTheScenesOn) {
+  sweep::Run point;
+  point.settings = {{"m.hardening", "5"}};
+  const std::vector<sweep::Run> runs = plan::with_seeds({point, point}, 7, 3);
+  ASSERT_EQ(runs.size(), 6u);
+  EXPECT_EQ(runs[0].setting("seed"), "7");
+  EXPECT_EQ(runs[5].setting("seed"), "9");
+  EXPECT_EQ(runs[5].index, 5);
+  EXPECT_EQ(runs[5].setting("m.hardening"), "5");
+}
+
+}  // namespace
+}  // namespace neve::app::sweep::store
