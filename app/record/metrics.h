@@ -20,9 +20,9 @@ struct Metrics {
 };
 
 /// Snow has broken once its largest piece holds less than this share of what it held at first.
-/// Measured on snowballs of cam clay that fall: one that holds loses up to 1.2 % as dust; of one
-/// that breaks into a core, pieces and crumbs 3 to 8 % lie apart, since heaped pieces touch.
-inline constexpr double whole_share = 0.98;
+/// Measured on snowballs of cam clay that fall: one that keeps its shape loses up to 1 % as dust;
+/// of one that bursts into a core, pieces and crumbs 1 to 8 % lie apart, since heaped pieces touch.
+inline constexpr double whole_share = 0.99;
 
 /// True if snow has broken between two frames of a run, nothing if it had no snow at first.
 std::optional<bool> has_broken(const Metrics& first, const Metrics& last);

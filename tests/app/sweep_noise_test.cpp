@@ -184,6 +184,19 @@ TEST(Noise, ATileSaysHowOftenTheSnowBreaksAndWhichTilesAreTooCloseToCall) {
   EXPECT_TRUE(is_noise(study.manifest, points, 1));
 }
 
+TEST(Noise, ASweepSaysInWordsWhatItsSeedsTell) {
+  Study study = study_of_seeds();
+  const std::vector<std::string> lines = noise_lines(study.manifest, study.results);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0], "spread: of 3 pairs of points 2 differ, the others are too close to call");
+  EXPECT_EQ(lines[1].find("noise here: height"), 0u) << lines[1];
+  EXPECT_EQ(lines[2], "1 of 3 points break with some seeds and hold with others");
+  for (std::size_t k = 0; k < 12; ++k) study.results[k] = study.results[k - k % 4];
+  ASSERT_EQ(noise_lines(study.manifest, study.results).size(), 1u) << "lattices without lumps";
+  study.manifest.seeds = 1;
+  EXPECT_TRUE(noise_lines(study.manifest, study.results).empty());
+}
+
 TEST(Noise, RunsThatFailAreCountedAndNotAveraged) {
   Study study = study_of_seeds();
   study.results[1].status.state = RunState::diverged;
@@ -240,7 +253,10 @@ TEST(Noise, AScreeningSaysWhichEffectsAreWithinIt) {
   m.axes.clear();
   m.screened = {{"hardening", {}, {"m.hardening"}}, {"friction", {}, {"c.friction"}}};
   // One trajectory: hardening changes the spread by noise, friction by more.
-  for (std::size_t k = 0; k < 12; ++k) m.runs[k].coordinates = {k < 4 ? 0 : 2, k < 8 ? 0 : 2};
+  for (std::size_t k = 0; k < 12; ++k) {
+    m.runs[k].coordinates = {k < 4 ? 0 : 2, k < 8 ? 0 : 2};
+    study.results[k].metrics[2] = double((k * 7) % 5);
+  }
   const std::vector<sheet::Effect> effects = sheet::effects_on(m, study.results, 0);
   ASSERT_EQ(effects.size(), 2u);
   EXPECT_EQ(effects[0].steps, 1);
@@ -251,7 +267,9 @@ TEST(Noise, AScreeningSaysWhichEffectsAreWithinIt) {
   EXPECT_NE(csv.find("within_noise"), std::string::npos);
   const std::vector<std::string> lines = sheet::effect_lines(m, study.results);
   ASSERT_FALSE(lines.empty());
-  EXPECT_EQ(lines[0], "spread (m): friction 0.585, then hardening within noise");
+  EXPECT_EQ(lines[0], "spread (m): friction 0.585");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[1], "fragments: all effects are within noise");
 }
 
 TEST(Noise, FirstSeedsOfAllPointsStartBeforeSecondOnes) {

@@ -53,6 +53,18 @@ TEST(Metrics, CountFragmentsThatDoNotTouch) {
   EXPECT_NEAR(app::record::measure(particles, 1).powder, 1.0 / 1097, 1e-12);
 }
 
+TEST(Metrics, SnowHasBrokenOnceAHundredthOfItsLargestPieceIsApart) {
+  app::record::Metrics first, last;
+  EXPECT_FALSE(app::record::has_broken(first, last).has_value()) << "it had no snow at first";
+  first.largest_fragment = 0.5;  // one of two bodies
+  last.largest_fragment = 0.496;
+  EXPECT_EQ(app::record::has_broken(first, last), false);
+  last.largest_fragment = 0.494;
+  EXPECT_EQ(app::record::has_broken(first, last), true);
+  last.largest_fragment = 1;  // they cling to each other
+  EXPECT_EQ(app::record::has_broken(first, last), false);
+}
+
 TEST(Metrics, SpreadAndHeightAreThoseOfABox) {
   sim::ParticleArrays particles;
   for (int k = 0; k < 1000; ++k) {

@@ -23,6 +23,7 @@
 #include "app/sweep/sheet/report.h"
 #include "app/sweep/sheet/review.h"
 #include "app/sweep/sheet/sheet.h"
+#include "app/sweep/store/points.h"
 #include "render/gl/context.h"
 
 namespace neve::app::sweep::sheet {
@@ -191,6 +192,8 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   if (const std::string plots = metric_plots_svg(manifest, results); !plots.empty())
     output::write_file(folder / "plots.svg", plots);
   write_effects(folder, manifest, results, progress);
+  progress.clear();
+  for (const std::string& line : store::noise_lines(manifest, results)) progress.note(line);
 
   progress.clear();
   for (const std::string& line : store::warning_lines(manifest, results)) progress.warning(line);

@@ -267,9 +267,13 @@ std::vector<std::string> effect_lines(const store::Manifest& manifest,
       const store::AxisLabels& axis = manifest.screened[a];
       return axis.name + " " + Shown(column.effects[a], is_ordered(manifest, axis)).text();
     };
-    std::string line = title_of(column.metric) + ": " + part(order[0]);
-    if (order.size() > 1 && column.effects[order[1]].strength > 0)
-      line += ", then " + part(order[1]);
+    const auto is_told = [&](std::size_t place) {
+      return order.size() > place && !column.effects[order[place]].is_noise &&
+             column.effects[order[place]].strength > 0;
+    };
+    std::string line = title_of(column.metric) + ": ";
+    line += is_told(0) ? part(order[0]) : "all effects are within noise";
+    if (is_told(1)) line += ", then " + part(order[1]);
     lines.push_back(std::move(line));
   }
   return lines;

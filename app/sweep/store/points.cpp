@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "app/support/text.h"
+
 namespace neve::app::sweep::store {
 
 namespace {
@@ -19,6 +21,26 @@ std::string letter(int group) {
   constexpr int letters = 26;
   const std::string text(1, static_cast<char>('a' + group % letters));
   return group < letters ? text : text + std::to_string(group / letters + 1);
+}
+
+/// True if no metric of any point depends on the seed, though runs ended.
+bool draws_nothing(const std::vector<Point>& points) {
+  bool has_two = false;
+  for (const Point& point : points)
+    for (std::size_t metric = 0; metric < point.metrics.size(); ++metric) {
+      const Summary& s = point.metrics[metric];
+      if (metric_infos()[metric].is_time || s.count < 2) continue;
+      if (s.min != s.max) return false;
+      has_two = true;
+    }
+  return has_two;
+}
+
+std::size_t differing(const std::vector<Summary>& points) {
+  std::size_t count = 0;
+  for (std::size_t a = 0; a < points.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) count += differ(points[a], points[b]);
+  return count;
 }
 
 }  // namespace
@@ -83,6 +105,32 @@ std::string group_letters(const std::vector<int>& groups) {
   std::string text;
   for (const int group : groups) text += letter(group);
   return text;
+}
+
+std::vector<std::string> noise_lines(const Manifest& manifest,
+                                     const std::vector<RunResult>& results) {
+  if (manifest.seeds == 1) return {};
+  const std::vector<Point> points = points_of(manifest, results);
+  if (draws_nothing(points))
+    return {
+        "all seeds of each point gave the same numbers: nothing in this scene depends on the "
+        "seed, so that one run of each point tells as much"};
+  std::vector<std::string> lines, noise;
+  for (std::size_t metric = 0; metric < metric_infos().size(); ++metric)
+    if (!metric_infos()[metric].is_time && is_noise(manifest, points, metric))
+      noise.emplace_back(metric_infos()[metric].title);
+  if (const auto telling = telling_metric(manifest, points)) {
+    const std::vector<Summary> summaries = summaries_of(points, *telling);
+    lines.push_back(fmt::format(
+        "{}: of {} pairs of points {} differ, the others are {}", metric_infos()[*telling].title,
+        points.size() * (points.size() - 1) / 2, differing(summaries), close_words));
+  }
+  if (!noise.empty()) lines.push_back("noise here: " + joined(noise, ", "));
+  const auto undecided = std::count_if(points.begin(), points.end(), is_undecided);
+  if (undecided > 0)
+    lines.push_back(fmt::format("{} of {} points break with some seeds and hold with others",
+                                undecided, points.size()));
+  return lines;
 }
 
 Manifest first_draws(const Manifest& manifest) {

@@ -40,6 +40,10 @@ bool is_undecided(const Point& point);
 /// "a", "bc", "b to f": groups as letters; points that share one are too close to call.
 std::string group_letters(const std::vector<int>& groups);
 
+/// What the seeds of a sweep say of it, a sentence a line; none without seeds.
+std::vector<std::string> noise_lines(const Manifest& manifest,
+                                     const std::vector<RunResult>& results);
+
 /// Words for it, everywhere.
 inline constexpr const char* close_words = "too close to call";
 
