@@ -120,6 +120,7 @@ Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, d
   check_units(scene, check.findings, coarsening);
   check_gravity(scene, check.findings);
   check_meshes(scene, check.findings);
+  note_terrain(scene, check.findings);
   check_resolution(scene, check.findings, coarsening);
   check_emitters(scene, check.findings, coarsening);
   check_sinks(scene, check.impact_speed, check.findings);

@@ -275,12 +275,19 @@ double thickness(const sim::shapes::Shape& shape) {
     return std::min(2 * c->radius, c->height);
   if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&shape.form))
     return sim::shapes::deforming_mesh(*sequence)->thickness();
+  if (std::holds_alternative<sim::shapes::Terrain>(shape.form)) return INFINITY;
+  if (const auto* cover = std::get_if<sim::shapes::Cover>(&shape.form)) return cover->depth;
   sim::shapes::Shape level = shape;
   level.rotation.setZero();
   return extent(level).minCoeff();
 }
 
 bool is_too_large(const scene::Scene& scene) {
+  // Maps are in metres.
+  const auto is_terrain = [](const sim::shapes::Collider& collider) {
+    return std::holds_alternative<sim::shapes::Terrain>(collider.shape.form);
+  };
+  if (std::any_of(scene.colliders.begin(), scene.colliders.end(), is_terrain)) return false;
   return setup::largest_extent(scene) > line(Law::extent);
 }
 

@@ -3,12 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <variant>
 
 #include "app/health/findings.h"
+#include "app/scene/toml/value.h"
+#include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
 #include "sim/shapes/deforming_mesh.h"
+#include "sim/shapes/height_field.h"
 #include "sim/shapes/mesh.h"
 #include "sim/shapes/solid.h"
 
@@ -118,18 +122,62 @@ void check_distance(const scene::Scene& scene, const sim::shapes::Shape& shape,
                     std::vector<Finding>& findings) {
   const bool is_mesh = std::holds_alternative<sim::shapes::Mesh>(shape.form);
   const bool is_points = std::holds_alternative<sim::shapes::Points>(shape.form);
-  if (!is_mesh && !is_points) return;
+  const bool is_terrain = std::holds_alternative<sim::shapes::Terrain>(shape.form);
+  if (!is_mesh && !is_points && !is_terrain) return;
   constexpr double single = 0x1p-23, worth_a_word = 0.001;
   const sim::shapes::Bounds b = sim::shapes::Solid(shape).bounds();
   const double far = std::max(b.min.cwiseAbs().maxCoeff(), b.max.cwiseAbs().maxCoeff());
   const double h = scene.solver.cell_size;
   if (single * far < worth_a_word * h) return;
   findings.push_back(
-      {Severity::warning, address + ".shape." + (is_mesh ? "mesh" : "points"),
+      {Severity::warning,
+       address + ".shape." +
+           (is_mesh     ? "mesh"
+            : is_points ? "points"
+                        : "terrain"),
        fmt::format("{} reaches {} m from the scene's origin, where numbers in single precision are "
                    "{} cells apart",
                    name, rough_text(far), rough_text(single * far / h)),
        "coordinates = \"world\" takes the offset of a map out, and exports put it back"});
+}
+
+std::string height_text(double height) {
+  return scene::toml::number_text(std::round(10 * height) / 10) + " m";
+}
+
+void note_posts(const sim::shapes::Terrain& terrain, const std::string& address,
+                const std::string& name, std::vector<Finding>& findings) {
+  const auto field = sim::shapes::height_field(terrain);
+  const sim::files::HeightGrid& grid = field->grid();
+  findings.push_back(
+      {Severity::note, address + ".shape.terrain.file",
+       fmt::format("{} has {} x {} posts, {} apart, at heights from {} to {}", name, grid.columns,
+                   grid.rows, rough_text(grid.spacing) + " m",
+                   height_text(grid.datum + grid.lowest), height_text(grid.datum + grid.highest)),
+       "beyond its posts it continues level"});
+}
+
+void check_holes(const sim::shapes::Terrain& terrain, const std::string& address,
+                 const std::string& name, std::vector<Finding>& findings) {
+  if (sim::shapes::height_field(terrain)->has_holes())
+    findings.push_back(
+        {Severity::warning, address + ".shape.terrain.file",
+         fmt::format("{} has posts without data: holes, through which snow falls", name),
+         "fill them: gdal_fillnodata.py"});
+}
+
+/// @param mass  kg
+void note_cover(const sim::shapes::Shape& shape, double mass, const std::string& address,
+                const std::string& name, std::vector<Finding>& findings) {
+  const auto* cover = std::get_if<sim::shapes::Cover>(&shape.form);
+  if (!cover) return;
+  const double volume = sim::shapes::volume(shape);
+  findings.push_back(
+      {Severity::note, address + ".shape.cover",
+       fmt::format("{} lies {} m deep on {} m2 of the map: {} m3, {} kg", name,
+                   rough_text(cover->depth), rough_text(volume / cover->depth), rough_text(volume),
+                   rough_text(mass)),
+       "depth is vertical; across a slope it is depth times the cosine of its angle"});
 }
 
 }  // namespace
@@ -140,12 +188,25 @@ void check_meshes(const scene::Scene& scene, std::vector<Finding>& findings) {
       const std::string address = kind + "." + object.name;
       check_shape(object.shape, address, display_name(kind, object.name), findings);
       check_distance(scene, object.shape, address, display_name(kind, object.name), findings);
+      if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&object.shape.form))
+        check_holes(*terrain, address, display_name(kind, object.name), findings);
     }
   };
   check_all(scene.bodies, "body");
   check_all(scene.emitters, "emitter");
   check_all(scene.sinks, "sink");
   check_all(scene.colliders, "collider");
+}
+
+void note_terrain(const scene::Scene& scene, std::vector<Finding>& findings) {
+  for (const setup::SnowPiece& piece : setup::snow_pieces(scene)) {
+    const std::string name = piece.address.substr(piece.address.find('.') + 1);
+    note_cover(*piece.shape, piece.mass, piece.address, display_name("body", name), findings);
+  }
+  for (const scene::Collider& collider : scene.colliders)
+    if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form))
+      note_posts(*terrain, "collider." + collider.name, display_name("collider", collider.name),
+                 findings);
 }
 
 }  // namespace neve::app::health

@@ -12,4 +12,7 @@ namespace neve::app::health {
 /// bodies, emitters, sinks and colliders were read.
 void check_meshes(const scene::Scene& scene, std::vector<Finding>& findings);
 
+/// Notes of what terrain has, and of depth and mass of the snow on it.
+void note_terrain(const scene::Scene& scene, std::vector<Finding>& findings);
+
 }  // namespace neve::app::health

@@ -15,6 +15,8 @@
 #include "app/scene/toml/value.h"
 #include "render/shapes/mesh_shapes.h"
 #include "sim/shapes/deforming_mesh.h"
+#include "sim/shapes/height_field.h"
+#include "sim/shapes/solid.h"
 
 namespace neve::app::picture {
 
@@ -106,8 +108,115 @@ std::shared_ptr<const MeshLook> look_of(const sim::shapes::Mesh& mesh) {
                     [&] { return make_look(sim::shapes::mesh_surface(mesh)->mesh()); });
 }
 
+constexpr Vec3f terrain_color{0.24f, 0.245f, 0.26f};
+
+/// Drawn at most along each side; of larger terrain, all around the snow and fewer away from it.
+constexpr std::size_t max_drawn_posts = 257;
+/// Lines of a wire along each side.
+constexpr std::size_t max_wires = 48;
+
+/// A stretch of the posts of a terrain along x and z.
+struct Stretch {
+  Eigen::Vector2d low, high;
+};
+
+render::Lines terrain_lines(const sim::shapes::HeightField& field,
+                            const std::vector<std::size_t>& columns,
+                            const std::vector<std::size_t>& rows) {
+  render::Lines lines;
+  const auto place = [&](std::size_t c, std::size_t r) {
+    return sim::Vec3d(field.x_of(c), field.height_of(c, r), field.z_of(r));
+  };
+  const auto add = [&](const sim::Vec3d& a, const sim::Vec3d& b) {
+    if (!a.allFinite() || !b.allFinite()) return;
+    lines.ends.push_back(to_float(a));
+    lines.ends.push_back(to_float(b));
+  };
+  const std::size_t over_rows = rows.size() / max_wires + 1,
+                    over_columns = columns.size() / max_wires + 1;
+  for (std::size_t r = 0; r < rows.size(); r += over_rows)
+    for (std::size_t c = 0; c + 1 < columns.size(); ++c)
+      add(place(columns[c], rows[r]), place(columns[c + 1], rows[r]));
+  for (std::size_t c = 0; c < columns.size(); c += over_columns)
+    for (std::size_t r = 0; r + 1 < rows.size(); ++r)
+      add(place(columns[c], rows[r]), place(columns[c], rows[r + 1]));
+  return lines;
+}
+
+std::shared_ptr<const MeshLook> make_look(const sim::shapes::HeightField& field,
+                                          const Stretch& stretch) {
+  const auto posts = [&](std::size_t count, int axis) {
+    return sim::shapes::drawn_posts(count, stretch.low[axis], stretch.high[axis], max_drawn_posts);
+  };
+  const std::vector<std::size_t> columns = posts(field.grid().columns, 0),
+                                 rows = posts(field.grid().rows, 1);
+  const sim::shapes::HeightTriangles triangles = sim::shapes::triangles_of(field, columns, rows);
+  MeshLook look;
+  std::vector<Vec3f> position, normal;
+  for (const sim::Vec3d& x : triangles.position) position.push_back(to_float(x));
+  for (const sim::Vec3d& n : triangles.normal) normal.push_back(to_float(n));
+  look.mesh.position = std::move(position);
+  look.mesh.normal = std::move(normal);
+  look.mesh.index = triangles.index;
+  look.mesh.color = terrain_color;
+  look.lines = terrain_lines(field, columns, rows);
+  return std::make_shared<const MeshLook>(std::move(look));
+}
+
+/// Made once for all frames.
+/// @param snow  about the terrain's origin; empty: the whole terrain matters
+std::shared_ptr<const MeshLook> look_of(const sim::shapes::Terrain& terrain,
+                                        const Eigen::AlignedBox3d& snow) {
+  static sim::shapes::Recent<MeshLook> recent;
+  const std::shared_ptr<const sim::shapes::HeightField> field = sim::shapes::height_field(terrain);
+  const sim::shapes::Bounds& all = field->bounds();
+  const auto post = [&](const sim::Vec3d& x) -> Eigen::Vector2d {
+    return Eigen::Vector2d(x.x() - all.min.x(), x.z() - all.min.z()) / field->grid().spacing;
+  };
+  // Snow moves about its own size away in most scenes.
+  const sim::Vec3d margin = snow.isEmpty() ? sim::Vec3d(0, 0, 0) : snow.sizes();
+  const Stretch stretch{post(snow.isEmpty() ? all.min : sim::Vec3d(snow.min() - margin)),
+                        post(snow.isEmpty() ? all.max : sim::Vec3d(snow.max() + margin))};
+  const bool is_large = std::max(field->grid().columns, field->grid().rows) > max_drawn_posts;
+  std::string key = fmt::format("{}|{}|{}|{}|{}|{}|{}", sim::shapes::file_stamp(terrain.file),
+                                terrain.spacing, terrain.low, terrain.high, terrain.origin.x(),
+                                terrain.origin.y(), terrain.origin.z());
+  if (is_large)
+    key += fmt::format("|{}|{}|{}|{}", stretch.low.x(), stretch.low.y(), stretch.high.x(),
+                       stretch.high.y());
+  return recent.get(key, [&] { return make_look(*field, stretch); });
+}
+
+/// The snow at the start, in the axes of a terrain about its point.
+Eigen::AlignedBox3d snow_on(const scene::Scene& scene, const sim::shapes::Pose& pose) {
+  Eigen::AlignedBox3d snow;
+  const auto add = [&](const sim::shapes::Shape& shape) {
+    const sim::shapes::Bounds box = sim::shapes::bounds(shape);
+    for (int k = 0; k < 8; ++k) {
+      const sim::Vec3d corner(k & 1 ? box.max.x() : box.min.x(), k & 2 ? box.max.y() : box.min.y(),
+                              k & 4 ? box.max.z() : box.min.z());
+      snow.extend(sim::Vec3d(pose.rotation.transpose() * (corner - pose.point)));
+    }
+  };
+  for (const auto& body : scene.bodies) add(body.shape);
+  for (const auto& emitter : scene.emitters) add(emitter.shape);
+  return snow;
+}
+
+void add_terrain(const scene::Scene& scene, const sim::shapes::Terrain& terrain,
+                 const sim::shapes::Pose& pose, scene::ColliderStyle style, render::Frame& frame) {
+  const sim::shapes::Pose start{sim::shapes::center({terrain, {}}), pose.rotation, {}, {}};
+  const std::shared_ptr<const MeshLook> look = look_of(terrain, snow_on(scene, start));
+  const Vec3f center = to_float(pose.point);
+  const render::shapes::Rotation rotation = to_rotation(pose.rotation);
+  add_form(render::shapes::moved_mesh(look->mesh, center, rotation),
+           render::shapes::moved_lines(look->lines, center, rotation), style, false, frame);
+}
+
 /// @param time  s, see sim::shapes::shape_time
 std::shared_ptr<const MeshLook> look_of(const sim::shapes::Shape& shape, double time) {
+  if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&shape.form))
+    return look_of(*terrain, Eigen::AlignedBox3d());
   if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&shape.form))
     return make_look(sim::shapes::deforming_mesh(*sequence)->mesh_at(time));
   return look_of(std::get<sim::shapes::Mesh>(shape.form));
@@ -146,14 +255,21 @@ render::TriangleMesh local_mesh(const sim::shapes::Shape& shape) {
   return render::shapes::moved_mesh(look->mesh, {0, 0, 0}, axes);
 }
 
+scene::Layer layer_of(const scene::Collider& collider) {
+  const bool is_ground = std::holds_alternative<sim::shapes::Plane>(collider.shape.form) ||
+                         std::holds_alternative<sim::shapes::Terrain>(collider.shape.form);
+  return is_ground ? scene::Layer::ground : scene::Layer::colliders;
+}
+
 void add_colliders(const scene::Scene& scene, const scene::View& view, double time,
                    float line_spacing, render::Frame& frame) {
   for (const scene::Collider& collider : scene.colliders) {
     const sim::shapes::Pose pose = sim::shapes::pose_at(collider, time);
-    const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
-    if (!scene::has_layer(view, plane ? scene::Layer::ground : scene::Layer::colliders)) continue;
-    if (plane)
+    if (!scene::has_layer(view, layer_of(collider))) continue;
+    if (const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form))
       add_plane(*plane, pose, collider.style, line_spacing, frame);
+    else if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form))
+      add_terrain(scene, *terrain, pose, collider.style, frame);
     else if (const auto* sphere = std::get_if<sim::shapes::Sphere>(&collider.shape.form))
       add_sphere(*sphere, pose, collider.style, frame);
     else if (const auto* box = std::get_if<sim::shapes::Box>(&collider.shape.form))

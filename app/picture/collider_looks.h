@@ -13,6 +13,9 @@ namespace neve::app::picture {
 void add_colliders(const scene::Scene& scene, const scene::View& view, double time,
                    float line_spacing, render::Frame& frame);
 
+/// The layer of a view that draws a collider: the ground for planes and terrain.
+scene::Layer layer_of(const scene::Collider& collider);
+
 /// A collider that is no plane and keeps its shape, as triangles about its own point:
 /// pose_at(...).point is where it goes, and pose_at(...).rotation turns it.
 render::TriangleMesh local_mesh(const sim::shapes::Shape& shape);

@@ -1,5 +1,6 @@
 #include "app/picture/motion.h"
 
+#include "app/picture/collider_looks.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/to_float.h"
 
@@ -24,12 +25,11 @@ Displacement displacement(const sim::shapes::Pose& from, const sim::shapes::Pose
 std::vector<Thing> moving_things(const MotionSource& source, bool are_planes, double interval) {
   std::vector<Thing> things;
   const std::vector<scene::Collider>& colliders = source.scene.colliders;
-  const auto layer = are_planes ? scene::Layer::ground : scene::Layer::colliders;
-  if (!scene::has_layer(source.view, layer)) return things;
   const double now = source.snapshot.time;
   for (std::size_t c = 0; c < colliders.size(); ++c) {
     const scene::Collider& collider = colliders[c];
     const bool is_plane = std::holds_alternative<sim::shapes::Plane>(collider.shape.form);
+    if (!scene::has_layer(source.view, layer_of(collider))) continue;
     if (is_plane != are_planes || collider.style != scene::ColliderStyle::solid) continue;
     const sim::shapes::Pose pose = sim::shapes::pose_at(collider, now);
     const auto at = [&](double time) {

@@ -32,6 +32,8 @@ std::set<std::string> files_of(const scene::Scene& scene) {
       for (const std::string& file : sim::shapes::files_of(*sequence)) files.insert(file);
     if (const auto* points = std::get_if<sim::shapes::Points>(&shape.form))
       files.insert(points->file);
+    if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&shape.form))
+      files.insert(terrain->file);
   };
   for (const sim::seeding::Body& body : scene.bodies) add(body.shape);
   for (const scene::Collider& collider : scene.colliders) add(collider.shape);

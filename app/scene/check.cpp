@@ -10,10 +10,12 @@
 #include "app/scene/leaf.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
+#include "app/support/room.h"
 #include "app/support/text.h"
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
 #include "sim/shapes/deforming_mesh.h"
+#include "sim/shapes/height_field.h"
 #include "sim/shapes/mesh_surface.h"
 #include "sim/shapes/numbered_files.h"
 #include "sim/shapes/placed_points.h"
@@ -70,6 +72,19 @@ Found problem(const sim::shapes::Points& points, const std::string& at) {
   return Problem{at + ".points", "points have no file", "give file = \"NAME.ply\" or .csv"};
 }
 
+Found problem(const sim::shapes::Terrain& terrain, const std::string& at) {
+  if (!terrain.file.empty()) return {};
+  return Problem{at + ".terrain", "terrain has no file", "give file = \"NAME.asc\" or .png"};
+}
+
+Found problem(const sim::shapes::Cover& cover, const std::string& at) {
+  const std::string key = at + ".cover";
+  const bool is_disc = cover.radius > 0, is_rectangle = cover.width > 0 && cover.length > 0;
+  if (is_disc && cover.width == 0 && cover.length == 0) return {};
+  if (!is_disc && is_rectangle) return {};
+  return Problem{key, "cover has no outline", "give width and length, or radius alone"};
+}
+
 template <class Form>
 Found problem(const Form&, const std::string&) {
   return {};
@@ -87,6 +102,8 @@ struct PlaceKey {
   const char* operator()(const sim::shapes::Mesh&) const { return ".mesh.center"; }
   const char* operator()(const sim::shapes::MeshSequence&) const { return ".mesh_sequence.center"; }
   const char* operator()(const sim::shapes::Points&) const { return ".points.center"; }
+  const char* operator()(const sim::shapes::Terrain&) const { return ".terrain.center"; }
+  const char* operator()(const sim::shapes::Cover&) const { return ".cover.center"; }
 };
 
 /// For names of things in the scene.
@@ -144,6 +161,8 @@ Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
   if (std::holds_alternative<sim::shapes::Points>(shape.form)) return {};
   // Its place is found when the whole scene is known.
   if (sim::shapes::needs_place(shape)) return {};
+  if (const auto* cover = std::get_if<sim::shapes::Cover>(&shape.form))
+    if (sim::shapes::needs_place({cover->ground, {}})) return {};
   return ready_problem(address, [&] {
     const sim::shapes::Bounds b = sim::shapes::Solid(shape).bounds();
     return too_far(scene, b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()), at);
@@ -164,9 +183,48 @@ Found variation_problem(const sim::Material& material) {
                      ", or critical_compression below " + rough_text(1 / factor)};
 }
 
+/// A height field is not read before there is room for it.
+void require_room_for(const sim::shapes::Terrain& terrain) {
+  require_room(sim::shapes::memory_to_read(terrain), "the height field", terrain.file,
+               "cut it or take fewer posts, as gdal_translate does with -projwin and -tr");
+}
+
+/// The ground that a cover lies on.
+Found cover_problem(const Scene& scene, const sim::shapes::Shape& shape,
+                    const std::string& address) {
+  const auto* cover = std::get_if<sim::shapes::Cover>(&shape.form);
+  if (!cover) return {};
+  const std::string at = address + ".shape.cover.on";
+  std::vector<std::string> names;
+  for (const Collider& collider : scene.colliders) {
+    const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form);
+    if (terrain) names.push_back(collider.name);
+    if (collider.name != cover->on) continue;
+    if (!terrain)
+      return Problem{
+          at, "collider " + cover->on + " is not a terrain",
+          "a cover lies on a collider with shape = { terrain = { file = \"NAME.asc\" } }"};
+    if (collider.shape.rotation.x() != 0 || collider.shape.rotation.z() != 0)
+      return Problem{"collider." + collider.name + ".shape.rotation",
+                     "a terrain that is tilted carries no cover",
+                     "turn it about y alone: rotation = [0, ANGLE, 0]"};
+    require_room_for(*terrain);
+  }
+  if (std::ranges::find(names, cover->on) == names.end())
+    return Problem{at,
+                   "there is no collider " + toml::toml_string(cover->on) + " that is a terrain",
+                   names.empty() ? "give on = the name of one" : name_advice(cover->on, names)};
+  if (shape.rotation.x() != 0 || shape.rotation.z() != 0)
+    return Problem{address + ".shape.rotation", "a cover lies on its terrain and cannot be tilted",
+                   "turn its outline about y alone: rotation = [0, ANGLE, 0]"};
+  return {};
+}
+
 Found body_problem(const Scene& scene, const sim::seeding::Body& body) {
   const std::string address = "body." + body.name;
   if (const Found found = material_problem(scene, body.material, address)) return found;
+  if (Found found = form_problem(body.shape, address)) return found;
+  if (Found found = cover_problem(scene, body.shape, address)) return found;
   return shape_problem(scene, body.shape, address);
 }
 
@@ -481,6 +539,8 @@ Found collider_problem(const Scene& scene, const Collider& collider) {
     }
     if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&collider.shape.form))
       sim::shapes::mesh_surface(*mesh);
+    else if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form))
+      require_room_for(*terrain), sim::shapes::height_field(*terrain);
     else
       sim::shapes::Solid(collider.shape);
     return Found{};

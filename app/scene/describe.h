@@ -303,6 +303,38 @@ void describe(V& visit, sim::shapes::Points& p, Change change) {
   describe_coordinates(visit, p, change);
 }
 
+template <class V>
+void describe(V& visit, sim::shapes::Terrain& t, Change change) {
+  visit("file", t.file, unit::none, file_path, change,
+        "Heights of ground, ESRI ASCII grid (.asc) or grey 16-bit PNG; path relative to the scene "
+        "file.");
+  visit("spacing", t.spacing, unit::metre, at_least(1e-6).at_most_or_0(1e6), change,
+        "Distance between the posts of a PNG; a grid says its own.");
+  visit("low", t.low, unit::metre, within(1e5), change, "Height of black, of a PNG.");
+  visit("high", t.high, unit::metre, within(1e5), change, "Height of white, of a PNG.");
+  visit("center", t.center, unit::metre, position, change, "Place of the file's origin.");
+  visit("coordinates", t.coordinates, unit::none, anything, change,
+        "own; world: those of a map, as UTM, from which all such files take one offset out.");
+  visit("origin", t.origin, unit::none, map_position, change,
+        "East, north and height in the file that count as its origin; with coordinates = \"world\" "
+        "0 is found from the files.");
+}
+
+template <class V>
+void describe(V& visit, sim::shapes::Cover& c, Change change) {
+  visit("on", c.on, unit::none, identifier, change, "Name of the collider, a terrain, it lies on.");
+  visit("depth", c.depth, unit::metre, needed_length, change,
+        "Vertical distance from the ground to the surface of the snow.");
+  visit("width", c.width, unit::metre, at_least(0).at_most(1e6), change,
+        "Extent along x, of a rectangle.");
+  visit("length", c.length, unit::metre, at_least(0).at_most(1e6), change,
+        "Extent along z, of a rectangle.");
+  visit("radius", c.radius, unit::metre, at_least(0).at_most(1e6), change,
+        "Radius, of a disc in place of a rectangle.");
+  visit("center", c.center, unit::metre, position, change,
+        "Middle of the outline; its y is how far above the ground the snow lies.");
+}
+
 /// Every form can be turned.
 template <class V>
 void describe_rotation(V& visit, sim::shapes::Shape& shape, Change change) {
@@ -328,6 +360,8 @@ void describe_body_forms(V& visit, sim::shapes::Shape& shape) {
   describe_solid_forms(visit, shape);
   visit.template form<sim::shapes::Points>("points", shape, Change::restart,
                                            "Particles from a file.");
+  visit.template form<sim::shapes::Cover>("cover", shape, Change::restart,
+                                          "Snow on a terrain, to an even depth.");
 }
 
 template <class V>
@@ -345,6 +379,8 @@ void describe_collider_forms(V& visit, sim::shapes::Shape& shape) {
   visit.template form<sim::shapes::MeshSequence>(
       "mesh_sequence", shape, Change::live,
       "The inside of a triangle mesh that deforms from file to file.");
+  visit.template form<sim::shapes::Terrain>("terrain", shape, Change::live,
+                                            "The ground below a field of heights.");
 }
 
 template <class V>

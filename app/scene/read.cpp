@@ -125,6 +125,20 @@ void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
 
 namespace {
 
+/// Gives covers the ground that they lie on; find_problem() says where there is none.
+void lay_covers(Scene& scene) {
+  for (sim::seeding::Body& body : scene.bodies) {
+    auto* cover = std::get_if<sim::shapes::Cover>(&body.shape.form);
+    if (!cover) continue;
+    for (const Collider& collider : scene.colliders) {
+      const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form);
+      if (!terrain || collider.name != cover->on) continue;
+      cover->ground = *terrain;
+      cover->turned = collider.shape.rotation.y();
+    }
+  }
+}
+
 Scene scene_of(toml::Table root, const std::string& name, const std::string& base_dir,
                const std::vector<Override>& overrides) {
   add_built_ins(root, overrides);
@@ -137,6 +151,7 @@ Scene scene_of(toml::Table root, const std::string& name, const std::string& bas
   Scene scene;
   Reader(reading, root, "").read([&](auto& visit) { describe(visit, scene); });
   scene.fps = exact_rate(scene.fps);
+  lay_covers(scene);
   if (const auto problem = find_problem(scene)) {
     reading.source.fail(reading.place_of(problem->address), problem->message, problem->hint);
   }
@@ -188,6 +203,7 @@ void place_in_world(Scene& scene, const std::string& name) {
   } catch (const sim::ShapeError& error) {
     throw toml::SceneError(name, 0, 0, error.what(), "");
   }
+  lay_covers(scene);
   if (const auto problem = find_problem(scene))
     throw toml::SceneError(name, 0, 0, problem->address + ": " + problem->message, problem->hint);
 }

@@ -153,7 +153,9 @@ void add_small_colliders(const scene::Scene& scene, std::vector<Vec3d>& points) 
   const Box snow = box_of(points);
   const Vec3d margin = Vec3d::Constant(0.25 * snow.diagonal());
   for (const sim::shapes::Collider& collider : scene.colliders) {
-    if (std::holds_alternative<sim::shapes::Plane>(collider.shape.form)) continue;
+    if (std::holds_alternative<sim::shapes::Plane>(collider.shape.form) ||
+        std::holds_alternative<sim::shapes::Terrain>(collider.shape.form))
+      continue;
     const sim::shapes::Bounds bounds = sim::shapes::bounds_at(collider, 0);
     const bool is_near = ((bounds.min - margin).array() <= snow.max.array()).all() &&
                          ((bounds.max + margin).array() >= snow.min.array()).all();
@@ -296,10 +298,24 @@ std::vector<double> times_of(const sim::shapes::Collider& collider, double durat
   return times;
 }
 
+/// True if the eye is well above a terrain and nothing of it is between the eye and its target.
+bool is_clear_of_terrain(const sim::shapes::Collider& terrain, const Framing& framing,
+                         const Vec3d& eye) {
+  constexpr int looks = 32;
+  if (sim::shapes::signed_distance(terrain, 0, eye) < 0.08 * framing.distance) return false;
+  for (int k = looks / 4; k < looks; ++k)
+    if (sim::shapes::signed_distance(terrain, 0,
+                                     framing.target + (eye - framing.target) * k / looks) < 0)
+      return false;
+  return true;
+}
+
 /// True if no plane is between the eye and its target.
 bool is_clear_at(const scene::Scene& scene, const Framing& framing, const Vec3d& towards_eye) {
   const Vec3d eye = framing.target + framing.distance * towards_eye;
   return std::all_of(scene.colliders.begin(), scene.colliders.end(), [&](const auto& collider) {
+    if (std::holds_alternative<sim::shapes::Terrain>(collider.shape.form))
+      return is_clear_of_terrain(collider, framing, eye);
     const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
     if (!plane) return true;
     const std::vector<double> times = times_of(collider, scene::duration(scene));

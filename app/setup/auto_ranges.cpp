@@ -8,6 +8,7 @@
 #include "app/support/round_number.h"
 #include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
+#include "sim/shapes/height_samples.h"
 #include "sim/shapes/placed_points.h"
 #include "sim/types/time_step.h"
 
@@ -26,6 +27,14 @@ double distance_to(const sim::shapes::Collider& collider, const Vec3d& point,
     const double approach = -direction.dot(normal);
     const double height = (point - pose.point).dot(normal);
     return approach > 1e-9 && height > 0 ? height / approach : -1;
+  }
+  // By the tangent plane of the ground below; snow that lies on it may be in the ground a little.
+  if (std::holds_alternative<sim::shapes::Terrain>(collider.shape.form)) {
+    const sim::shapes::Surface below = sim::shapes::surface_at(collider, 0, point);
+    const double approach = -direction.dot(below.normal);
+    return approach > 1e-9 && below.distance < 0.5 * sim::shapes::no_ground
+               ? std::max(below.distance, 0.0) / approach
+               : -1;
   }
   // Any other shape by the box around it: an estimate is all that is needed.
   const sim::shapes::Bounds box = sim::shapes::bounds_at(collider, 0);
@@ -59,9 +68,12 @@ double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   const double g = scene.solver.gravity.norm();
   if (g == 0) return start;
   const Vec3d down = scene.solver.gravity / g;
+  const bool is_cover = std::holds_alternative<sim::shapes::Cover>(piece.shape->form);
+  const Vec3d middle =
+      is_cover ? Vec3d(0.5 * (box.min + box.max)) : sim::shapes::center(*piece.shape);
   double fall = -1;
   for (const sim::shapes::Collider& collider : scene.colliders) {
-    const double distance = distance_to(collider, sim::shapes::center(*piece.shape), down);
+    const double distance = distance_to(collider, middle, down);
     if (distance >= 0 && (fall < 0 || distance < fall)) fall = distance;
   }
   const double duration = scene::duration(scene);

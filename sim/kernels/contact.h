@@ -6,13 +6,24 @@
 #include "sim/base/scalar.h"
 #include "sim/base/vec.h"
 #include "sim/shapes/distance_samples.h"
+#include "sim/shapes/height_samples.h"
 
 namespace neve::sim::kernels {
 
 /// A simulation with more colliders is refused when it is built.
 inline constexpr int max_colliders = 64;
 
-enum class ColliderShape : int { plane, sphere, box, capsule, cylinder, cone, torus, field };
+enum class ColliderShape : int {
+  plane,
+  sphere,
+  box,
+  capsule,
+  cylinder,
+  cone,
+  torus,
+  field,
+  heights
+};
 enum class ContactLaw : int { separate, slip, sticky };
 
 /// A collider at one time. The point is cell and offset, like a particle's position. What is round
@@ -30,6 +41,7 @@ struct ColliderPose {
   double radius;     ///< m: of a sphere, capsule, cylinder, a cone's base, a torus's tube
   double ring;       ///< m, of a torus: from its centre to the middle of the tube
   shapes::DistanceSamples samples;  ///< of a field
+  shapes::HeightSamples heights;    ///< of a terrain
   double shape_speed;               ///< m/s, of the fastest place of a shape that deforms
   double velocity[3], omega[3];
 };
@@ -51,7 +63,41 @@ struct LocalCollider {
   int size[3];
   Real spacing;
   Vec3<Real> first;
+  // Of a terrain. Posts are counted from that of the cell below the block's first node: `first` is
+  // the place of that post from the node, in the axes of the terrain.
+  const float* posts;
+  int columns, rows, column, row;
+  Real post_height;            ///< of that post, m above the datum; 0 where it has no data
+  Real post_spacing, highest;  ///< m, highest: above the block's first node
+  Real flattest;               ///< see HeightSamples
 };
+
+/// Numbers are small near the block, however far the first post is.
+template <class Real>
+NEVE_INLINE void localize_heights(const ColliderPose& c, const double* to_block,
+                                  LocalCollider<Real>& out) {
+  const shapes::HeightSamples& s = c.heights;
+  double at[3];
+  for (int a = 0; a < 3; ++a)
+    at[a] = to_block[0] * c.axes[a] + to_block[1] * c.axes[3 + a] + to_block[2] * c.axes[6 + a];
+  const auto cell = [](double place, int count) {
+    const double last = count - 2;
+    return static_cast<int>(place > 0 ? (place < last ? place : last) : 0);
+  };
+  out.posts = s.height;
+  out.columns = s.columns;
+  out.rows = s.rows;
+  out.column = cell((at[0] - s.first[0]) / s.spacing, s.columns);
+  out.row = cell((at[2] - s.first[1]) / s.spacing, s.rows);
+  const float height = s.height[static_cast<long>(out.row) * s.columns + out.column];
+  out.post_height = static_cast<Real>(height == height ? height : 0);
+  out.first = {static_cast<Real>(s.first[0] + out.column * s.spacing - at[0]),
+               static_cast<Real>(s.datum + static_cast<double>(out.post_height) - at[1]),
+               static_cast<Real>(s.first[1] + out.row * s.spacing - at[2])};
+  out.post_spacing = static_cast<Real>(s.spacing);
+  out.highest = static_cast<Real>(s.datum + s.highest - at[1]);
+  out.flattest = static_cast<Real>(s.flattest);
+}
 
 template <class Real>
 NEVE_INLINE LocalCollider<Real> localize(const ColliderPose& c, const int* block_cell, double h) {
@@ -60,9 +106,10 @@ NEVE_INLINE LocalCollider<Real> localize(const ColliderPose& c, const int* block
   out.shape = c.shape;
   out.contact = c.contact;
   out.friction = static_cast<Real>(c.friction);
-  double plane_distance = 0;
+  double plane_distance = 0, to_block[3];
   for (int a = 0; a < 3; ++a) {
-    const double d = ((static_cast<double>(block_cell[a]) - c.cell[a]) - c.offset[a]) * h;
+    const double d = to_block[a] =
+        ((static_cast<double>(block_cell[a]) - c.cell[a]) - c.offset[a]) * h;
     plane_distance += d * c.normal[a];
     out.to_block[a] = static_cast<Real>(d);
     out.normal[a] = static_cast<Real>(c.normal[a]);
@@ -84,6 +131,7 @@ NEVE_INLINE LocalCollider<Real> localize(const ColliderPose& c, const int* block
   out.velocities = c.samples.velocity;
   out.shape_speed = static_cast<Real>(c.shape_speed);
   out.spacing = static_cast<Real>(c.samples.spacing);
+  if (c.shape == ColliderShape::heights) localize_heights(c, to_block, out);
   return out;
 }
 
@@ -283,14 +331,101 @@ NEVE_INLINE Vec3<V> field_velocity(const LocalCollider<Real>& c, const Vec3<V>& 
   return velocity;
 }
 
-/// Distance from the collider's shape, as in the functions above. @param r from the block's first
-/// node, m
+/// The cell of a place along one side of a terrain, from that of the block, and where in it; beyond
+/// the posts, the nearest place.
+/// @param before  posts before that of the block
+template <class V>
+struct PostPlace {
+  MaskOf<V> cell;
+  V part;
+  MaskOf<V> is_beyond;
+};
+template <class V>
+NEVE_INLINE PostPlace<V> post_place(V place, int before, int count) {
+  using Real = ElementOf<V>;
+  using I = MaskOf<V>;
+  PostPlace<V> out;
+  const V low = all<V>(static_cast<Real>(-before)),
+          high = all<V>(static_cast<Real>(count - 1 - before));
+  // NaN becomes the first post.
+  V held = place > low ? place : low;
+  held = held < high ? held : high;
+  out.is_beyond = held != place;
+  I cell = __builtin_convertvector(held, I);
+  // Conversion rounds towards 0: one less below it. True is -1.
+  cell += __builtin_convertvector(cell, V) > held;
+  const I before_last = all<I>(count - 2 - before);
+  out.cell = cell < before_last ? cell : before_last;
+  out.part = held - __builtin_convertvector(out.cell, V);
+  return out;
+}
+
+/// A place above or below the surface of a terrain.
+template <class V>
+struct OverGround {
+  V above;             ///< m, along its second axis
+  V along_x, along_z;  ///< slope of the surface there
+  MaskOf<V> is_hole;   ///< nothing of the above is known
+};
+template <class V, class Real>
+NEVE_INLINE OverGround<V> over_ground(const LocalCollider<Real>& c, const Vec3<V>& r) {
+  const auto along = [&](int a) { return dot(r, widened<V>(c.axis[a])); };
+  const PostPlace<V> x = post_place<V>((along(0) - c.first.x) / c.post_spacing, c.column,
+                                       c.columns),
+                     z = post_place<V>((along(2) - c.first.z) / c.post_spacing, c.row, c.rows);
+  Real corner[4][lane_count<V>];
+  for (int l = 0; l < lane_count<V>; ++l) {
+    const float* at =
+        c.posts + (static_cast<long>(c.row) + z.cell[l]) * c.columns + c.column + x.cell[l];
+    corner[0][l] = static_cast<Real>(at[0]) - c.post_height;
+    corner[1][l] = static_cast<Real>(at[1]) - c.post_height;
+    corner[2][l] = static_cast<Real>(at[c.columns]) - c.post_height;
+    corner[3][l] = static_cast<Real>(at[c.columns + 1]) - c.post_height;
+  }
+  const V nw = load_lanes<V>(corner[0]), sw = load_lanes<V>(corner[2]);
+  const V north = load_lanes<V>(corner[1]) - nw, south = load_lanes<V>(corner[3]) - sw;
+  const V north_edge = nw + x.part * north, way = sw + x.part * south - north_edge;
+  const V height = north_edge + z.part * way;
+  OverGround<V> out;
+  out.is_hole = height != height;
+  out.above = along(1) - c.first.y - height;
+  out.along_x = x.is_beyond ? V{} : (north + z.part * (south - north)) / c.post_spacing;
+  out.along_z = z.is_beyond ? V{} : way / c.post_spacing;
+  return out;
+}
+
+/// Across the tangent plane of the surface above or below a place: exact on even ground, and to
+/// first order near any other.
+/// @param r from the block's first node, m
+template <class V, class Real>
+NEVE_INLINE V heights_distance(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
+  const OverGround<V> at = over_ground(c, r);
+  const V steepness =
+      square_root_lanes(at.along_x * at.along_x + at.along_z * at.along_z + Real(1));
+  const Vec3<V> up = widened<V>(c.axis[1]);
+  normal =
+      (up - widened<V>(c.axis[0]) * at.along_x - widened<V>(c.axis[2]) * at.along_z) / steepness;
+  normal = select(at.is_hole, up, normal);
+  return at.is_hole ? all<V>(static_cast<Real>(shapes::no_ground)) : at.above / steepness;
+}
+
+/// A bound from below of the distance to all of a terrain.
+template <class V, class Real>
+NEVE_INLINE V heights_clearance(const LocalCollider<Real>& c, const Vec3<V>& r) {
+  const OverGround<V> at = over_ground(c, r);
+  const V bound = at.is_hole ? V{} : at.above * c.flattest;
+  return larger_lanes(bound, dot(r, widened<V>(c.axis[1])) - c.highest);
+}
+
+/// Distance from the collider's shape, as in the functions above, but for a terrain: see there.
+/// @param r from the block's first node, m
 template <class V, class Real>
 NEVE_INLINE V surface_distance(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
   if (c.shape == ColliderShape::plane) {
     normal = widened<V>(c.normal);
     return c.plane_distance + dot(r, normal);
   }
+  if (c.shape == ColliderShape::heights) return heights_distance(c, r, normal);
   const Vec3<V> d = widened<V>(c.to_block) + r;
   switch (c.shape) {
     case ColliderShape::sphere:
@@ -316,6 +451,7 @@ NEVE_INLINE bool is_out_of_reach(const LocalCollider<Real>& c, const Vec3<Real>&
                                  Real reach) {
   using V = Quad<Real>;
   Vec3<V> normal;
+  if (c.shape == ColliderShape::heights) return heights_clearance(c, widened<V>(centre))[0] > reach;
   // Between samples a field is off by less than the diagonal of their cell, here and there.
   return surface_distance(c, widened<V>(centre), normal)[0] > reach + 2 * c.spacing;
 }

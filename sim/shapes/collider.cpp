@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sim/shapes/deforming_mesh.h"
+#include "sim/shapes/height_field.h"
 #include "sim/shapes/mesh_surface.h"
 #include "sim/shapes/solid.h"
 
@@ -104,6 +105,16 @@ Touch touch(const Points&, const Vec3d&) {
   throw std::invalid_argument("points have no surface: they cannot be a collider");
 }
 
+Touch touch(const Terrain& terrain, const Vec3d& y) {
+  const std::shared_ptr<const HeightField> field = height_field(terrain);
+  const auto place = field->at(y.x(), y.z());
+  return {field->distance(y), place ? place->normal : Vec3d(Vec3d::UnitY())};
+}
+
+Touch touch(const Cover&, const Vec3d&) {
+  throw std::invalid_argument("a cover is snow: it cannot be a collider");
+}
+
 /// The other forms in the world: the middle of a sphere looks up however it has turned.
 struct TouchInWorld {
   const Shape& shape;
@@ -142,6 +153,11 @@ struct FurthestPlace {
   double operator()(const Sphere&) const { return 0; }
   double operator()(const Plane&) const { return 0; }
   double operator()(const Points&) const { return 0; }
+  double operator()(const Cover&) const { return 0; }
+  double operator()(const Terrain& s) const {
+    const Bounds& box = height_field(s)->bounds();
+    return box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).norm();
+  }
   double operator()(const Box& s) const { return 0.5 * s.size.norm(); }
   double operator()(const Capsule& s) const { return 0.5 * (s.b - s.a).norm() + s.radius; }
   double operator()(const Cylinder& s) const { return std::hypot(s.radius, 0.5 * s.height); }

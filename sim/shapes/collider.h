@@ -63,7 +63,8 @@ double largest_speed(const Collider& collider);
 
 /// A collider as seen from a point.
 struct Surface {
-  double distance;  ///< m; Euclidean outside, to the nearest face inside; < 0 inside
+  double distance;  ///< m; Euclidean outside, to the nearest face inside; < 0 inside; of a
+                    ///< terrain, see HeightField::distance
   Vec3d normal;  ///< outward unit vector of the nearest face; of a box, cylinder or cone, outside:
                  ///< of the face that is furthest below the point. On a tie the lowest axis,
                  ///< wall before ends; (0, 1, 0) in the middle of a sphere, the first axis of

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/shapes/deforming_mesh.h"
+#include "sim/shapes/height_field.h"
 #include "sim/shapes/mesh.h"
 #include "sim/shapes/placed_points.h"
 #include "sim/shapes/solid.h"
@@ -22,6 +23,7 @@ Mat3d capsule_axes(const Capsule& capsule) {
 }
 
 struct MakeForm {
+  const Vec3d& rotation;  ///< degrees
   using Result = std::shared_ptr<const Form>;
   Result operator()(const Sphere& s) const { return make_sphere(s.radius); }
   Result operator()(const Box& s) const { return make_box(s.size); }
@@ -38,6 +40,8 @@ struct MakeForm {
     return make_mesh_solid(deforming_mesh(s)->mesh(0, 0));
   }
   Result operator()(const Points& s) const { return make_points_solid(s); }
+  Result operator()(const Terrain& s) const { return make_terrain_solid(s); }
+  Result operator()(const Cover& s) const { return make_cover_solid(s, rotation.y()); }
 };
 
 struct CenterOf {
@@ -55,7 +59,7 @@ Solid::Solid(const Shape& shape)
     : center_(shapes::center(shape)),
       axes_(form_axes(shape)),
       rotation_(rotation_from_degrees(shape.rotation) * axes_),
-      form_(std::visit(MakeForm{}, shape.form)) {
+      form_(std::visit(MakeForm{shape.rotation}, shape.form)) {
   const double v = form_->volume();
   if (!(v > 0) || !std::isfinite(v))
     throw ShapeError("the volume of the shape is " + number_text(v) +

@@ -78,8 +78,32 @@ struct Points {
   Vec3d origin{0, 0, 0};  ///< coordinates in the file that are taken for its origin
 };
 
+/// The ground below a height field from a file, see sim/shapes/height_field.h. East on the map is
+/// x, north is -z, up is y.
+struct Terrain {
+  std::string file;          ///< resolved path
+  double spacing = 0;        ///< m, from post to post, of a picture; 0: not given
+  double low = 0, high = 0;  ///< m, heights of black and white of a picture
+  Vec3d center{0, 0, 0};     ///< where the origin of the file goes
+  Coordinates coordinates = Coordinates::own;
+  Vec3d origin{0, 0, 0};  ///< east, north and up in the file that are taken for its origin
+};
+/// Snow on a terrain, between its surface and a depth straight above it, within a rectangle or,
+/// with a radius, a disc. Rotation is about y alone.
+struct Cover {
+  std::string on;                ///< name of a collider
+  double depth = 0.1;            ///< m, vertical
+  double width = 0, length = 0;  ///< m, along x and z
+  double radius = 0;             ///< m
+  Vec3d center{0, 0, 0};         ///< middle of the outline; y: how far above the terrain it lies
+  Terrain ground{};              ///< of that collider
+  double turned = 0;             ///< degrees, of that collider about y
+};
+
 struct Shape {
-  std::variant<Sphere, Box, Capsule, Cylinder, Cone, Torus, Plane, Mesh, MeshSequence, Points> form;
+  std::variant<Sphere, Box, Capsule, Cylinder, Cone, Torus, Plane, Mesh, MeshSequence, Points,
+               Terrain, Cover>
+      form;
   Vec3d rotation{0, 0, 0};  ///< degrees, R = Rz Ry Rx, about the shape's centre
 };
 
@@ -89,7 +113,7 @@ struct Bounds {
 };
 
 /// Centre of rotation and angular velocity: the middle of a capsule, the point of a plane, the
-/// place of the file's origin for meshes or points.
+/// place of the file's origin for meshes, points or terrain.
 Vec3d center(const Shape& shape);
 
 /// Paths of all files of a sequence. @throws ShapeError for a path that is no pattern, or too many

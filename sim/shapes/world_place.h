@@ -9,7 +9,7 @@
 
 namespace neve::sim::shapes {
 
-/// True for a mesh or points with coordinates = "world".
+/// True for a mesh, points or terrain with coordinates = "world".
 bool is_of_world(const Shape& shape);
 /// The same, and nobody has said yet where the scene's origin lies in its file.
 bool needs_place(const Shape& shape);

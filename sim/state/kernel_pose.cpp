@@ -15,6 +15,7 @@ struct SetForm {
   kernels::ColliderPose& out;
   const shapes::Pose& pose;
   const shapes::DistanceSamples& samples;
+  const shapes::HeightSamples& heights;
 
   void operator()(const shapes::Plane& plane) const {
     out.shape = kernels::ColliderShape::plane;
@@ -47,6 +48,13 @@ struct SetForm {
   void operator()(const shapes::Points&) const {
     throw std::invalid_argument("points have no surface: they cannot be a collider");
   }
+  void operator()(const shapes::Terrain&) const {
+    out.shape = kernels::ColliderShape::heights;
+    out.heights = heights;
+  }
+  void operator()(const shapes::Cover&) const {
+    throw std::invalid_argument("a cover is snow: it cannot be a collider");
+  }
 
  private:
   void set_field() const {
@@ -76,7 +84,8 @@ void move_to_foot(const shapes::Plane& plane, shapes::Pose& pose) {
 
 std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& c, double time,
                                                  double cell_size, const Vec3i& lattice_origin,
-                                                 const shapes::DistanceSamples& samples) {
+                                                 const shapes::DistanceSamples& samples,
+                                                 const shapes::HeightSamples& heights) {
   shapes::Pose pose = shapes::pose_at(c, time);
   if (const auto* plane = std::get_if<shapes::Plane>(&c.shape.form);
       plane && !is_in_lattice(pose.point, cell_size))
@@ -94,7 +103,7 @@ std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& c, doub
     out.omega[a] = pose.angular_velocity[a];
     for (int b = 0; b < 3; ++b) out.axes[3 * a + b] = axes(a, b);
   }
-  std::visit(SetForm{out, pose, samples}, c.shape.form);
+  std::visit(SetForm{out, pose, samples, heights}, c.shape.form);
   return out;
 }
 

@@ -7,17 +7,20 @@
 #include "sim/kernels/contact.h"
 #include "sim/shapes/collider.h"
 #include "sim/shapes/distance_samples.h"
+#include "sim/shapes/height_samples.h"
 
 namespace neve::sim::engine {
 
 /// @param cell_size  m
 /// @param lattice_origin  blocks
 /// @param samples  of a mesh, otherwise not looked at; the pose points to the same memory
+/// @param heights  of a terrain, likewise
 /// @return nothing for a collider whose point left the lattice: out of reach. Any point of a
 /// plane's
 ///         surface keeps the plane within reach.
 std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& collider, double time,
                                                  double cell_size, const Vec3i& lattice_origin,
-                                                 const shapes::DistanceSamples& samples);
+                                                 const shapes::DistanceSamples& samples,
+                                                 const shapes::HeightSamples& heights = {});
 
 }  // namespace neve::sim::engine

@@ -77,10 +77,14 @@ MovingColliders::MovingColliders(const std::vector<shapes::Collider>& colliders,
 MovingColliders::Field MovingColliders::make_field(const shapes::Collider& collider,
                                                    const Lattice& lattice, ThreadPool& pool) {
   if (const auto* mesh = std::get_if<shapes::Mesh>(&collider.shape.form))
-    return {shapes::distance_field(*mesh, lattice.cell_size, pool), std::nullopt};
+    return {shapes::distance_field(*mesh, lattice.cell_size, pool), std::nullopt, nullptr};
   if (const auto* sequence = std::get_if<shapes::MeshSequence>(&collider.shape.form))
-    return {nullptr, shapes::DeformingField(shapes::deforming_mesh(*sequence), sequence->files,
-                                            lattice.cell_size)};
+    return {nullptr,
+            shapes::DeformingField(shapes::deforming_mesh(*sequence), sequence->files,
+                                   lattice.cell_size),
+            nullptr};
+  if (const auto* terrain = std::get_if<shapes::Terrain>(&collider.shape.form))
+    return {nullptr, std::nullopt, shapes::height_field(*terrain)};
   return {};
 }
 
@@ -90,10 +94,15 @@ shapes::DistanceSamples MovingColliders::Field::samples() const {
   return {};
 }
 
+shapes::HeightSamples MovingColliders::Field::heights() const {
+  return terrain ? terrain->samples() : shapes::HeightSamples{};
+}
+
 /// What deforms has the shape that it was placed with.
 std::optional<kernels::ColliderPose> MovingColliders::pose_at(std::size_t k, const Lattice& lattice,
                                                               double time, double until) const {
-  auto pose = kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].samples());
+  auto pose = kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].samples(),
+                          fields_[k].heights());
   if (pose) pose->shape_speed = shape_speed(k, time, until);
   return pose;
 }
@@ -161,6 +170,7 @@ std::uint64_t MovingColliders::memory_bytes() const {
   for (const Field& field : fields_) {
     bytes += field.rigid ? field.rigid->bytes() : 0;
     bytes += field.deforming ? field.deforming->bytes() : 0;
+    bytes += field.terrain ? field.terrain->grid().height.size() * sizeof(float) : 0;
   }
   return bytes;
 }

@@ -11,6 +11,7 @@
 #include "sim/kernels/contact.h"
 #include "sim/shapes/collider.h"
 #include "sim/shapes/deforming_field.h"
+#include "sim/shapes/height_field.h"
 #include "sim/state/lattice.h"
 
 namespace neve::sim::engine {
@@ -46,12 +47,14 @@ class MovingColliders {
   std::uint64_t memory_bytes() const;
 
  private:
-  /// The distances of a mesh, or of one that deforms; neither of other shapes.
+  /// The distances of a mesh, or of one that deforms, or a terrain; nothing of other shapes.
   struct Field {
     std::shared_ptr<const shapes::DistanceField> rigid;
     std::optional<shapes::DeformingField> deforming;
+    std::shared_ptr<const shapes::HeightField> terrain;
 
     shapes::DistanceSamples samples() const;
+    shapes::HeightSamples heights() const;
   };
   static Field make_field(const shapes::Collider& collider, const Lattice& lattice,
                           ThreadPool& pool);

@@ -47,6 +47,7 @@ const std::vector<Reader>& readers() {
                                         {"sweep", read_sweep, no_seeds},
                                         {"mesh", read_mesh, no_seeds},
                                         {"points", read_points, no_seeds},
+                                        {"heights", read_heights, no_seeds},
                                         {"script", read_script, no_seeds},
                                         {"checkpoint", read_checkpoint, checkpoints},
                                         {"run_json", read_run_json, run_records},

@@ -31,6 +31,7 @@ std::vector<Bytes> settings();
 void read_sweep(std::span<const std::uint8_t> bytes);
 void read_mesh(std::span<const std::uint8_t> bytes);
 void read_points(std::span<const std::uint8_t> bytes);
+void read_heights(std::span<const std::uint8_t> bytes);
 void read_script(std::span<const std::uint8_t> bytes);
 
 // Of runs, in readers_of_runs.cpp.

@@ -6,6 +6,7 @@
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/read/read_sweep.h"
 #include "app/view/replay/replay_script.h"
+#include "sim/files/height_reader.h"
 #include "sim/files/mesh_reader.h"
 #include "sim/files/point_reader.h"
 #include "sim/types/errors.h"
@@ -130,6 +131,12 @@ void read_sweep(std::span<const std::uint8_t> bytes) {
 void read_mesh(std::span<const std::uint8_t> bytes) {
   try_to([&] { sim::files::parse_mesh(text_of(bytes), "mesh"); });
   try_to([&] { sim::files::parse_obj(text_of(bytes), "mesh.obj"); });
+}
+
+void read_heights(std::span<const std::uint8_t> bytes) {
+  std::optional<sim::files::HeightGrid> grid;
+  try_to([&] { grid = sim::files::parse_heights(text_of(bytes), "heights", {2, -10, 90}); });
+  if (grid) require(grid->height.size() == grid->columns * grid->rows && grid->spacing > 0);
 }
 
 void read_points(std::span<const std::uint8_t> bytes) {

@@ -215,6 +215,9 @@ std::vector<std::pair<std::string, Vec3d>> places_of(const Shape& shape) {
     add("mesh_sequence.center", s->center);
   if (const auto* s = std::get_if<sim::shapes::Points>(&shape.form))
     add("points.center", s->center);
+  if (const auto* s = std::get_if<sim::shapes::Terrain>(&shape.form))
+    add("terrain.center", s->center);
+  if (const auto* s = std::get_if<sim::shapes::Cover>(&shape.form)) add("cover.center", s->center);
   if (const auto* s = std::get_if<Plane>(&shape.form)) add("plane.point", s->point);
   if (const auto* s = std::get_if<sim::shapes::Capsule>(&shape.form)) {
     add("capsule.a", s->a);

@@ -1,0 +1,97 @@
+/// Terrain in scenes and frames.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/picture/collider_looks.h"
+#include "app/scene/read.h"
+#include "sim/shapes/solid.h"
+#include "tests/support/height_files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace neve::app {
+namespace {
+
+class TerrainScene : public testing::Test {
+ protected:
+  TerrainScene() {
+    folder_.write("hills.asc", test::height_grid(9, 7, 0.5, [](double x, double z) {
+                    return 0.3 * std::sin(2 * x) + 0.2 * std::cos(3 * z) - 0.2 * x;
+                  }));
+    folder_.write("grey.png", test::height_png(4, 4, [](int x, int y) { return 900 * (x + y); }));
+  }
+  scene::Scene read(const std::string& terrain, const std::string& style = "solid") const {
+    return scene::read_scene_text(
+        "[[collider]]\nname = \"hills\"\nstyle = \"" + style + "\"\nshape = { terrain = { " +
+            terrain +
+            ", rotation = [0, 30, 0] } }\n[[body]]\nshape = { cover = { on = \"hills\", depth = "
+            "0.2, radius = 0.4, center = [2.1, 0.1, 0.2] } }\n",
+        "s.toml", folder_.path().string());
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(TerrainScene, IsWrittenAsItWasRead) {
+  for (const char* terrain :
+       {"file = \"hills.asc\", center = [0.5, 1, 0]",
+        "file = \"grey.png\", spacing = 2, low = -3, high = 8, center = [1, 0, 0]",
+        "file = \"hills.asc\", coordinates = \"world\", origin = [0.5, -1, 2]"}) {
+    SCOPED_TRACE(terrain);
+    const std::string text = scene::write_scene(read(terrain));
+    EXPECT_EQ(scene::write_scene(scene::read_scene_text(text, "again.toml")), text);
+    EXPECT_NE(text.find("on = \"hills\""), std::string::npos);
+  }
+}
+
+TEST_F(TerrainScene, ACoverLiesWhereItsTerrainIs) {
+  const scene::Scene scene = read("file = \"hills.asc\", center = [0.5, 1, 0]");
+  const sim::shapes::Solid cover(scene.bodies[0].shape);
+  const sim::Vec3d middle = cover.center() + cover.inner_point();
+  const sim::shapes::Surface ground = sim::shapes::surface_at(scene.colliders[0], 0, middle);
+  // Half of the depth above the ground, and lifted by the y of its centre.
+  EXPECT_NEAR(ground.distance, (0.1 + 0.1) * ground.normal.y(), 1e-12);
+}
+
+TEST_F(TerrainScene, IsDrawnOnItsSurfaceWithTheNormalsOfContact) {
+  const scene::Scene scene = read("file = \"hills.asc\", center = [0.5, 1, 0]");
+  render::Frame frame;
+  picture::add_colliders(scene, scene.views.front(), 0, 0.1f, frame);
+  ASSERT_EQ(frame.meshes.size(), 1u);
+  const render::TriangleMesh& mesh = frame.meshes[0];
+  std::size_t on_surface = 0;
+  for (std::size_t k = 0; k < mesh.position.size(); ++k) {
+    const auto vec = [](Vec3f v) {
+      return sim::Vec3d(static_cast<double>(v.x), static_cast<double>(v.y),
+                        static_cast<double>(v.z));
+    };
+    if (!(mesh.normal[k].y > 0.1f)) continue;
+    ++on_surface;
+    const sim::shapes::Surface ground =
+        sim::shapes::surface_at(scene.colliders[0], 0, vec(mesh.position[k]));
+    EXPECT_NEAR(ground.distance, 0, 2e-6);  // floats of a few metres
+    // The middle of each cell, where the normal has no jump.
+    if (on_surface % 5 == 0) {
+      EXPECT_LT((ground.normal - vec(mesh.normal[k])).norm(), 1e-5);
+    }
+  }
+  EXPECT_EQ(on_surface, 8u * 6 * 5);
+}
+
+TEST_F(TerrainScene, BelongsToTheGround) {
+  scene::Scene scene = read("file = \"hills.asc\"");
+  scene.views.front().layers = {scene::Layer::colliders};
+  render::Frame frame;
+  picture::add_colliders(scene, scene.views.front(), 0, 0.1f, frame);
+  EXPECT_TRUE(frame.meshes.empty());
+  scene.views.front().layers = {scene::Layer::ground};
+  picture::add_colliders(scene, scene.views.front(), 0, 0.1f, frame);
+  EXPECT_EQ(frame.meshes.size(), 1u);
+  render::Frame wire;
+  picture::add_colliders(read("file = \"hills.asc\"", "wire"), scene.views.front(), 0, 0.1f, wire);
+  EXPECT_TRUE(wire.meshes.empty());
+  EXPECT_EQ(wire.lines.size(), 1u);
+}
+
+}  // namespace
+}  // namespace neve::app
