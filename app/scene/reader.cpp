@@ -66,7 +66,9 @@ std::vector<std::string> forms_of(const std::string& kind) {
 /// Advice for an unknown form.
 std::string form_advice(const std::string& key, const std::vector<std::string>& forms) {
   if (key == "plane") return "only colliders can be planes: use a large box";
+  if (key == "terrain") return "only colliders can be terrain: snow on one is a cover";
   if (key == "points") return "only bodies can be points";
+  if (key == "cover") return "only bodies can be covers";
   return advice::suggest(key, {"key", forms, true}, "expected " + list_of(forms));
 }
 

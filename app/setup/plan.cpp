@@ -20,6 +20,7 @@
 #include "app/support/text.h"
 #include "sim/health/limits.h"
 #include "sim/shapes/deforming_field.h"
+#include "sim/shapes/height_field.h"
 #include "sim/simulation.h"
 #include "sim/types/number_text.h"
 
@@ -172,13 +173,17 @@ double surface_memory(const scene::Scene& scene, double particles) {
   return 150 * nodes;
 }
 
-/// Counts the distances around meshes that deform. One that cannot be read is refused before.
-double deforming_memory(const scene::Scene& scene) {
+/// Counts the distances around meshes that deform, and heights of terrain. Files that cannot be
+/// read are refused before.
+double collider_memory(const scene::Scene& scene) {
   double bytes = 0;
   for (const scene::Collider& collider : scene.colliders)
     if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form))
       bytes +=
           sim::shapes::memory_of(*sim::shapes::deforming_mesh(*sequence), scene.solver.cell_size);
+    else if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form))
+      bytes += static_cast<double>(sim::shapes::height_field(*terrain)->grid().height.size()) *
+               sizeof(float);
   return bytes;
 }
 
@@ -280,7 +285,7 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
   plan.memory =
       whole_bytes(simulated + arrays + exported + blurred + surface_memory(scene, counted) +
-                  deforming_memory(scene) + picture_memory(scene, quality) +
+                  collider_memory(scene) + picture_memory(scene, quality) +
                   channel_memory(scene, quality, channel_bytes));
   set_limits(scene, plan);
   for (const scene::PictureSize& size : picture_sizes(scene)) {

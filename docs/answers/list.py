@@ -210,6 +210,12 @@ SCENES = [
      "files": {"stairs.obj": TETRAHEDRON.replace("f 2 3 4", "f 2 3 9")}},
     {**edit("plane = { point = [0, 0, 0], normal = [0, 1, 0] }", "mesh = { file = \"stairs.obj\" }"),
      "files": {"stairs.obj": ""}},
+    {**edit("plane = { point = [0, 0, 0], normal = [0, 1, 0] }", "terrain = { file = \"alp.tif\" }"),
+     "files": {"alp.tif": "II*\0"}},
+    {**edit("plane = { point = [0, 0, 0], normal = [0, 1, 0] }", "terrain = { file = \"alp.asc\" }"),
+     "files": {"alp.asc": "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3 4 5 \n"}},
+    edit("shape = { sphere = { center = [0, 0.12, 0], radius = 0.08 } }",
+         "shape = { cover = { on = \"floor\", depth = 0.1, radius = 0.2 } }"),
 ]
 
 COMMANDS = [

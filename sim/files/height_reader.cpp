@@ -22,6 +22,30 @@ bool is_png(std::string_view bytes) {
   return bytes.starts_with("\x89PNG");
 }
 
+/// The number behind a key of the header of a grid; 0: it is not there.
+double number_after(std::string_view text, std::string_view key) {
+  const auto same = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
+  const auto found = std::search(text.begin(), text.end(), key.begin(), key.end(), same);
+  if (found == text.end()) return 0;
+  text = trimmed(text.substr(static_cast<std::size_t>(found - text.begin()) + key.size()));
+  const auto end = std::find_if(text.begin(), text.end(), [](char c) { return c <= ' '; });
+  return number_in(text.substr(0, static_cast<std::size_t>(end - text.begin()))).value_or(0);
+}
+
+/// Posts that a file says it has; of a grid no more than its bytes could be.
+double posts_in(std::string_view start, double size) {
+  if (!is_png(start))
+    return std::clamp(number_after(start, "ncols") * number_after(start, "nrows"), 0.0, 0.5 * size);
+  if (start.size() < 24) return 0;
+  const auto number_at = [&](std::size_t at) {
+    double number = 0;
+    for (std::size_t k = at; k < at + 4; ++k)
+      number = 256 * number + static_cast<unsigned char>(start[k]);
+    return number;
+  };
+  return number_at(16) * number_at(20);
+}
+
 }  // namespace
 
 HeightGrid parse_heights(std::string_view bytes, const std::string& name,
@@ -43,25 +67,15 @@ HeightGrid read_heights(const std::string& path, const HeightScale& scale) {
 
 double memory_of_heights(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string start(26, '\0');
+  std::string start(512, '\0');
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error) return 0;
-  double posts = 0;
-  if (is_png(start) && start.size() == 26) {
-    const auto number_at = [&](std::size_t at) {
-      double number = 0;
-      for (std::size_t k = at; k < at + 4; ++k)
-        number = 256 * number + static_cast<unsigned char>(start[k]);
-      return number;
-    };
-    posts = std::min(number_at(16) * number_at(20), max_posts);
-  } else {
-    posts = std::min(0.5 * static_cast<double>(size), max_posts);
-  }
-  return static_cast<double>(size) + 14 * posts;
+  // Rows as they are packed and heights of a picture; numbers and heights of a text.
+  return static_cast<double>(size) +
+         12 * std::min(posts_in(start, static_cast<double>(size)), max_posts);
 }
 
 }  // namespace neve::sim::files

@@ -257,7 +257,7 @@ TEST(SceneErrors, AShapeHasExactlyOneForm) {
             "s.toml:2:1: error: body.a has no shape" + example);
   EXPECT_EQ(error_of(in_body("shape = {}")),
             "s.toml:2:9: error: body.1.shape is empty; expected \"sphere\", \"box\", \"capsule\", "
-            "\"cylinder\", \"cone\", \"torus\", \"mesh\" or \"points\"");
+            "\"cylinder\", \"cone\", \"torus\", \"mesh\", \"points\" or \"cover\"");
   EXPECT_EQ(error_of(in_body("shape = { sphere = {}, box = {} }")),
             "s.toml:2:24: error: body.1.shape has two forms, \"sphere\" and \"box\"; expected "
             "exactly one");
@@ -277,7 +277,7 @@ TEST(SceneErrors, AShapeHasExactlyOneForm) {
   EXPECT_EQ(error_of(with_ball("[[collider]]\nshape = { pyramid = {} }")),
             "s.toml:5:11: error: unsupported shape \"pyramid\" in collider.1.shape; expected "
             "\"plane\", \"sphere\", \"box\", \"capsule\", \"cylinder\", \"cone\", \"torus\", "
-            "\"mesh\" or \"mesh_sequence\"");
+            "\"mesh\", \"mesh_sequence\" or \"terrain\"");
 }
 
 TEST(SceneErrors, ShapesWithoutASizeAreRefused) {

@@ -5,8 +5,11 @@
 #include <filesystem>
 #include <sstream>
 
+#include "app/output/atomic_file.h"
 #include "app/output/process.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
+#include "tests/support/needs.h"
 
 namespace neve::test {
 namespace {
@@ -119,6 +122,41 @@ TEST_F(Shots, PlatesAreFoundByTheNumbersOfTheFrames) {
   run({"render", "shot.toml", "--out", "b", "--no-movie", "--quiet", "--frames", "1003-1004",
        "--plate", "a/particles/####.png"});
   EXPECT_TRUE(exists("b/particles/1004.png"));
+}
+
+/// A shot over plates from 1001, as a film: each of its frames is over the plate of its number.
+TEST_F(Shots, AFilmOverPlatesFrom1001HasTheirFrames) {
+  const auto ffprobe = app::output::find_program("ffprobe");
+  const auto ffmpeg = app::output::find_program("ffmpeg");
+  if (!ffprobe || !ffmpeg) SKIP_OR_FAIL("no ffmpeg in PATH");
+  app::output::make_folder(folder / "plates");
+  for (int number = 1001; number <= 1003; ++number) {
+    const auto grey = static_cast<std::uint8_t>(60 * (number - 1000));
+    const render::Image plate{320, 180, 3, std::vector<std::uint8_t>(320 * 180 * 3, grey)};
+    app::output::write_file(folder / ("plates/shot." + std::to_string(number) + ".png"),
+                            render::encode_png(plate));
+  }
+  run({"render", "shot.toml", "--set", "handles=0", "--set", "shot.slate=false", "--plate",
+       "plates/shot.%04d.png", "--no-caption", "--out", "a", "--quiet"});
+  const auto probed = app::output::run_process(
+      *ffprobe,
+      {"-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+       "stream=width,height,r_frame_rate,color_space,nb_read_frames:stream_tags=timecode", "-of",
+       "csv=p=0", "a/particles.mp4"},
+      folder.path(), 60);
+  // 1001 frames of 24 a second are 41 s and 17 frames.
+  EXPECT_EQ(probed.output, "320,180,bt709,24/1,3,00:00:41:17\n") << probed.errors;
+  for (int k = 0; k < 3; ++k) {
+    const auto pixel = app::output::run_process(
+        *ffmpeg,
+        {"-v", "error", "-i", "a/particles.mp4", "-vf",
+         "select=eq(n\\," + std::to_string(k) + "),crop=16:16:20:90,scale=1:1,format=gray",
+         "-frames:v", "1", "-f", "rawvideo", "-"},
+        folder.path(), 60);
+    ASSERT_EQ(pixel.output.size(), 1u) << pixel.errors;
+    // The film is lossy; one plate is 60 from the next.
+    EXPECT_NEAR(static_cast<unsigned char>(pixel.output[0]), 60 * (k + 1), 8) << k;
+  }
 }
 
 TEST_F(Shots, SweepsHaveTheNumbersOfTheirScene) {

@@ -7,6 +7,7 @@
 #include "app/output/atomic_file.h"
 #include "render/image/image.h"
 #include "tests/support/costly_cli.h"
+#include "tests/support/height_files.h"
 
 namespace neve::test {
 namespace {
@@ -157,6 +158,16 @@ TEST_F(Costs, OfMeshesAndSweepsGrowWithTheirLength) {
                  "frames = 0\nsolver.cell_size = 0.02\n[[body]]\nshape = { mesh = { file = "
                  "\"crescent.obj\" } }\n");
     return std::string("render --dry-run mesh.toml");
+  });
+  expect_flat("posts of a terrain", [&](int times) {
+    folder.write("ground.asc", height_grid(400, 400 * times, 1, [](double x, double z) {
+                   return std::sin(x) + std::cos(z);
+                 }));
+    folder.write(
+        "ground.toml",
+        "frames = 0\nsolver.cell_size = 0.1\n[[body]]\nshape = { sphere = { radius = 1 } }\n"
+        "[[collider]]\nshape = { terrain = { file = \"ground.asc\" } }\n");
+    return std::string("render --dry-run ground.toml");
   });
   expect_flat("values of an axis", [&](int times) {
     folder.write("axis.toml",
