@@ -182,10 +182,17 @@ void check_title(const std::string& title, std::vector<health::Finding>& finding
 void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Progress& progress) {
   std::vector<health::Finding> findings;
   health::check_units(job.scene, findings, job.coarsening);
+  health::check_resolution(job.scene, findings, job.coarsening);
   health::check_meshes(job.scene, findings);
   health::check_collider_overlaps(job.scene, seeded, findings);
   health::check_meetings(job.scene, seeded, findings);
   check_title(job.scene.title, findings);
+  if (job.shutter > 0 && job.shutter < 1)
+    findings.push_back({health::Severity::warning, "--shutter",
+                        fmt::format("an angle of {} degrees blurs nothing that can be seen",
+                                    rough_text(job.shutter)),
+                        fmt::format("a share of the frame is 360 times as many degrees: {}",
+                                    rough_text(360 * job.shutter))});
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
     if (finding.severity == health::Severity::note)

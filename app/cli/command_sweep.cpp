@@ -168,15 +168,18 @@ void warn_of_equal_runs(const sweep::plan::SweepPlan& plan, Progress& progress) 
   }
 }
 
-/// Numbers that look like another unit, each once, with the first run that has it.
-void warn_of_units(const sweep::plan::SweepPlan& plan, double coarsening, Progress& progress) {
+/// Numbers that look like another unit, and snow too thin for its cells, each once, with the first
+/// run that has it.
+void warn_of_numbers(const sweep::plan::SweepPlan& plan, double coarsening, Progress& progress) {
   constexpr std::size_t most = 5;
   std::set<std::string> warned;
   for (const sweep::plan::PlannedRun& item : plan.runs) {
     std::vector<health::Finding> findings;
     health::check_units(item.scene, findings, coarsening);
+    health::check_resolution(item.scene, findings, coarsening);
     for (const health::Finding& finding : findings)
-      if (warned.size() < most && warned.insert(finding.address).second)
+      if (finding.severity != health::Severity::note && warned.size() < most &&
+          warned.insert(finding.address).second)
         progress.warning(fmt::format("run {}: {}", item.run.index, health::sentence(finding)));
   }
 }
@@ -290,7 +293,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
     progress.warning(value + " is in its list twice: the run is made once and shown twice");
   warn_of_single_values(plan.sweep, progress);
   warn_of_equal_runs(plan, progress);
-  warn_of_units(plan, options.coarsening.value_or(1), progress);
+  warn_of_numbers(plan, options.coarsening.value_or(1), progress);
   note_repeated_points(plan, progress);
   choose_runs(options, plan, progress);
   if (options.is_dry_run) {

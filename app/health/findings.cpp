@@ -253,6 +253,11 @@ double seen_height(const scene::CameraSettings& camera, const setup::CoarseMomen
 
 }  // namespace
 
+std::string vector_text(const Vec3d& v) {
+  using scene::toml::number_text;
+  return fmt::format("[{}, {}, {}]", number_text(v.x()), number_text(v.y()), number_text(v.z()));
+}
+
 std::string display_name(const std::string& kind, const std::string& name) {
   const bool is_number =
       std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -301,6 +306,8 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
     check_material_units(material, findings);
     check_consolidation(material, findings);
   }
+  check_senses(scene, findings);
+  check_materials_of_nothing(scene, findings);
   const double g = scene.solver.gravity.norm();
   if (g > line(Law::gravity))
     findings.push_back({Severity::warning, "solver.gravity",

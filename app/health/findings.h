@@ -11,6 +11,9 @@ namespace neve::app::health {
 /// "0.7 %", "31 %".
 std::string percent_text(double share);
 
+/// "[0, 1, 0]"
+std::string vector_text(const sim::Vec3d& v);
+
 /// "ball", or "body 1" of a body that has a number for a name.
 std::string display_name(const std::string& kind, const std::string& name);
 
@@ -23,6 +26,10 @@ bool is_too_large(const scene::Scene& scene);
 /// Numbers that look like centimetres, grams or kilopascals.
 /// @param coarsening the N of --coarsen, for advice
 void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening = 1);
+
+/// Numbers that mean something else than they seem to: gravity in g, thresholds in thousandths,
+/// radians, a turntable in degrees, a light from below. check_units asks it.
+void check_senses(const scene::Scene& scene, std::vector<Finding>& findings);
 
 /// Bodies and colliders a few cells thick, too few particles in a cell.
 /// @param coarsening the N of --coarsen, for advice
@@ -39,6 +46,9 @@ std::string remedy_for_clogging(const scene::Scene& scene, const std::string& em
 
 /// Sinks that fast snow crosses between two tests. @param speed m/s, of the fastest snow
 void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
+
+/// Materials of nothing: numbers that a run never reads.
+void check_materials_of_nothing(const scene::Scene& scene, std::vector<Finding>& findings);
 
 /// Settings without effect: bodies and emitters in sinks, keyframes after the last frame, slices
 /// that no layer shows, a dt that adaptive steps do not use, settings of another transfer.

@@ -23,11 +23,6 @@ constexpr const char* why_move_it =
     "move it out; contact stops snow at surfaces but does not push it out (solver.push_out does, "
     "and crushes it)";
 
-std::string vector_text(const Vec3d& v) {
-  using scene::toml::number_text;
-  return fmt::format("[{}, {}, {}]", number_text(v.x()), number_text(v.y()), number_text(v.z()));
-}
-
 /// A plane that has the snow on its solid side is likelier turned the wrong way than a ceiling.
 std::string way_out(const scene::Scene& scene, const sim::shapes::Collider& collider) {
   const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
