@@ -176,14 +176,16 @@ void write_open_edges(const run::RenderOptions& options, const scene::Scene& sce
 
 }  // namespace
 
-int run_check(const run::RenderOptions& options) {
+int run_check(const run::RenderOptions& given) {
+  run::RenderOptions options = given;
+  options.is_start_only = true;
   const run::RenderJob job = run::make_job(options);
   const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
   catch_interrupts();
+  // Half a forecast would be a wrong one.
+  const NothingToKeep reading;
   const health::Check check = health::examine(job.scene, plan, options.threads, job.coarsening);
   const forecast::FastLook look = possible_look(options, job);
-  // A forecast that was cut short is another one.
-  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the end of the forecast");
   const bool is_quiet = options.verbosity == Verbosity::quiet;
   if (options.is_json)
     std::cout << to_text(check_json(check, job, look)) << "\n";

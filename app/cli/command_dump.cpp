@@ -12,7 +12,6 @@
 #include "app/health/expected.h"
 #include "app/output/named_file.h"
 #include "app/record/run_json.h"
-#include "app/run/agreement.h"
 #include "app/run/render_job.h"
 #include "app/scene/names.h"
 #include "app/support/errors.h"
@@ -214,12 +213,13 @@ dump::Listing listing_of(const dump::DumpOptions& options, const dump::StepInspe
 
 }  // namespace
 
-int run_dump(const dump::DumpOptions& options) {
+int run_dump(const dump::DumpOptions& given) {
+  dump::DumpOptions options = given;
+  options.run.is_start_only = true;  // the times are those of who asks
   const run::RenderJob job = run::make_job(options.run);
   const setup::Plan plan =
       setup::make_plan(job.scene, job.frames, job.quality, options.run.threads);
   setup::check_limits(job.scene, plan, job.coarsening);
-  run::require_agreement(job, plan, options.run.is_agreed);
   check_dump_output(options);
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),

@@ -5,7 +5,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/report_error.h"
 #include "app/exports/encode.h"
-#include "app/run/agreement.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 
@@ -16,7 +15,6 @@ int run_export_command(const run::ExportOptions& options) {
   const setup::Plan plan =
       setup::make_plan(job.run.scene, job.run.frames, setup::Quality::draft, options.run.threads);
   setup::check_limits(job.run.scene, plan, job.run.coarsening);
-  run::require_agreement(job.run, plan, options.run.is_agreed);
   for (const scene::Export& e : job.run.scene.exports)
     exports::check_capacity(e, exports::empty_table(job.run.scene, e, {}), plan.particles);
   catch_interrupts();

@@ -7,10 +7,10 @@
 #include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
 #include "app/record/picture_record.h"
-#include "app/run/agreement.h"
 #include "app/scene/coarsen.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
+#include "app/timeline/agreement.h"
 
 namespace neve::app::cli {
 
@@ -39,7 +39,7 @@ void print_picture(const record::PictureRecord& record, const std::string& pictu
       << (record.passes.empty() ? "" : "passes      " + joined(record.passes, ", ") + "\n")
       << "seed        " << record.seed << "\n"
       << "state hash  " << record.state_hash << "\n"
-      << "again       " << run::again_text(record, picture) << "\n";
+      << "again       " << timeline::again_text(record, picture) << "\n";
   for (const std::string& change : record.overrides) out << "override    " << change << "\n";
   for (const scene::LiveChange& change : record.changes)
     out << "changed     " << scene::text_of(change) << "\n";

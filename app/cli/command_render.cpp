@@ -15,7 +15,6 @@
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/record/picture_record.h"
-#include "app/run/agreement.h"
 #include "app/run/fork.h"
 #include "app/run/lut.h"
 #include "app/run/passes.h"
@@ -284,12 +283,12 @@ int run_render(const run::RenderOptions& options) {
     return exit_ok;
   }
   setup::check_limits(job.scene, plan, job.coarsening);
-  run::require_agreement(job, plan, options.is_agreed);
   std::optional<render::Image> reference;
   if (!options.reference.empty()) reference = output::read_picture(options.reference);
 
   if (job.has_movies()) job.options.movie = output::available_movie(options.movie, job.scene.fps);
   catch_interrupts();
+  std::optional<NothingToKeep> reading(std::in_place);
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
   if (const std::string other = output::other_format_text(options.movie, job.options.movie);
@@ -309,8 +308,7 @@ int run_render(const run::RenderOptions& options) {
   const auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(job.scene));
   warn_about_start(job, *seeded, progress);
   setup::resolve(job.scene, seeded->planned);
-  // A framing that was cut short is another one: nothing may be written with it.
-  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first frame");
+  reading.reset();
   timeline::Timeline timeline = timeline::open(job, seeded, options.threads, progress);
   note_start(job, plan, seeded->particles.x.size(), progress);
 

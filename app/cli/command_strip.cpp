@@ -4,7 +4,6 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/report_error.h"
-#include "app/run/agreement.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/json.h"
@@ -16,7 +15,6 @@ int run_strip_command(const run::StripOptions& options) {
   const setup::Plan plan =
       setup::make_plan(job.run.scene, job.run.frames, job.run.quality, options.run.threads);
   setup::check_limits(job.run.scene, plan, job.run.coarsening);
-  run::require_agreement(job.run, plan, options.run.is_agreed, run::memory_of_strip(job));
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
                     options.run.progress);

@@ -307,8 +307,10 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
       plan.folder, "neve sweep",
       options.shard ? output::FolderLock::Kind::shared : output::FolderLock::Kind::alone);
   catch_interrupts();
-  sweep::plan::share_camera_and_ranges(plan, cores);
-  if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first run");
+  {
+    const NothingToKeep reading;
+    sweep::plan::share_camera_and_ranges(plan, cores);
+  }
   if (const std::size_t outdated = sweep::store::outdated_runs(plan.folder); outdated > 0)
     progress.note(fmt::format(
         "another build of neve made the {} finished {} here, from sources that change results: "

@@ -74,7 +74,10 @@ int run_view(const view::ViewOptions& given) {
   catch_interrupts();
   view::ViewOptions options = given;
   if (options.run.is_fast) {
-    const forecast::FastLook look = *run::make_job(options.run).fast;
+    run::RenderOptions start = options.run;
+    start.is_start_only = true;
+    start.is_agreed = true;  // it is asked for below, before anything is simulated
+    const forecast::FastLook look = *run::make_job(start).fast;
     if (options.run.verbosity != Verbosity::quiet)
       std::cerr << "neve: " << look.sentence() << std::endl;
     options.run.overrides.insert(options.run.overrides.end(), look.overrides.begin(),
@@ -82,8 +85,10 @@ int run_view(const view::ViewOptions& given) {
   }
   const std::string file = options.run.scene.empty() ? default_scene().string() : options.run.scene;
   // A scene that cannot be read is told before a window opens.
-  std::optional<view::session::Opened> opened =
-      view::session::open_document(file, options.run.overrides, options.run.coarsening.value_or(1));
+  std::optional<NothingToKeep> reading(std::in_place);
+  std::optional<view::session::Opened> opened = view::session::open_document(
+      file, options.run.overrides, options.run.coarsening.value_or(1),
+      options.run.is_agreed ? timeline::Agreement::given : timeline::Agreement::asked);
   if (timeline::is_folder(file) && !opened->past)
     std::cerr
         << "neve: warning: " << file
@@ -95,6 +100,7 @@ int run_view(const view::ViewOptions& given) {
           << "neve: warning: " << changes
           << " changes were made while the run of this picture ran; the view starts without them"
           << std::endl;
+  reading.reset();
   devices::Place place = devices::open_place(place_options(options));
   devices::announce(place, options.run.is_json, options.run.verbosity == Verbosity::quiet);
   // Overrides belong to the first scene only; the coarsening applies to later scenes too.

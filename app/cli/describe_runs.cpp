@@ -151,7 +151,6 @@ void describe_dump(Command& visit, dump::DumpOptions& o) {
       .with_default();
   visit("--out", o.file, options::text("FILE", "fields.vtp"),
         "Write to a file instead of standard output; several times go to FILE_0000 and so on");
-  run::describe_agreement(visit, o.run.is_agreed);
   visit("--json", o.run.is_json, "Print summary and probes as JSON");
   options::describe_progress(visit, o.run.progress);
   options::describe_verbosity(visit, o.run.verbosity);
@@ -170,7 +169,6 @@ void describe_export(Command& visit, ExportCommand& o) {
   visit("--frames", o.run.frames, options::frames(), "Frames to write: A-B, or N for all up to N");
   visit("--out", o.run.out, options::folder("ply/0000.ply"),
         "Write to DIR/<format>/0000.<ext> instead of out/<scene name>/exports");
-  run::describe_agreement(visit, o.run.is_agreed);
   visit("--json", o.run.is_json, "Print the list of files as JSON");
   options::describe_progress(visit, o.run.progress);
   options::describe_verbosity(visit, o.run.verbosity, "Print more");
@@ -200,7 +198,6 @@ void describe_strip(Command& visit, run::StripOptions& o) {
   visit("--out", o.run.out, options::text("PNG", "strip.png", check_picture),
         "Write to this file instead of out/<scene name>/strip_<view>.png");
   options::describe_backend(visit, o.run.backend);
-  run::describe_agreement(visit, o.run.is_agreed);
   visit("--json", o.run.is_json, "Print the file and its times as JSON");
   options::describe_progress(visit, o.run.progress);
   options::describe_verbosity(visit, o.run.verbosity, "Print more");

@@ -6,7 +6,6 @@
 #include "app/compare/target.h"
 #include "app/output/read_picture.h"
 #include "app/record/picture_record.h"
-#include "app/run/agreement.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "render/gl/context.h"
@@ -38,7 +37,6 @@ void check_costs(const Side& side, const PairOptions& options) {
   const setup::Plan plan =
       setup::make_plan(side.job.scene, side.job.frames, setup::Quality::draft, options.threads);
   setup::check_limits(side.job.scene, plan, side.job.coarsening);
-  run::require_agreement(side.job, plan, options.is_agreed);
 }
 
 /// Frames that get pictures: one picture is of the last.

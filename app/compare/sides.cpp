@@ -17,9 +17,10 @@ namespace {
 
 constexpr std::size_t max_values = 4;
 
-Side read_side(const std::string& path) {
+Side read_side(const std::string& path, bool is_agreed) {
   run::RenderOptions options;
   options.scene = path;
+  options.is_agreed = is_agreed;
   Side side{run::make_job(options)};
   if (side.job.run.empty()) return side;
   const std::vector<record::FrameRecord>& frames = side.job.run_frames;
@@ -103,8 +104,8 @@ std::string count_text(std::size_t a, std::size_t b, const std::string& body) {
 
 Pair read_pair(const PairOptions& options) {
   Pair pair;
-  pair.a = read_side(options.a);
-  pair.b = read_side(options.b);
+  pair.a = read_side(options.a, options.is_agreed);
+  pair.b = read_side(options.b, options.is_agreed);
   const double fps_a = pair.a.job.scene.fps, fps_b = pair.b.job.scene.fps;
   if (fps_a != fps_b)
     throw UsageError(

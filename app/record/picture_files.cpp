@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <climits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -10,8 +11,11 @@
 
 #include "app/output/file_hash.h"
 #include "app/record/run_json.h"
+#include "app/scene/override.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
+#include "sim/shapes/numbered_files.h"
+#include "sim/types/errors.h"
 
 namespace neve::app::record {
 
@@ -42,6 +46,50 @@ std::set<std::string> files_of(const scene::Scene& scene) {
   return files;
 }
 
+/// The files of a sequence; where its numbers are wrong, their pattern.
+void add_numbered(const std::string& pattern, const scene::toml::Table& sequence,
+                  std::set<std::string>& files) {
+  sim::shapes::MeshSequence numbers{pattern};
+  for (const auto& [key, number] : {std::pair{"first", &numbers.first}, {"last", &numbers.last}})
+    if (const scene::toml::Entry* entry = sequence.find(key))
+      if (const auto* given = std::get_if<std::int64_t>(&entry->value.data))
+        *number = static_cast<int>(std::clamp<std::int64_t>(*given, -1, INT_MAX));
+  try {
+    for (const std::string& file : sim::shapes::files_of(numbers)) files.insert(file);
+  } catch (const sim::ShapeError&) {
+    files.insert(pattern);
+  }
+}
+
+/// The files that the value of a change names, as a table or alone.
+void add_files(const scene::toml::Value& value, bool is_file, std::set<std::string>& files) {
+  if (const auto* text = std::get_if<std::string>(&value.data); text && is_file)
+    files.insert(*text);
+  if (const auto* list = std::get_if<scene::toml::Array>(&value.data))
+    for (const scene::toml::Value& item : *list) add_files(item, is_file, files);
+  const auto* table = std::get_if<scene::toml::Table>(&value.data);
+  if (!table) return;
+  for (const scene::toml::Entry& entry : table->entries) {
+    const auto* text = std::get_if<std::string>(&entry.value.data);
+    if (entry.key == "files" && text)
+      add_numbered(*text, *table, files);
+    else
+      add_files(entry.value, entry.key == "file", files);
+  }
+}
+
+std::set<std::string> files_of(const scene::LiveChange& change) {
+  const bool is_file = change.address.ends_with(".file") || change.address.ends_with(".files");
+  std::set<std::string> files;
+  try {
+    add_files(scene::value_of({change.address, change.value}, is_file ? "string" : "table"),
+              is_file, files);
+  } catch (const std::runtime_error&) {
+    // It is refused where it is made.
+  }
+  return files;
+}
+
 /// Hashes each file once, whatever names a picture gives it.
 class Contents {
  public:
@@ -65,25 +113,32 @@ class Contents {
   std::map<std::pair<dev_t, ino_t>, std::string> known_;
 };
 
-/// In the folder of the picture or one above, below the longest part of its recorded path that
-/// exists, as projects move as a whole. Empty: no such file has this content.
-fs::path moved_file(const std::string& recorded, const std::string& hash, const fs::path& picture,
+/// Below a folder and the longest part of its recorded path that exists there. Empty: no such file
+/// has this content.
+fs::path file_below(const fs::path& folder, const std::string& recorded, const std::string& hash,
                     Contents& contents) {
   const fs::path path = recorded;
   const std::vector<fs::path> parts(path.begin(), path.end());
   std::error_code error;
-  for (fs::path folder = fs::absolute(picture, error).parent_path();;
-       folder = folder.parent_path()) {
-    for (std::size_t first = path.is_absolute() ? 1 : 0; first < parts.size(); ++first) {
-      fs::path file = folder;
-      for (std::size_t k = first; k < parts.size(); ++k) file /= parts[k];
-      error.clear();
-      if (fs::is_regular_file(file, error) && contents.is_content(file, hash))
-        return file.lexically_normal();
-    }
-    if (folder == folder.parent_path()) break;
+  for (std::size_t first = path.is_absolute() ? 1 : 0; first < parts.size(); ++first) {
+    fs::path file = folder;
+    for (std::size_t k = first; k < parts.size(); ++k) file /= parts[k];
+    error.clear();
+    if (fs::is_regular_file(file, error) && contents.is_content(file, hash))
+      return file.lexically_normal();
   }
   return {};
+}
+
+/// In the folder of the picture or one above, as projects move as a whole.
+fs::path moved_file(const std::string& recorded, const std::string& hash, const fs::path& picture,
+                    Contents& contents) {
+  std::error_code error;
+  for (fs::path folder = fs::absolute(picture, error).parent_path();;
+       folder = folder.parent_path()) {
+    if (fs::path file = file_below(folder, recorded, hash, contents); !file.empty()) return file;
+    if (folder == folder.parent_path()) return {};
+  }
 }
 
 /// The name of numbered files, as in "%04d", "####" or "$F4".
@@ -149,9 +204,7 @@ std::string follow(const Moves& moves, const std::string& toml) {
   throw Error(exit_invalid_scene, place + ": error: " + what, place, advice);
 }
 
-/// Where a file of the picture is now.
-fs::path found_file(const fs::path& picture, const std::string& recorded, const std::string& hash,
-                    Contents& contents) {
+void check_length(const fs::path& picture, const std::string& recorded) {
   const fs::path path = recorded;
   const auto parts = static_cast<std::size_t>(std::distance(path.begin(), path.end()));
   if (recorded.size() > longest_path || parts > max_parts)
@@ -159,6 +212,19 @@ fs::path found_file(const fs::path& picture, const std::string& recorded, const 
            "names a file of " + std::to_string(parts) + " parts; at most " +
                std::to_string(max_parts) + " are looked for",
            "the picture was not made by neve");
+}
+
+/// In the folder of the picture, or below it.
+fs::path file_inside(const std::string& recorded, const std::string& hash, const fs::path& picture,
+                     Contents& contents) {
+  std::error_code error;
+  return file_below(fs::absolute(picture, error).parent_path(), recorded, hash, contents);
+}
+
+/// Where a file of the picture is now.
+fs::path found_file(const fs::path& picture, const std::string& recorded, const std::string& hash,
+                    Contents& contents) {
+  const fs::path path = recorded;
   std::error_code error;
   const bool is_in_place = path.is_absolute() && fs::exists(path, error);
   if (!is_in_place && !contents.is_content(path, hash)) {
@@ -180,25 +246,48 @@ fs::path found_file(const fs::path& picture, const std::string& recorded, const 
 
 }  // namespace
 
-std::map<std::string, std::string> hash_files(const scene::Scene& scene) {
+std::map<std::string, std::string> hash_files(const scene::Scene& scene,
+                                              const std::vector<scene::LiveChange>& changes) {
   std::map<std::string, std::string> files;
-  for (const std::string& file : files_of(scene)) files[file] = hash_text(output::hash_file(file));
+  const auto add = [&](const std::string& file) {
+    files[file] = hash_text(output::hash_file(file));
+  };
+  for (const std::string& file : files_of(scene)) add(file);
+  for (const scene::LiveChange& change : changes)
+    for (const std::string& file : files_of(change)) try {
+        add(file);
+      } catch (const IoError&) {
+        // The change was refused, or its file is gone: the picture cannot be made again.
+      }
   return files;
 }
 
-void find_files(const fs::path& picture, PictureRecord& record) {
+void find_files(const fs::path& picture, PictureRecord& record,
+                const std::function<void(const std::vector<std::string>&)>& allow) {
   std::map<std::string, std::string> files;
   Contents contents;
   Moves moves;
-  for (const auto& [recorded, hash] : record.files) {
-    const std::string now = found_file(picture, recorded, hash, contents).string();
-    files[now] = hash;
+  std::vector<std::string> outside;
+  const auto add = [&](const std::string& recorded, const std::string& now) {
+    files[now] = record.files.at(recorded);
     if (now != recorded) moves.add(recorded, now);
+  };
+  for (const auto& [recorded, hash] : record.files) {
+    check_length(picture, recorded);
+    const fs::path inside = file_inside(recorded, hash, picture, contents);
+    if (inside.empty())
+      outside.push_back(recorded);
+    else
+      add(recorded, inside.string());
   }
+  if (!outside.empty()) allow(outside);
+  for (const std::string& recorded : outside)
+    add(recorded, found_file(picture, recorded, record.files.at(recorded), contents).string());
   record.files = std::move(files);
   if (moves.files.empty()) return;
   record.scene = follow(moves, record.scene);
   for (std::string& change : record.overrides) change = follow(moves, change);
+  for (scene::LiveChange& change : record.changes) change.value = follow(moves, change.value);
   record.plate = moves.now(record.plate);
   record.lut = moves.now(record.lut);
 }
@@ -214,6 +303,8 @@ void require_listed(const PictureRecord& record, const std::string& file,
 void require_listed(const PictureRecord& record, const scene::Scene& scene,
                     const std::string& picture) {
   for (const std::string& file : files_of(scene)) require_listed(record, file, picture);
+  for (const scene::LiveChange& change : record.changes)
+    for (const std::string& file : files_of(change)) require_listed(record, file, picture);
 }
 
 }  // namespace neve::app::record

@@ -112,6 +112,8 @@ RenderJob make_job(const RenderOptions& options) {
                      "coarsen the run that is forked");
   timeline::Edits edits{options.overrides, options.coarsening, options.is_fast};
   if (options.frames) edits.last_frame = options.frames->last;
+  if (options.is_agreed || options.dry_run) edits.agreement = timeline::Agreement::given;
+  edits.is_start_only = options.is_start_only;
   if (options.from) edits.overrides.clear();  // changes on its way, see set_fork()
   RenderJob job{timeline::Origin::of(options.scene, edits), options};
   job.folder = job.run.empty() ? out_folder() / job.name() : job.run;
@@ -128,7 +130,10 @@ RenderJob make_job(const RenderOptions& options) {
   else if (!job.picture || options.quality)  // a picture has its own
     job.shutter = job.quality == setup::Quality::final ? usual_shutter : 0;
   if (!options.plate.empty()) job.plate = options.plate;
-  if (!options.lut.empty()) job.lut = options.lut;
+  if (!options.lut.empty())
+    job.lut = options.lut;
+  else if (job.picture && !job.lut.empty())
+    record::require_listed(*job.picture, job.lut, job.scene_file);
   if (!options.passes.empty()) job.passes = options.passes;
   if (is_only_mosaics(job)) {
     for (const auto& [flag, value] :
@@ -157,7 +162,7 @@ record::PictureRecord picture_record(const RenderJob& job, const std::string& sc
   picture.lut = job.lut;
   picture.shutter = job.shutter;
   picture.passes = job.passes;
-  picture.files = record::hash_files(job.scene);
+  picture.files = record::hash_files(job.scene, job.changes);
   return picture;
 }
 

@@ -72,6 +72,13 @@ void describe_pictures(options::Command& visit, RenderOptions& o) {
 
 }  // namespace
 
+void describe_agreement(options::Command& visit, bool& is_agreed) {
+  visit(
+      "--yes", is_agreed,
+      "Agree to make a picture again that lies in no folder of a run, though it takes more than a "
+      "minute or 500 MB or reads files outside of its folder: otherwise neve asks");
+}
+
 void describe_scene(options::Command& visit, RenderOptions& o, const char* help) {
   visit("SCENE", o.scene, options::scene_file(), help);
   visit("--set", o.overrides, options::text("ADDRESS=VALUE", "material.snow.hardening=5"),
@@ -85,13 +92,7 @@ void describe_scene(options::Command& visit, RenderOptions& o, const char* help)
         "neve check says what they gain");
   options::describe_threads(visit, o.threads);
   options::describe_caps(visit, o.caps);
-}
-
-void describe_agreement(options::Command& visit, bool& is_agreed) {
-  visit("--yes", is_agreed,
-        "Make a picture again that lies in no folder of a run, though it takes more than a minute "
-        "or 500 MB: "
-        "otherwise neve asks");
+  describe_agreement(visit, o.is_agreed);
 }
 
 void describe(options::Command& visit, RenderOptions& o) {
@@ -122,7 +123,6 @@ void describe(options::Command& visit, RenderOptions& o) {
              "Omit the words over the pictures: for films; the layers counter and slate stay");
   visit("--shader-dir", o.shader_dir, options::existing_folder("the files of shaders/"),
         "Read shaders from this folder");
-  describe_agreement(visit, o.is_agreed);
   visit("--dry-run", o.dry_run, "Print particles, memory, pixels and frames; start nothing");
   visit("--json", o.is_json, options::json_help);
   options::describe_progress(visit, o.progress);

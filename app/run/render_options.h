@@ -47,7 +47,8 @@ struct RenderOptions {
   bool has_caption = true;
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress;
-  bool is_agreed = false;  ///< to the cost of a picture that came alone, see agreement.h
+  bool is_agreed = false;      ///< to what a picture that came alone costs and reads
+  bool is_start_only = false;  ///< of a picture its scene counts, its frame is not made
   bool dry_run = false;
   bool is_json = false;
 };
@@ -60,7 +61,7 @@ inline constexpr const char* origin_help =
     "Scene file (TOML), - for standard input, a picture made by neve, or the folder of a run; "
     "default: a falling snowball";
 
-/// --yes
+/// --yes, where describe_scene() is not called
 void describe_agreement(options::Command& visit, bool& is_agreed);
 
 /// The scene and its changes, for all commands that simulate one. @param help  of SCENE

@@ -213,12 +213,6 @@ StripJob make_strip_job(const StripOptions& options) {
   return job;
 }
 
-double memory_of_strip(const StripJob& job) {
-  constexpr double bytes_per_pixel = 36;
-  const Layout layout(job, setup::size_of(job.run.scene, job.run.scene.views.front()), 2, false);
-  return bytes_per_pixel * job.width * layout.height();
-}
-
 StripResult run_strip(const StripJob& job, const RenderOptions& options, Progress& progress) {
   const auto context = render::gl::open_context(options.backend);
   ThreadPool pool(options.threads);

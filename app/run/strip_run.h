@@ -36,9 +36,6 @@ struct StripResult {
 /// Simulates once, from the nearest moment that is kept of the run or from the start,
 /// and draws each time on the way. The picture is written also if the run ends early.
 /// @throws IoError, LimitError, Error
-/// Bytes of the whole picture while it is drawn, about.
-double memory_of_strip(const StripJob& job);
-
 StripResult run_strip(const StripJob& job, const RenderOptions& options, Progress& progress);
 
 }  // namespace neve::app::run

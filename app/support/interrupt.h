@@ -10,4 +10,15 @@ void catch_interrupts();
 /// True after a request to stop.
 bool is_interrupted();
 
+/// While one of these lives, nothing is being made: a request to stop ends the process at once,
+/// with code 130, wherever it is. For reading, placing and forecasting, which may take long and ask
+/// nobody.
+class NothingToKeep {
+ public:
+  NothingToKeep();
+  ~NothingToKeep();
+  NothingToKeep(const NothingToKeep&) = delete;
+  NothingToKeep& operator=(const NothingToKeep&) = delete;
+};
+
 }  // namespace neve::app

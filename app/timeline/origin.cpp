@@ -1,6 +1,7 @@
 #include "app/timeline/origin.h"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
@@ -11,6 +12,7 @@
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/support/errors.h"
+#include "app/support/interrupt.h"
 #include "app/support/machine.h"
 
 namespace neve::app::timeline {
@@ -54,9 +56,19 @@ void read_scene_file(const Edits& edits, Origin& origin) {
   origin.frames = {0, scene::last_frame(origin.scene)};
 }
 
+/// What a picture says of itself, with the files of its scene where they are now. @throws Error
+record::PictureRecord open_picture(const std::string& file, Agreement agreement) {
+  record::PictureRecord record = record::read_picture_record(file);
+  record::find_files(file, record, [&](const std::vector<std::string>& outside) {
+    require_agreement(file, outside, agreement);
+  });
+  record::require_listed(record, scene::read_scene_text(record.scene, file + " (its scene)"), file);
+  return record;
+}
+
 /// The frame and the scene inside a picture.
 void read_picture(const Edits& edits, Origin& origin) {
-  record::PictureRecord record = open_picture(origin.scene_file);
+  record::PictureRecord record = open_picture(origin.scene_file, edits.agreement);
   origin.overrides = record.overrides;
   origin.changes = record.changes;
   origin.coarsening = record.coarsening;
@@ -71,6 +83,13 @@ void read_picture(const Edits& edits, Origin& origin) {
                                       changes);
       },
       origin);
+  const int last = edits.is_start_only ? 0
+                   : edits.last_frame  ? scene::frame_of(origin.scene, *edits.last_frame)
+                   : record.strip
+                       ? static_cast<int>(std::min(
+                             1e9, std::ceil(record.strip->times.back() * origin.scene.fps)))
+                       : frame;
+  require_agreement(record, origin.scene_file, origin.scene, std::max(0, last), edits.agreement);
   origin.picture = std::move(record);
 }
 
@@ -111,13 +130,6 @@ void read_run(const Edits& edits, Origin& origin) {
 
 }  // namespace
 
-record::PictureRecord open_picture(const std::string& file) {
-  record::PictureRecord record = record::read_picture_record(file);
-  record::find_files(file, record);
-  record::require_listed(record, scene::read_scene_text(record.scene, file + " (its scene)"), file);
-  return record;
-}
-
 bool is_folder(const std::string& path) {
   std::error_code error;
   return !path.empty() && fs::is_directory(path, error);
@@ -153,8 +165,12 @@ void write_origin(const fs::path& folder, record::RunRecord run, Moment moment) 
 }
 
 Timeline open(const Origin& origin, int threads, Progress& progress) {
-  return open(origin, std::make_shared<const setup::SeededScene>(setup::seed_scene(origin.scene)),
-              threads, progress);
+  std::shared_ptr<const setup::SeededScene> seeded;
+  {
+    const NothingToKeep reading;
+    seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(origin.scene));
+  }
+  return open(origin, std::move(seeded), threads, progress);
 }
 
 Timeline open(const Origin& origin, std::shared_ptr<const setup::SeededScene> seeded, int threads,

@@ -13,6 +13,7 @@
 #include "app/scene/scene.h"
 #include "app/setup/plan.h"
 #include "app/support/progress.h"
+#include "app/timeline/agreement.h"
 #include "app/timeline/timeline.h"
 
 namespace neve::app::timeline {
@@ -23,6 +24,9 @@ struct Edits {
   std::optional<double> coarsening{};
   bool is_fast = false;             ///< with the settings of forecast::fast_look
   std::optional<int> last_frame{};  ///< number of it that is wanted, for that look
+  Agreement agreement =
+      Agreement::asked;        ///< to the cost and the files of a picture that came alone
+  bool is_start_only = false;  ///< a picture's frame is not made, its scene is looked at
 };
 
 struct Origin {
@@ -44,9 +48,6 @@ struct Origin {
   /// "snowball_drop" for scenes/snowball_drop.toml and out/snowball_drop.
   std::string name() const;
 };
-
-/// What a picture says of itself, with the files of its scene where they are now. @throws Error
-record::PictureRecord open_picture(const std::string& file);
 
 /// True for the path of a folder that exists.
 bool is_folder(const std::string& path);

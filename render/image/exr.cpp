@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "render/image/exr_header.h"
+
 namespace neve::render {
 namespace {
 
@@ -97,38 +99,10 @@ Imf::Header header_of(const ExrPicture& picture, const ExrHeader& from) {
   return header;
 }
 
-/// The library allocates what an attribute says: checked before it sees the file. Attributes that
-/// hold sizes of their own inside are in no file of neve.
-void check_attributes(std::span<const std::uint8_t> bytes) {
-  std::size_t at = 8;  // magic number and version
-  const auto word = [&] {
-    const auto rest = bytes.subspan(std::min(at, bytes.size()));
-    const auto end = std::ranges::find(rest, std::uint8_t{0});
-    if (end == rest.end()) throw ImageError("no OpenEXR file: its header has no end");
-    std::string text(rest.begin(), end);
-    at += text.size() + 1;
-    return text;
-  };
-  while (!word().empty()) {
-    const std::string type = word();
-    std::uint32_t size = 0;
-    if (bytes.size() - at < sizeof size) throw ImageError("no OpenEXR file: its header has no end");
-    std::memcpy(&size, bytes.data() + at, sizeof size);
-    at += sizeof size;
-    if (size > bytes.size() - at)
-      throw ImageError("no OpenEXR file: an attribute of " + std::to_string(size) +
-                       " bytes is larger than the file");
-    for (const char* other : {"preview", "stringvector", "floatvector", "deepImageState"})
-      if (type == other)
-        throw ImageError("an OpenEXR file with a " + type + ", which neve never writes");
-    at += size;
-  }
-}
-
 /// Reads with the errors of the library as ours.
 template <class Read>
-auto reading(std::span<const std::uint8_t> bytes, const Read& read) {
-  check_attributes(bytes);
+auto reading(std::span<const std::uint8_t> bytes, double room, const Read& read) {
+  check_exr_header(bytes, room);
   try {
     BytesIn stream(bytes);
     Imf::InputFile file(stream);
@@ -208,7 +182,7 @@ std::vector<std::uint8_t> encode_exr(const ExrPicture& picture, const ExrHeader&
 }
 
 ExrPicture decode_exr(std::span<const std::uint8_t> bytes, double room) {
-  return reading(bytes, [&](Imf::InputFile& file) {
+  return reading(bytes, room, [&](Imf::InputFile& file) {
     ExrPicture picture = empty_picture(file.header(), bytes.size(), room);
     const Imath::V2i corner = file.header().dataWindow().min;
     Imf::FrameBuffer buffer;
@@ -226,14 +200,11 @@ ExrPicture decode_exr(std::span<const std::uint8_t> bytes, double room) {
 }
 
 PngText read_exr_text(std::span<const std::uint8_t> bytes) {
-  return reading(bytes, [](const Imf::InputFile& file) {
-    PngText text;
-    const Imf::Header& header = file.header();
-    for (auto a = header.begin(); a != header.end(); ++a)
-      if (const auto* string = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
-        text[a.name()] = string->value();
-    return text;
-  });
+  PngText text;
+  for (const ExrAttribute& attribute : read_exr_attributes(bytes))
+    if (attribute.type == "string")
+      text[attribute.name] = {attribute.bytes.begin(), attribute.bytes.end()};
+  return text;
 }
 
 }  // namespace neve::render

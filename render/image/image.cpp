@@ -245,6 +245,14 @@ Image decode_jpeg(std::span<const std::uint8_t> bytes, double room) {
   if (bytes.size() > INT_MAX) throw ImageError("JPEG is too large");
   if (bytes.size() < 3 || bytes[0] != 0xff || bytes[1] != 0xd8 || bytes[2] != 0xff)
     throw ImageError("not a JPEG: it does not begin as one");
+  // Each scan of a progressive one goes over all its pixels; encoders write about ten.
+  constexpr std::ptrdiff_t max_scans = 100;
+  std::ptrdiff_t scans = 0;
+  for (std::size_t i = 0; i + 1 < bytes.size(); ++i)
+    scans += bytes[i] == 0xff && bytes[i + 1] == 0xda;
+  if (scans > max_scans)
+    throw ImageError("a JPEG of " + std::to_string(scans) + " scans; expected at most " +
+                     std::to_string(max_scans));
   int width = 0, height = 0, channels = 0;
   const auto length = static_cast<int>(bytes.size());
   if (stbi_info_from_memory(bytes.data(), length, &width, &height, &channels)) {

@@ -47,7 +47,17 @@ Eigen::Array3d sample_counts(const Bounds& bounds, double spacing);
 template <class Visit>
 void visit_samples(const MeshSurface& surface, const FieldLattice& lattice, ThreadPool& pool,
                    const Visit& visit) {
-  const auto nz = static_cast<std::size_t>(lattice.size()[2]);
+  const auto nx = static_cast<std::size_t>(lattice.size()[0]),
+             ny = static_cast<std::size_t>(lattice.size()[1]),
+             nz = static_cast<std::size_t>(lattice.size()[2]);
+  std::vector<std::uint8_t> is_inside(lattice.count());
+  pool.ranges(ny * nz, pool.thread_count(), [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint8_t> line(nx);
+    for (std::size_t l = begin; l < end; ++l) {
+      surface.inside_along_x(lattice.place(l / nz, l % nz), lattice.spacing(), line);
+      for (std::size_t i = 0; i < nx; ++i) is_inside[i * ny * nz + l] = line[i];
+    }
+  });
   pool.ranges(lattice.rows(), pool.thread_count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       double before = INFINITY;
@@ -57,7 +67,7 @@ void visit_samples(const MeshSurface& surface, const FieldLattice& lattice, Thre
         const MeshSurface::Place nearest =
             surface.nearest_place(y, (before + lattice.spacing()) * (1 + 1e-12));
         before = nearest.distance;
-        visit(row * nz + k, surface.contains(y) ? -before : before, nearest);
+        visit(row * nz + k, is_inside[row * nz + k] ? -before : before, nearest);
       }
     }
   });

@@ -62,4 +62,22 @@ class Columns {
   std::vector<std::uint32_t> entries_;
 };
 
+/// A solid whose inside is found along lines: a place asks as many triangles as lie behind one
+/// another there, and a line along x asks them once.
+class MeshLines {
+ public:
+  virtual ~MeshLines() = default;
+  /// Triangles that are asked about p.
+  virtual std::size_t count_at(const Vec3d& p) const = 0;
+  /// Form::contains() of p, of the place `spacing` further along x, and so on.
+  virtual void inside_along_x(Vec3d p, double spacing, std::vector<std::uint8_t>& inside) const = 0;
+};
+
+/// Triangles that are asked in all for one mesh, before the answer is taken from what was seen: in
+/// meshes of other people all may lie behind one another. Usual meshes ask few for each triangle.
+inline std::size_t max_line_tests(std::size_t triangles) {
+  constexpr std::size_t least = 400'000'000, usual = 2'500;
+  return std::max(least, usual * triangles);
+}
+
 }  // namespace neve::sim::shapes

@@ -55,22 +55,24 @@ class Parts {
   void find_containers();
   PartCounts parts_around(const Vec3d& p, std::uint32_t but);
   bool contains(std::uint32_t outer, std::uint32_t inner) const {
-    return std::ranges::find(containers_[inner], outer) != containers_[inner].end();
+    return std::ranges::binary_search(containers_[inner], outer);
   }
-  bool do_cross(const PartCounts& around) const;
-  void measure_line(const Vec3d& p);
+  bool do_cross(const PartCounts& around);
+  /// False, and nothing is added, where the line would take too long.
+  bool measure_line(const Vec3d& p);
 
   SolidMesh& mesh_;
   const std::vector<std::uint32_t>& part_;
   Bounds bounds_;
   Columns columns_;
-  std::vector<std::vector<std::uint32_t>> containers_;  ///< of each part
+  std::vector<std::vector<std::uint32_t>> containers_;  ///< of each part, in order
   std::vector<double> volume_;                          ///< m3, of each part, as it is wound
   std::size_t tests_ = 0;
   // Sums of lengths over lines, m.
   double wrong_ = 0;  ///< that the faces together count wrong
   double crossed_ = 0, inside_out_ = 0;
   std::vector<std::tuple<double, int, std::uint32_t>> meetings_;
+  std::vector<std::uint32_t> chain_;
 };
 
 void Parts::find_volumes() {
@@ -93,7 +95,9 @@ PartCounts Parts::parts_around(const Vec3d& p, std::uint32_t but) {
     if (part_[*t] == but) continue;
     const auto [a, b, c] = corners(*t);
     const int w = winding(a, b, c, p);
-    if (w != 0 && meeting_x(a, b, c, p) > p.x()) add(around, part_[*t], w);
+    if (w == 0 || meeting_x(a, b, c, p) <= p.x()) continue;
+    add(around, part_[*t], w);
+    tests_ += around.size();
   }
   return around;
 }
@@ -117,6 +121,7 @@ void Parts::find_containers() {
       return std::ranges::find(around, other, &PartCounts::value_type::first) == around.end();
     });
   }
+  for (std::vector<std::uint32_t>& containers : containers_) std::ranges::sort(containers);
   tests_ = 0;
 }
 
@@ -151,18 +156,23 @@ void Parts::turn_outward() {
 }
 
 /// Whether two of the parts around a place are not in one another, or one is there twice.
-bool Parts::do_cross(const PartCounts& around) const {
-  for (std::size_t a = 0; a < around.size(); ++a) {
-    if (around[a].second > 1) return true;
-    for (std::size_t b = a + 1; b < around.size(); ++b)
-      if (!contains(around[a].first, around[b].first) &&
-          !contains(around[b].first, around[a].first))
-        return true;
+bool Parts::do_cross(const PartCounts& around) {
+  tests_ += around.size();
+  chain_.clear();
+  for (const auto& [part, w] : around) {
+    if (w > 1) return true;
+    chain_.push_back(part);
   }
+  // From the outermost to the innermost, each is in the one before.
+  std::ranges::sort(chain_, {},
+                    [&](std::uint32_t part) { return std::pair(containers_[part].size(), part); });
+  for (std::size_t k = 1; k < chain_.size(); ++k)
+    if (!contains(chain_[k - 1], chain_[k])) return true;
   return false;
 }
 
-void Parts::measure_line(const Vec3d& p) {
+bool Parts::measure_line(const Vec3d& p) {
+  const double before[] = {wrong_, crossed_, inside_out_};
   meetings_.clear();
   const auto [begin, end] = columns_.at(p);
   tests_ += static_cast<std::size_t>(end - begin);
@@ -178,6 +188,11 @@ void Parts::measure_line(const Vec3d& p) {
     const auto& [from, w, part] = meetings_[k];
     depth -= w;
     add(around, part, -w);
+    tests_ += around.size();
+    if (tests_ > max_tests) {
+      std::tie(wrong_, crossed_, inside_out_) = std::tie(before[0], before[1], before[2]);
+      return false;
+    }
     const double length = std::get<0>(meetings_[k + 1]) - from;
     if (length <= 0 || depth == 0 || depth == 1) continue;
     const bool is_inside = mesh_.inside == Inside::odd ? depth % 2 != 0 : depth > 0;
@@ -185,6 +200,7 @@ void Parts::measure_line(const Vec3d& p) {
     if (depth < 0 && mesh_.inside == Inside::positive) inside_out_ += length;
     if (depth > 1 && do_cross(around)) crossed_ += length;
   }
+  return true;
 }
 
 /// Lines at the points of a sequence that fills a square evenly, however many are taken.
@@ -197,8 +213,9 @@ void Parts::measure() {
   for (; n < all_lines && tests_ < max_tests; ++n) {
     if (n == first_lines && wrong_ == 0) break;
     const double u = std::fmod(0.5 + n / golden, 1), v = std::fmod(0.5 + n / (golden * golden), 1);
-    measure_line(bounds_.min + Vec3d(0, u * size.y(), v * size.z()));
+    if (!measure_line(bounds_.min + Vec3d(0, u * size.y(), v * size.z()))) break;
   }
+  if (n == 0) return;
   const double area = size.y() * size.z() / n;
   if (std::abs(wrong_) * area <= min_overlap * std::abs(mesh_.volume)) return;
   mesh_.volume += wrong_ * area;

@@ -12,7 +12,7 @@
 namespace neve::sim::shapes {
 namespace {
 
-class MeshSolid final : public Form {
+class MeshSolid final : public Form, public MeshLines {
  public:
   explicit MeshSolid(SolidMesh mesh)
       : mesh_(std::move(mesh)),
@@ -39,6 +39,12 @@ class MeshSolid final : public Form {
 
   Vec3d inner_point() const override;
 
+  std::size_t count_at(const Vec3d& p) const override {
+    const auto [begin, end] = columns_.at(p);
+    return static_cast<std::size_t>(end - begin);
+  }
+  void inside_along_x(Vec3d p, double spacing, std::vector<std::uint8_t>& inside) const override;
+
  private:
   std::tuple<const Vec3d&, const Vec3d&, const Vec3d&> corners(std::uint32_t t) const {
     const Triangle& corner = mesh_.triangles[t];
@@ -49,6 +55,9 @@ class MeshSolid final : public Form {
     return mesh_.inside == Inside::odd ? depth % 2 != 0 : depth > 0;
   }
 
+  using Meetings = std::vector<std::pair<double, int>>;
+  /// Of the line through p along x, in the order of x, with the winding numbers.
+  Meetings meetings(const Vec3d& p) const;
   /// Length of the longest stretch inside on the line through p along x; its middle goes to p.
   double longest_stretch(Vec3d& p) const;
 
@@ -57,14 +66,34 @@ class MeshSolid final : public Form {
   Columns columns_;
 };
 
-double MeshSolid::longest_stretch(Vec3d& p) const {
-  std::vector<std::pair<double, int>> meetings;
+MeshSolid::Meetings MeshSolid::meetings(const Vec3d& p) const {
+  Meetings found;
   const auto [begin, end] = columns_.at(p);
   for (const std::uint32_t* t = begin; t != end; ++t) {
     const auto& [a, b, c] = corners(*t);
-    if (const int w = winding(a, b, c, p)) meetings.emplace_back(meeting_x(a, b, c, p), w);
+    if (const int w = winding(a, b, c, p)) found.emplace_back(meeting_x(a, b, c, p), w);
   }
-  std::sort(meetings.begin(), meetings.end());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void MeshSolid::inside_along_x(Vec3d p, double spacing, std::vector<std::uint8_t>& inside) const {
+  const Meetings found = meetings(p);
+  int count = 0;  // of the faces behind the place
+  for (const auto& [x, w] : found) count += w;
+  const double first = p.x();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    p.x() = first + spacing * static_cast<double>(i);
+    for (; next < found.size() && found[next].first <= p.x(); ++next) count -= found[next].second;
+    const bool is_within =
+        (p.array() >= bounds_.min.array()).all() && (p.array() <= bounds_.max.array()).all();
+    inside[i] = is_within && is_inside(count);
+  }
+}
+
+double MeshSolid::longest_stretch(Vec3d& p) const {
+  const Meetings meetings = this->meetings(p);
   double longest = 0;
   int depth = 0;
   for (std::size_t k = 0; k + 1 < meetings.size(); ++k) {
@@ -82,9 +111,12 @@ double MeshSolid::longest_stretch(Vec3d& p) const {
 Vec3d MeshSolid::inner_point() const {
   double best = 0;
   Vec3d inner = Vec3d::Zero();
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+  std::size_t tests = 0;
+  const std::size_t most = max_line_tests(mesh_.triangles.size());
+  for (std::uint32_t t = 0; t < mesh_.triangles.size() && (tests <= most || best == 0); ++t) {
     const auto& [a, b, c] = corners(t);
     Vec3d p = (a + b + c) / 3;
+    tests += 10 * count_at(p);  // they are sorted
     const double length = longest_stretch(p);
     if (length <= best || !contains(p)) continue;
     best = length;

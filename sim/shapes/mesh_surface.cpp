@@ -46,12 +46,18 @@ bool has_inner_faces(const SolidMesh& mesh) {
 /// halved until its pieces are small: they end at the crossing to about this share of the mesh.
 class Border {
  public:
-  Border(const SolidMesh& mesh, const Form& solid)
-      : mesh_(mesh), solid_(solid), size_((bounds_of(mesh).max - bounds_of(mesh).min).maxCoeff()) {}
+  Border(const SolidMesh& mesh, const Form& solid, const MeshLines* lines)
+      : mesh_(mesh),
+        solid_(solid),
+        lines_(lines),
+        size_((bounds_of(mesh).max - bounds_of(mesh).min).maxCoeff()) {}
 
   bool all_same(std::uint32_t t) {
     const auto [a, b, c] = corners(t);
     const Vec3d middle = (a + b + c) / 3;
+    constexpr std::size_t asked = 2 * (places.size() + 1);
+    if (lines_) tests_ += asked * lines_->count_at(middle);
+    if (tests_ > max_line_tests(mesh_.triangles.size())) return is_border_ = true;
     is_border_ = is_border(middle, a, b, c);
     for (const auto& [of_a, of_b] : places) {
       const Vec3d q = a + of_a * (b - a) + of_b * (c - a);
@@ -63,11 +69,13 @@ class Border {
 
   /// visit(a, b, c) for the pieces of a triangle on the border.
   template <class Visit>
-  void cut(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Visit& visit) const {
+  void cut(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Visit& visit) {
     const std::array sides{(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()};
     const auto longest = std::max_element(sides.begin(), sides.end());
     if (*longest <= std::pow(share * size_, 2)) {
-      if (is_border((a + b + c) / 3, a, b, c)) visit(a, b, c);
+      const Vec3d middle = (a + b + c) / 3;
+      if (lines_) tests_ += 2 * lines_->count_at(middle);
+      if (is_border(middle, a, b, c)) visit(a, b, c);
       return;
     }
     const auto halve = [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
@@ -97,13 +105,16 @@ class Border {
 
   const SolidMesh& mesh_;
   const Form& solid_;
+  const MeshLines* lines_;
   double size_;
+  std::size_t tests_ = 0;
   bool is_border_ = false;
 };
 
 /// @param origin  becomes the triangle of each piece; stays empty where every triangle is kept
-SolidMesh border_of(const SolidMesh& mesh, const Form& solid, std::vector<std::uint32_t>& origin) {
-  Border border(mesh, solid);
+SolidMesh border_of(const SolidMesh& mesh, const Form& solid, const MeshLines* lines,
+                    std::vector<std::uint32_t>& origin) {
+  Border border(mesh, solid, lines);
   SolidMesh pieces;
   bool is_all = true;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -116,9 +127,12 @@ SolidMesh border_of(const SolidMesh& mesh, const Form& solid, std::vector<std::u
     };
     const bool is_same = border.all_same(t);
     is_all = is_all && is_same && border.is_border();
-    if (!is_same)
+    // Where all triangles cross all others, the pieces would be without number.
+    constexpr std::size_t max_pieces = 1'000'000;
+    const bool is_full = pieces.triangles.size() >= max_pieces;
+    if (!is_same && !is_full)
       border.cut(a, b, c, keep);
-    else if (border.is_border())
+    else if (!is_same || border.is_border())
       keep(a, b, c);
   }
   if (is_all) origin.clear();
@@ -158,8 +172,11 @@ struct MeshSurface::Nearest {
 };
 
 MeshSurface::MeshSurface(SolidMesh mesh)
-    : mesh_(std::move(mesh)), bounds_(bounds_of(mesh_)), solid_(make_mesh_solid(mesh_)) {
-  if (has_inner_faces(mesh_)) border_ = border_of(mesh_, *solid_, origin_);
+    : mesh_(std::move(mesh)),
+      bounds_(bounds_of(mesh_)),
+      solid_(make_mesh_solid(mesh_)),
+      lines_(dynamic_cast<const MeshLines*>(solid_.get())) {
+  if (has_inner_faces(mesh_)) border_ = border_of(mesh_, *solid_, lines_, origin_);
   const SolidMesh& surface = origin_.empty() ? mesh_ : border_;
   std::vector<std::uint32_t> index(surface.triangles.size());
   std::vector<Box3> boxes(index.size());
@@ -190,6 +207,13 @@ MeshSurface::Place MeshSurface::nearest_place(const Vec3d& y, double most) const
 
 double MeshSurface::distance(const Vec3d& y, double most) const {
   return std::sqrt(nearest(y, most).squared);
+}
+
+void MeshSurface::inside_along_x(const Vec3d& first, double spacing,
+                                 std::vector<std::uint8_t>& inside) const {
+  if (lines_) return lines_->inside_along_x(first, spacing, inside);
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    inside[i] = contains({first.x() + spacing * static_cast<double>(i), first.y(), first.z()});
 }
 
 double MeshSurface::signed_distance(const Vec3d& y) const {

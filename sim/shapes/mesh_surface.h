@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/shapes/mesh.h"
+#include "sim/shapes/mesh_columns.h"
 
 namespace neve::sim::shapes {
 
@@ -25,6 +26,8 @@ class MeshSurface {
   double distance(const Vec3d& y, double most = INFINITY) const;
   /// As bodies are filled.
   bool contains(const Vec3d& y) const { return solid_->contains(y); }
+  /// The same of places on a line, see MeshLines.
+  void inside_along_x(const Vec3d& first, double spacing, std::vector<std::uint8_t>& inside) const;
   double signed_distance(const Vec3d& y) const;
   /// The place of the surface that is nearest to y; of several as near that of the first triangle.
   /// @param most  m, the search is quicker where it is known that something is as near
@@ -49,6 +52,7 @@ class MeshSurface {
   SolidMesh mesh_;
   Bounds bounds_;
   std::unique_ptr<const Form> solid_;
+  const MeshLines* lines_;             ///< solid_, if its inside is found along lines
   SolidMesh border_;                   ///< where not all faces are between inside and outside
   std::vector<std::uint32_t> origin_;  ///< of the triangles of border_; empty: there is none
   std::unique_ptr<const Tree> tree_;

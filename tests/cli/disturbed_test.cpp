@@ -12,7 +12,10 @@ TEST_P(DisturbedSample, AnAllocationThatFailsIsSaidAndTheSameCommandContinues) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, DisturbedSample,
-                         testing::ValuesIn(disturbed_commands({"view", "emit", "check"})), name_of);
+                         testing::ValuesIn(disturbed_commands({"view", "emit", "check",
+                                                               "scene_exports", "strip", "compare",
+                                                               "fork", "pick", "new", "manual"})),
+                         name_of);
 
 }  // namespace
 }  // namespace neve::test

@@ -4,6 +4,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <functional>
+
 #include "app/output/atomic_file.h"
 #include "app/record/run_json.h"
 #include "render/image/image.h"
@@ -40,6 +42,16 @@ class StrangerPictures : public CostlyCli {
     EXPECT_LT(cost.memory, 500e6) << arguments;
     EXPECT_NE(cost.exit_code, 1) << arguments << "\n" << read_text(folder / "said");
     EXPECT_NE(cost.exit_code, -1) << arguments << ": a signal";
+  }
+  /// Where nobody can be asked. @param command  with PICTURE in the place of the picture
+  void expect_asks(std::string command, const std::string& picture, const std::string& reason) {
+    while (contains(command, "PICTURE")) command.replace(command.find("PICTURE"), 7, picture);
+    const Cost cost = cost_of(command + " </dev/null");
+    const std::string said = read_text(folder / "said");
+    EXPECT_EQ(cost.exit_code, 8) << command << "\n" << said;
+    EXPECT_TRUE(contains(said, "--yes") && contains(said, reason)) << command << "\n" << said;
+    EXPECT_LT(cost.seconds, 5) << command;
+    EXPECT_LT(cost.memory, 500e6) << command;
   }
   void expect_all_end(const std::string& picture) {
     for (const char* command :
@@ -131,15 +143,6 @@ TEST_F(StrangerPictures, WhatTakesLongIsSaidAndAskedFor) {
   EXPECT_TRUE(contains(info.output, "100000 frames")) << info.output;
   const std::string frames = picture_with({}, "short.png");
   EXPECT_EQ(neve({"render", frames, "--out", "again"}).exit_code, 0) << "a short one asks nothing";
-  for (const char* command : {"render", "strip", "export", "dump"}) {
-    std::vector<std::string> words{command, late};
-    if (words[0] == "export") words.insert(words.end(), {"--format", "csv"});
-    const auto asked = neve(words);
-    EXPECT_EQ(asked.exit_code, words[0] == "dump" ? asked.exit_code : 8) << asked.errors;
-    if (words[0] != "dump") {
-      EXPECT_TRUE(contains(asked.errors, "--yes")) << asked.errors;
-    }
-  }
   const Cost agreed = cost_of("render " + late + " --yes --dry-run");
   EXPECT_EQ(agreed.exit_code, 0) << read_text(folder / "said");
   // A picture in the folder of its run is one of ours.
@@ -149,6 +152,91 @@ TEST_F(StrangerPictures, WhatTakesLongIsSaidAndAskedFor) {
                 .exit_code,
             0)
       << read_text(folder / "said");
+}
+
+/// Every command that opens a picture has the one flag that agrees, and asks.
+TEST_F(StrangerPictures, EveryCommandThatOpensOneAsks) {
+  const app::Json help = app::parse_json(std::string_view(neve({"help", "--json"}).output));
+  int openers = 0;
+  std::string text;
+  const std::function<void(const app::Json&)> visit = [&](const app::Json& json) {
+    if (json.is_object() && json.contains("options")) {
+      bool opens = false, agrees = false;
+      for (const app::Json& option : json["options"]) {
+        const std::string all = app::to_text(option, -1);
+        for (const char* words : {"made by neve", "A PNG, or the folder", "or a picture)"})
+          opens = opens || contains(all, words);
+        agrees = agrees || contains(all, "--yes");
+      }
+      EXPECT_TRUE(agrees || !opens) << app::to_text(json["command"]);
+      openers += opens;
+    }
+    if (json.is_structured())
+      for (const app::Json& part : json) visit(part);
+  };
+  visit(help);
+  EXPECT_GE(openers, 7);
+
+  const std::string late = picture_with({{"frame", "100000"}});
+  for (const char* command :
+       {"render PICTURE", "render PICTURE --from 900s", "strip PICTURE",
+        "export PICTURE --format csv", "compare PICTURE PICTURE --out c --mode beside",
+        "sweep PICTURE --from 900s -p material.snow.hardening=5,7 --frames 100010"})
+    expect_asks(command, late, " frames, ");
+  std::string scene = scene_text();
+  const std::size_t cell = scene.find("cell_size = 0.04");
+  ASSERT_NE(cell, std::string::npos);
+  const std::string large =
+      picture_with({{"scene", scene.replace(cell, 16, "cell_size = 0.002")}}, "large.png");
+  for (const char* command : {"render PICTURE", "view PICTURE --frames 1 --web", "check PICTURE",
+                              "dump PICTURE", "strip PICTURE", "export PICTURE --format csv"})
+    expect_asks(command, large, "of memory");
+}
+
+/// Once, for all of them; not in its own folder, nor in that of its run.
+TEST_F(StrangerPictures, FilesElsewhereAreReadAfterAWord) {
+  folder.write("project/m.obj",
+               "v 0 0 0\nv .2 0 0\nv 0 .2 0\nv 0 0 .2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  folder.write("project/m.toml",
+               "frames = 0\nsolver.cell_size = 0.02\n[[body]]\nshape = { mesh = { file = "
+               "\"m.obj\", center = [0, 0.1, 0] } }\n[output]\nsize = [160, 90]\n");
+  ASSERT_EQ(neve({"render", "project/m.toml", "--out", "project/m", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(neve({"dump", "project/m/particles/0000.png", "--json"}).exit_code, 0)
+      << "in the folder of its run";
+  fs::create_directories(folder / "mail");
+  fs::copy_file(folder / "project/m/particles/0000.png", folder / "mail/m.png");
+  for (const char* command : {"render PICTURE", "view PICTURE --frames 1 --web", "check PICTURE",
+                              "dump PICTURE", "strip PICTURE", "export PICTURE --format csv",
+                              "compare PICTURE PICTURE --out c --mode beside"})
+    expect_asks(command, "mail/m.png", "outside of its folder");
+  EXPECT_EQ(neve({"dump", "mail/m.png", "--json", "--yes"}).exit_code, 0);
+  const auto info = neve({"info", "mail/m.png"});
+  EXPECT_TRUE(contains(info.output, "project/m.obj (")) << info.output;
+  fs::copy_file(folder / "project/m.obj", folder / "mail/m.obj");
+  EXPECT_EQ(neve({"dump", "mail/m.png", "--json"}).exit_code, 0) << "beside the picture";
+}
+
+/// Words of a file that is no mesh and no look are in no message.
+TEST_F(StrangerPictures, NeitherALookNorAChangeReadsAFileWithoutItsHash) {
+  folder.write("secret.txt", "v root:hidden 1\n");
+  const std::string secret = (folder / "secret.txt").string();
+  const auto change = [&](const std::string& address, const std::string& value) {
+    return std::pair<std::string, std::string>(
+        "changes",
+        app::to_text(app::Json::array({{{"step", 0}, {"address", address}, {"value", value}}}),
+                     -1));
+  };
+  for (const auto& [key, value] :
+       {std::pair<std::string, std::string>("lut", secret),
+        change("collider.floor.shape", "{ mesh = { file = \"" + secret + "\" } }"),
+        change("collider.floor.shape.mesh.file", secret),
+        change("collider.floor.shape",
+               "{ mesh_sequence = { files = \"" + secret + "%d\", last = 3 } }")}) {
+    const auto result = neve({"render", picture_with({{key, value}}), "--out", "again"});
+    EXPECT_EQ(result.exit_code, 3) << value << result.errors;
+    EXPECT_TRUE(contains(result.errors, "of which it has no hash")) << value << result.errors;
+    EXPECT_FALSE(contains(result.errors + result.output, "hidden")) << result.errors;
+  }
 }
 
 /// So many zeros as they are packed best, in little memory: that of a test counts for its children.

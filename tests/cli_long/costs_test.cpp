@@ -114,6 +114,12 @@ TEST_F(Costs, OfScenesGrowWithTheirLength) {
                  repeated(64, [&](int v) { return "\"v" + number(v) + "\","; }) + "]\n";
         })));
   });
+  expect_flat("bodies that are checked", [&](int times) {
+    return "check " + scene_with(repeated(100 * times, [&](int k) {
+             return "[[body]]\nshape = { sphere = { center = [" + number(2 * k) +
+                    ", 9, 0], radius = 0.05 } }\n";
+           }));
+  });
   expect_flat("bodies that meet nothing", [&](int times) {
     return "render --frames 0 --quiet --out o " + scene_with(repeated(100 * times, [&](int k) {
              return "[[body]]\nshape = { sphere = { center = [" + number(2 * k) +
@@ -127,6 +133,28 @@ TEST_F(Costs, OfMeshesAndSweepsGrowWithTheirLength) {
     char digits[32];
     std::snprintf(digits, sizeof digits, "%.12g", x);
     return std::string(digits);
+  };
+  const auto box_faces = [](int n) {
+    constexpr int faces[6][4] = {{1, 2, 3, 4}, {8, 7, 6, 5}, {1, 5, 6, 2},
+                                 {2, 6, 7, 3}, {3, 7, 8, 4}, {4, 8, 5, 1}};
+    std::string text;
+    for (int k = 0; k < n; ++k)
+      for (const auto& face : faces) {
+        text += "f";
+        for (const int corner : face) text += " " + std::to_string(8 * k + corner);
+        text += "\n";
+      }
+    return text;
+  };
+  const auto slabs = [&](int n, int axis) {
+    std::string text;
+    for (int k = 0; k < n; ++k)
+      for (const double along : {-0.001 * (k + 1), -0.001 * k - 0.0005})
+        for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+          const std::string l = exact(along), a = std::to_string(u), b = std::to_string(v);
+          text += "v " + (axis == 0 ? l + " " + a + " " + b : a + " " + l + " " + b) + "\n";
+        }
+    return text + box_faces(n);
   };
   const auto crescent = [&](int n) {
     std::vector<std::pair<double, double>> outer, inner;
@@ -168,6 +196,35 @@ TEST_F(Costs, OfMeshesAndSweepsGrowWithTheirLength) {
         "frames = 0\nsolver.cell_size = 0.1\n[[body]]\nshape = { sphere = { radius = 1 } }\n"
         "[[collider]]\nshape = { terrain = { file = \"ground.asc\" } }\n");
     return std::string("render --dry-run ground.toml");
+  });
+  // Thin walls one behind the other, along each axis: the lines of the solid run along x.
+  for (const int axis : {0, 1})
+    expect_flat(axis == 0 ? "slabs along x" : "slabs along y", [&](int times) {
+      folder.write("slabs.obj", slabs(250 * times, axis));
+      folder.write("slabs.toml", std::string(tiny_scene) +
+                                     "[[collider]]\nname = \"slabs\"\nshape = { mesh = { file = "
+                                     "\"slabs.obj\", center = [3, 0, 0] } }\n");
+      return std::string("render slabs.toml --frames 0 --quiet --out o");
+    });
+  expect_flat("boxes in one another", [&](int times) {
+    const int n = 150 * times;
+    std::string text;
+    for (int k = 0; k < n; ++k) {
+      const std::string far = exact(1 - 0.6 * k / n), near = "-" + far;
+      for (const std::string& y : {near, far})
+        for (const auto& [x, z] : {std::pair{near, near}, {far, near}, {far, far}, {near, far}})
+          text += "v " + x + " " + y + " " + z + "\n";
+    }
+    folder.write("slabs.obj", text + box_faces(n));
+    return std::string("render slabs.toml --frames 0 --quiet --out o");
+  });
+  expect_flat("equal points", [&](int times) {
+    folder.write("points.csv",
+                 "x,y,z\n" + repeated(20'000 * times, [](int) { return "0,0.1,0\n"; }));
+    folder.write("points.toml",
+                 "frames = 0\nsolver.cell_size = 0.05\n[[body]]\nshape = { points = { file = "
+                 "\"points.csv\", spacing = 0.001 } }\n");
+    return std::string("render points.toml --quiet --out o");
   });
   expect_flat("values of an axis", [&](int times) {
     folder.write("axis.toml",

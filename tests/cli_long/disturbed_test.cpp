@@ -39,9 +39,15 @@ TEST_P(EveryCommand, KilledAtAnyMomentContinues) {
   kill_at_any_moment(count_or_whole(3, 25));
 }
 
-// Memory of the viewer's panels is ImGui's.
+/// Within a second, once.
+TEST_P(EveryCommand, InterruptedAtAnyMomentContinues) {
+  interrupt_at_any_moment(count_or_whole(3, 25));
+}
+
+// Memory of the viewer's panels is ImGui's; new and manual allocate little.
 INSTANTIATE_TEST_SUITE_P(Commands, EveryAllocation,
-                         testing::ValuesIn(disturbed_commands({"view", "emit"})), name_of);
+                         testing::ValuesIn(disturbed_commands({"view", "emit", "new", "manual"})),
+                         name_of);
 // The others write nothing.
 INSTANTIATE_TEST_SUITE_P(Commands, EveryOperation,
                          testing::ValuesIn(disturbed_commands({"verify", "check"})), name_of);

@@ -53,6 +53,10 @@ const std::vector<Reader>& readers() {
                                         {"run_json", read_run_json, run_records},
                                         {"manifest", read_manifest, no_seeds},
                                         {"picture", read_picture, pictures},
+                                        {"exr", read_exr, exr_pictures},
+                                        {"jpeg", read_jpeg, jpeg_pictures},
+                                        {"lut", read_lut, no_seeds},
+                                        {"clicks", read_clicks, no_seeds},
                                         {"http", read_http, no_seeds},
                                         {"web_socket", read_web_socket, no_seeds},
                                         {"page_message", read_page_message, no_seeds}};

@@ -33,15 +33,23 @@ void read_mesh(std::span<const std::uint8_t> bytes);
 void read_points(std::span<const std::uint8_t> bytes);
 void read_heights(std::span<const std::uint8_t> bytes);
 void read_script(std::span<const std::uint8_t> bytes);
+void read_clicks(std::span<const std::uint8_t> bytes);
 
 // Of runs, in readers_of_runs.cpp.
 void read_checkpoint(std::span<const std::uint8_t> bytes);
 void read_run_json(std::span<const std::uint8_t> bytes);
 void read_manifest(std::span<const std::uint8_t> bytes);
-void read_picture(std::span<const std::uint8_t> bytes);
 std::vector<Bytes> checkpoints();
 std::vector<Bytes> run_records();
+
+// Of pictures, plates and looks, in readers_of_pictures.cpp.
+void read_picture(std::span<const std::uint8_t> bytes);
+void read_exr(std::span<const std::uint8_t> bytes);
+void read_jpeg(std::span<const std::uint8_t> bytes);
+void read_lut(std::span<const std::uint8_t> bytes);
 std::vector<Bytes> pictures();
+std::vector<Bytes> exr_pictures();
+std::vector<Bytes> jpeg_pictures();
 
 // Of the web page, in readers_of_web.cpp.
 void read_http(std::span<const std::uint8_t> bytes);

@@ -1,3 +1,4 @@
+#include "app/pick/clicks.h"
 #include "app/scene/override.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
@@ -156,6 +157,14 @@ void read_script(std::span<const std::uint8_t> bytes) {
     const auto steps = view::replay::parse_replay(text_of(bytes), "script.json");
     require(!view::replay::replay_text(steps).empty());
   });
+}
+
+/// A list that was read is written so that it reads as the same one.
+void read_clicks(std::span<const std::uint8_t> bytes) {
+  std::vector<pick::Click> clicks;
+  try_to([&] { clicks = pick::parse_clicks(std::string(text_of(bytes)), "clicks.txt"); });
+  if (clicks.empty()) return;
+  require(pick::parse_clicks(pick::clicks_text(clicks, {}), "again") == clicks);
 }
 
 }  // namespace neve::test::fuzz

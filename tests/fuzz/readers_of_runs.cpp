@@ -5,14 +5,12 @@
 #include <stdexcept>
 
 #include "app/output/checkpoint.h"
-#include "app/record/picture_record.h"
 #include "app/record/run_json.h"
 #include "app/scene/read.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/sweep/store/manifest.h"
 #include "app/timeline/timeline.h"
-#include "render/image/image.h"
 #include "tests/fuzz/readers.h"
 
 namespace neve::test::fuzz {
@@ -89,23 +87,6 @@ Bytes mended(std::span<const std::uint8_t> bytes) {
   return whole;
 }
 
-/// The checksums of PNG chunks, as far as they are chunks.
-Bytes with_right_checksums(std::span<const std::uint8_t> bytes) {
-  Bytes png(bytes.begin(), bytes.end());
-  constexpr std::size_t signature = 8, overhead = 12;
-  for (std::size_t at = signature; at + overhead <= png.size();) {
-    const std::size_t length = std::size_t{png[at]} << 24 | std::size_t{png[at + 1]} << 16 |
-                               std::size_t{png[at + 2]} << 8 | std::size_t{png[at + 3]};
-    if (length > png.size() - at - overhead) break;
-    const auto sum = crc32_z(crc32_z(0, nullptr, 0), png.data() + at + 4, length + 4);
-    for (int k = 0; k < 4; ++k)
-      png[at + 8 + length + static_cast<std::size_t>(k)] =
-          static_cast<std::uint8_t>(sum >> (24 - 8 * k));
-    at += overhead + length;
-  }
-  return png;
-}
-
 /// A run that is resumed from it takes two steps and tells about its particles.
 void resume(const timeline::Moment& moment) {
   timeline::Timeline& timeline = small_run().timeline;
@@ -162,20 +143,6 @@ void read_manifest(std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// As neve info reads it, and neve compare its pixels.
-void read_picture(std::span<const std::uint8_t> given) {
-  const Bytes bytes = with_right_checksums(given);
-  try {
-    record::picture_record_of(render::read_png_text(bytes), "picture.png");
-  } catch (const render::ImageError&) {
-  } catch (const Error&) {
-  }
-  try {
-    render::decode_png(bytes, 256e6);
-  } catch (const render::ImageError&) {
-  }
-}
-
 std::vector<Bytes> checkpoints() {
   return {output::encode_checkpoint(small_run().checkpoint)};
 }
@@ -192,30 +159,6 @@ std::vector<Bytes> run_records() {
   no_text["version"] = {nullptr};
   return {bytes_of(record::with_own_hash(record::to_json(record))),
           bytes_of(record::with_own_hash(changed)), bytes_of(record::with_own_hash(no_text))};
-}
-
-std::vector<Bytes> pictures() {
-  record::PictureRecord record;
-  record.scene = small_scene;
-  record.overrides = {"material.snow.hardening=5"};
-  record.view = "particles";
-  record.state_hash = "0123456789abcdef";
-  record.quality = "preview";
-  const render::Image image{2, 2, 3, std::vector<std::uint8_t>(12, 100)};
-  std::vector<Bytes> list{render::encode_png(image, record::to_png_text(record)),
-                          render::encode_png(image)};
-  // A kind of fault each.
-  for (const auto& [key, value] :
-       {std::pair{"files", R"({"/x/proc/self/pagemap":"0","a/a/a/b":"0"})"},
-        {"frame", "2147483647"},
-        {"coarsen", "inf"},
-        {"changes", R"([{"step":0,"address":"solver.gravity","value":"[0, 1, 0]"}])"},
-        {"strip", R"({"times":[0,0.01],"columns":1,"width":16384})"}}) {
-    render::PngText text = record::to_png_text(record);
-    text[std::string("neve:") + key] = value;
-    list.push_back(render::encode_png(image, text));
-  }
-  return list;
 }
 
 }  // namespace neve::test::fuzz

@@ -10,6 +10,7 @@
 #include "both_ways.h"
 #include "render/frame/colormap.h"
 #include "render/image/exr.h"
+#include "render/image/jpeg.h"
 #include "render/image/mean_image.h"
 #include "render/shapes/mesh_shapes.h"
 
@@ -462,6 +463,46 @@ TEST(Exr, TextAndMatricesComeBack) {
   EXPECT_EQ(numbers_of(*read.find("Z")), (std::vector<float>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(numbers_of(*read.find("R")), (std::vector<float>{0.5f, 0, -2, 65504, 1, 7}));
   EXPECT_EQ(read.find("G"), nullptr);
+}
+
+/// The library allocates rows, tiles and tables of what a header says before it reads a number.
+TEST(Exr, HeadersSayNoMoreThanTheirFileHolds) {
+  const ExrPicture picture{40, 40, {{"Z", std::vector<float>(1600, 2.5f)}}};
+  const std::vector<std::uint8_t> whole = encode_exr(picture);
+  const auto put = [](const std::string& name, const std::string& type,
+                      const std::vector<std::uint32_t>& numbers, std::vector<std::uint8_t>& bytes) {
+    for (const std::string& word : {name, type}) {
+      bytes.insert(bytes.end(), word.begin(), word.end());
+      bytes.push_back(0);
+    }
+    std::vector<std::uint32_t> all{static_cast<std::uint32_t>(4 * numbers.size())};
+    all.insert(all.end(), numbers.begin(), numbers.end());
+    for (const std::uint32_t number : all)
+      for (const int shift : {0, 8, 16, 24}) bytes.push_back(std::uint8_t(number >> shift));
+  };
+  const auto with = [&](const std::string& name, const std::string& type,
+                        const std::vector<std::uint32_t>& numbers) {
+    std::vector<std::uint8_t> bytes(whole.begin(), whole.begin() + 8);
+    put(name, type, numbers, bytes);
+    bytes.insert(bytes.end(), whole.begin() + 8, whole.end());
+    return bytes;
+  };
+  constexpr double room = 1e8;
+  EXPECT_NO_THROW(read_exr_text(with("ours", "box2i", {1, 2, 3, 4})));
+  std::vector<std::uint8_t> tiled = with("tiles", "tiledesc", {1 << 15, 1 << 15, 0});
+  EXPECT_THROW(decode_exr(tiled, room), ImageSizeError);
+  EXPECT_THROW(decode_exr(with("chunkCount", "int", {1u << 30}), room), ImageError);
+  EXPECT_THROW(decode_exr(with("ours", "stringvector", {1u << 30}), room), ImageError);
+  EXPECT_THROW(decode_exr(with("dataWindow", "box2i", {0, 0, 3, 3}), room), ImageError) << "twice";
+}
+
+TEST(Jpeg, ManyScansAreRefused) {
+  if (!can_encode_jpeg()) GTEST_SKIP() << jpeg_advice;
+  std::vector<std::uint8_t> bytes =
+      encode_jpeg({16, 16, 3, std::vector<std::uint8_t>(768, 90)}, 90, true);
+  EXPECT_NO_THROW(decode_jpeg(bytes));
+  for (int k = 0; k < 200; ++k) bytes.insert(bytes.end(), {0xff, 0xda, 0, 2});
+  EXPECT_THROW(decode_jpeg(bytes), ImageError);
 }
 
 TEST(Exr, DamagedFilesAreRefused) {

@@ -55,7 +55,7 @@ inline constexpr Folder folders[] = {
     {"app/output", "sim/base sim/types sim sim/checks render/image app/support"},
     {"app/record",
      "sim/base sim/types sim sim/checks render/image app/support app/scene/toml app/scene "
-     "app/output"},
+     "app/output sim/shapes"},
     {"app/setup",
      "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim app/support "
      "app/scene/toml app/advice app/scene app/output"},

@@ -43,6 +43,8 @@ class DisturbedCli : public FaultyCli, public testing::WithParamInterface<Distur
   /// Half a run, a whole sweep, and a script that saves.
   void SetUp() override {
     folder.write("scene.toml", scene());
+    folder.write("exports.toml", scene() + "[[export]]\nname = \"points\"\nformat = \"ply\"\n");
+    folder.write("clicks.txt", "1\n");
     folder.write("script.json", R"([{"click": "Frame"}, {"wait_for": "simulation frame 1"},
       {"wait": 5}, {"key": "s", "ctrl": true}, {"wait": 5}, {"quit": true}])");
     const std::string words = std::string(GetParam().prepare) + GetParam().arguments;
@@ -91,6 +93,29 @@ class DisturbedCli : public FaultyCli, public testing::WithParamInterface<Distur
     leave_unfinished(folders);
     EXPECT_EQ(failing("", GetParam().arguments).exit_code, 0);
     expect_nothing_unfinished(folder.path(), GetParam().name);
+  }
+
+  /// Asks it to end, once, at random moments of the time that it takes: it does so within a second,
+  /// says whether it can continue, and does.
+  void interrupt_at_any_moment(int count) {
+    shell(GetParam().prepare);
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(failing("", GetParam().arguments).exit_code, 0);
+    const std::map<std::string, std::string> whole = results();
+    const std::chrono::duration<double> longest = std::chrono::steady_clock::now() - begin;
+    std::mt19937 random(13);
+    for (int k = 0; k < count; ++k) {
+      const double seconds = std::uniform_real_distribution<>(0, longest.count())(random);
+      const std::string place =
+          std::string(GetParam().name) + " interrupted after " + std::to_string(seconds) + " s";
+      shell(GetParam().prepare);
+      const Ended ended = interrupt_after(folder.path(), GetParam().arguments, seconds);
+      EXPECT_TRUE((std::set{0, 75, 130, 128 + SIGINT}.contains(ended.exit_code)))
+          << ended.exit_code << " " << place;
+      EXPECT_LT(ended.processor_seconds, 1) << place;
+      expect_no_process(folder.path(), place);
+      expect_to_continue(whole, place);
+    }
   }
 
   /// Kills it at random moments of the time that it takes.
@@ -199,6 +224,20 @@ inline std::vector<DisturbedCommand> disturbed_commands(const std::set<std::stri
       {"export", "rm -rf out", "export scene.toml --frames 0-1 --format vtp,vti --out out", "out"},
       {"view", "rm -rf out", "view scene.toml --replay script.json --out out --size 640x400",
        "out"},
+      {"scene_exports", "rm -rf out",
+       "render exports.toml --out out --frames 0-1 --no-movie --threads 2", "out"},
+      {"strip", "rm -f strip.png", "strip scene.toml --tiles 2 --frames 0-1 --out strip.png",
+       "strip.png"},
+      {"compare", "rm -rf c", "compare half earlier --frames 0-1 --out c", "c"},
+      {"fork", "rm -rf s",
+       "sweep scene.toml -p material.snow.hardening=5,7 --fork 0.05 --frames 0-3 --out s --jobs 1",
+       "s"},
+      {"pick", "rm -rf p",
+       "pick scene.toml -p material.snow.hardening=5,20 --clicks clicks.txt --frames 0-1 "
+       "--size 64x36 --out p",
+       "p"},
+      {"new", "rm -rf n; mkdir n", "new n/first", "n"},
+      {"manual", "rm -rf m", "manual m", "m"},
       {"verify", "true", "verify half", ""},
       {"check", "true", "check scene.toml", ""}};
   std::erase_if(list,

@@ -2,11 +2,14 @@
 /// Programs that are killed, and what they leave behind.
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -52,6 +55,38 @@ inline int kill_after(const std::filesystem::path& folder, const std::string& ar
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   ::kill(child, SIGKILL);
   return wait_for(child);
+}
+
+struct Ended {
+  int exit_code = -1;            ///< or 128 + signal
+  double processor_seconds = 0;  ///< that it took after the signal, with those it waited for
+};
+
+/// Asks the program to end as Ctrl-C does. What a busy machine does meanwhile is not counted.
+inline Ended interrupt_after(const std::filesystem::path& folder, const std::string& arguments,
+                             double seconds) {
+  const pid_t child = start_in(folder, arguments);
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  const auto taken = [&] {
+    std::ifstream in("/proc/" + std::to_string(child) + "/stat");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    std::istringstream words(text.substr(std::min(text.rfind(')') + 1, text.size())));
+    std::string word;
+    double ticks = 0;
+    for (int k = 3; k <= 15 && words >> word; ++k)
+      if (k == 14 || k == 15) ticks += std::stod(word);
+    return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  };
+  const double before = taken();
+  ::kill(child, SIGINT);
+  Ended ended;
+  int status = 0;
+  rusage usage{};
+  ::wait4(child, &status, 0, &usage);
+  const auto all = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  ended.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  ended.processor_seconds = all(usage.ru_utime) + all(usage.ru_stime) - before;
+  return ended;
 }
 
 /// A process that has begun to write a file in each folder when it ends, and is to be waited for.

@@ -159,6 +159,7 @@ void describe(options::Command& visit, SweepOptions& o) {
                  "Repeat the runs that failed, timed out, crashed or took too much memory, or only "
                  "those in some states, as in --retry-failed=timeout,crashed");
   options::describe_caps(visit, o.caps);
+  run::describe_agreement(visit, o.is_agreed);
   visit("--dry-run", o.is_dry_run, "Print the runs, their cost and memory; start nothing");
   visit("--json", o.is_json, options::json_help);
   options::describe_progress(visit, o.progress);

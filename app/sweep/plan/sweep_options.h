@@ -42,6 +42,7 @@ struct SweepOptions {
   std::string emit;                 ///< file for the commands of the runs; nothing is started
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress{};
+  bool is_agreed = false;  ///< to what a picture that came alone costs and reads
   bool is_dry_run = false;
   bool is_json = false;
 };

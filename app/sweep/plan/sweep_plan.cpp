@@ -193,6 +193,8 @@ run::RenderJob source_job(const SweepOptions& options) {
   render.coarsening = options.coarsening;
   render.is_fast = options.is_fast;
   render.frames = options.frames;
+  render.is_agreed = options.is_agreed;
+  render.dry_run = options.is_dry_run;
   return run::make_job(render);
 }
 

@@ -1,9 +1,11 @@
 /// The part of a session that moves its run and publishes it.
 
+#include <optional>
 #include <stdexcept>
 
 #include "app/health/diagnosis.h"
 #include "app/setup/plan.h"
+#include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
 #include "app/timeline/times.h"
@@ -28,10 +30,12 @@ void Session::start(const std::shared_ptr<const scene::Scene>& scene,
   timeline::Moments moments(options_.kept_budget > 0 ? options_.kept_budget
                                                      : available_memory() / 4);
   if (past) moments.add_run(past->run);
+  std::optional<NothingToKeep> reading(std::in_place);
   auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(*scene));
   auto next = std::make_unique<timeline::Timeline>(
       *scene, past ? past->changes : std::vector<scene::LiveChange>{}, std::move(seeded),
       options_.threads, std::move(moments), timeline::Watch{[this] { return after_step(); }});
+  reading.reset();
   next->keep();
   if (past) next->restore(*past->newest);
   // From here on nothing fails: the old run may go.

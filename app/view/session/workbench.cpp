@@ -71,7 +71,7 @@ Opened open_run(const std::string& folder, const timeline::Edits& edits) {
 }  // namespace
 
 Opened open_document(const std::string& file, const std::vector<std::string>& overrides,
-                     double coarsening) {
+                     double coarsening, timeline::Agreement agreement) {
   if (timeline::is_folder(file)) {
     timeline::Edits edits{overrides};
     if (coarsening > 1) edits.coarsening = coarsening;
@@ -82,8 +82,12 @@ Opened open_document(const std::string& file, const std::vector<std::string>& ov
     return {Document(file, scene::read_toml_file(file), std::move(parsed), coarsening), overrides};
   // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
   const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
-  return {Document(beside, timeline::open_picture(file).scene, std::move(parsed), coarsening),
-          overrides};
+  timeline::Edits edits{overrides};
+  if (coarsening > 1) edits.coarsening = coarsening;
+  edits.agreement = agreement;
+  edits.is_start_only = true;
+  const timeline::Origin origin = timeline::Origin::of(file, edits);
+  return {Document(beside, origin.picture->scene, std::move(parsed), coarsening), overrides};
 }
 
 Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
@@ -457,7 +461,7 @@ record::PictureRecord Workbench::picture_record(const LiveFrame& live,
   record.frame = scene::number_of(scene, live.frame);
   record.view = view.name;
   record.quality = setup::name(options_.quality);
-  record.files = record::hash_files(scene);
+  record.files = record::hash_files(scene, live.snapshot.changes);
   record.changes = live.snapshot.changes;
   return record;
 }

@@ -137,9 +137,11 @@ struct Opened {
   std::optional<Past> past{};          ///< of a run with moments to start from
 };
 
-/// @param file  a scene, a picture or the folder of a run; the views in it
+/// @param file       a scene, a picture or the folder of a run; the views in it
+/// @param agreement  to what a picture that came alone costs and reads
 /// @throws SceneError, UsageError, IoError, Error
 Opened open_document(const std::string& file, const std::vector<std::string>& overrides,
-                     double coarsening);
+                     double coarsening,
+                     timeline::Agreement agreement = timeline::Agreement::refused);
 
 }  // namespace neve::app::view::session

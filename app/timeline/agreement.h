@@ -1,0 +1,47 @@
+#pragma once
+/// A picture that comes alone may be anyone's: what it costs to make again, and which files it
+/// reads elsewhere, is said before, and who opens it agrees.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "app/record/picture_record.h"
+#include "app/scene/scene.h"
+#include "app/setup/plan.h"
+
+namespace neve::app::timeline {
+
+enum class Agreement {
+  asked,    ///< on the terminal; refused where nobody can be asked
+  given,    ///< by --yes, or because nothing is made
+  refused,  ///< whoever opened the picture cannot be asked, as by dropping it into a window
+};
+
+/// What making a scene's frames again takes, roughly and from its numbers alone.
+struct AgainCost {
+  double seconds = 0;
+  double particle_steps = 0;
+  std::uint64_t memory = 0;  ///< bytes
+
+  /// "about 3 min 20 s: 24 frames, 2.1e+09 particle steps, 310 MiB"
+  std::string text(int last_frame) const;
+};
+
+/// What `neve info` says of a picture: its cost, or why that is not known before its files are
+/// read.
+std::string again_text(const record::PictureRecord& record, const std::string& file);
+
+/// Where making a picture again that lies in no folder of a run takes more than a minute or 500 MB.
+/// @param scene  of the picture, with the edits of who opened it
+/// @param last   frame that is made, counted from 0
+/// @throws LimitError for more than the limits allow, and where nobody agrees
+void require_agreement(const record::PictureRecord& record, const std::string& file,
+                       const scene::Scene& scene, int last, Agreement agreement);
+
+/// Where a picture that lies in no folder of a run reads files outside of its own folder.
+/// @throws LimitError where nobody agrees
+void require_agreement(const std::string& file, const std::vector<std::string>& outside,
+                       Agreement agreement);
+
+}  // namespace neve::app::timeline
