@@ -188,14 +188,15 @@ void warn_of_numbers(const sweep::plan::SweepPlan& plan, double coarsening, Prog
 /// levels.
 void note_repeated_points(const sweep::plan::SweepPlan& plan, Progress& progress) {
   if (plan.sweep.settings.method == sweep::read::Method::grid) return;
+  const auto seeds = static_cast<std::size_t>(plan.sweep.runs_per_point());
   std::set<std::string> keys;
-  for (const sweep::plan::PlannedRun& item : plan.runs)
-    keys.insert(sweep::store::key_of(plan, item));
-  const std::size_t repeated = plan.runs.size() - keys.size();
+  for (std::size_t k = 0; k < plan.runs.size(); k += seeds)
+    keys.insert(sweep::store::key_of(plan, plan.runs[k]));
+  const std::size_t points = plan.runs.size() / seeds, repeated = points - keys.size();
   if (repeated > 0)
     progress.note(
         fmt::format("{} of the {} points are drawn more than once: {} runs make all of them",
-                    repeated, plan.runs.size(), keys.size()));
+                    repeated, points, keys.size() * seeds));
 }
 
 /// An axis of one value compares nothing.

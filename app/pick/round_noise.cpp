@@ -26,6 +26,8 @@ RoundNoise noise_of_round(const std::filesystem::path& folder) {
           "{}{} {}{} {}", text.empty() ? "" : ", ", info.title, rough_text(summaries[k].mean),
           info.unit[0] ? fmt::format(" {}", info.unit) : "", store::group_letters(groups[k]));
     noise.tiles.push_back(text);
+    const std::string letters = telling ? store::group_letters(groups[k]) : "";
+    noise.letters.push_back(letters.empty() ? "-" : letters);
   }
   noise.key =
       telling ? fmt::format("Tiles that share a letter are {} in {}: another seed changes as much.",

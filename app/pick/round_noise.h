@@ -9,8 +9,9 @@
 namespace neve::app::pick {
 
 struct RoundNoise {
-  std::vector<std::string> tiles;  ///< "breaks in 1 of 4, spread 0.42 m a"; none without seeds
-  std::string key;                 ///< explains the letters
+  std::vector<std::string> tiles;    ///< "breaks in 1 of 4, spread 0.42 m a"; none without seeds
+  std::vector<std::string> letters;  ///< theirs alone, "-" where all are too close to call
+  std::string key;                   ///< explains the letters
 };
 
 /// @param folder  of a search whose round is made @throws IoError

@@ -178,7 +178,9 @@ TEST(Noise, ATileSaysHowOftenTheSnowBreaksAndWhichTilesAreTooCloseToCall) {
   EXPECT_EQ(seals.of_points[2].groups, std::vector<int>{0});
   EXPECT_EQ(seals.of_points[0].min, 0);
   EXPECT_EQ(seals.of_points[2].max, 1);
-  EXPECT_NE(seals.key.find("too close to call"), std::string::npos);
+  ASSERT_EQ(seals.key.size(), 2u);
+  EXPECT_EQ(seals.key[0], "tiles that share a letter are too close to call");
+  EXPECT_EQ(seals.key[1], "whisker: spread of 4 seeds, min to max and mean, from 0.5 to 0.93 m");
   const std::vector<Point> points = points_of(study.manifest, study.results);
   EXPECT_FALSE(is_noise(study.manifest, points, 0));
   EXPECT_TRUE(is_noise(study.manifest, points, 1));

@@ -86,11 +86,11 @@ Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResu
     seal.max = scale.place(s.max);
   }
   if (scale.low > scale.high) return seals;
-  seals.key = fmt::format(
-      "whisker: {} of {} seeds, min to max and mean, on a scale from {} to {}; {}", info.title,
-      manifest.seeds, rough_text(scale.low), with_unit(scale.high, info),
-      seals.is_noise ? std::string("noise here: all tiles are ") + store::close_words
-                     : std::string("tiles that share a letter are ") + store::close_words);
+  seals.key = {seals.is_noise ? fmt::format("all tiles are {}", store::close_words)
+                              : fmt::format("tiles that share a letter are {}", store::close_words),
+               fmt::format("whisker: {}{} of {} seeds, min to max and mean, from {} to {}",
+                           info.title, seals.is_noise ? ", noise here," : "", manifest.seeds,
+                           rough_text(scale.low), with_unit(scale.high, info))};
   return seals;
 }
 

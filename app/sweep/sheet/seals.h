@@ -26,8 +26,8 @@ struct Seal {
 
 /// Of a sweep with seeds; without, there are none.
 struct Seals {
-  std::string key;        ///< one line that explains them
-  bool is_noise = false;  ///< no metric tells points apart: whiskers are grey
+  std::vector<std::string> key;  ///< lines that explain them
+  bool is_noise = false;         ///< no metric tells points apart: whiskers are grey
   std::vector<Seal> of_points;
 };
 

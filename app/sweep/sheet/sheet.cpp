@@ -243,10 +243,12 @@ render::Image SheetMaker::sheet(int frame, std::size_t page) {
            : "");
   render::Frame words = frame_of(layout, line);
   const auto size = static_cast<float>(layout.font_size);
-  if (!seals_.key.empty())
-    words.notes.push_back({size, static_cast<float>(layout.height) - 1.7f * size, seals_.key,
-                           render::Note::Anchor::left, static_cast<float>(layout.width) - 2 * size,
-                           false, soft});
+  float y = static_cast<float>(layout.height - layout.key) + 0.4f * size;
+  for (const std::string& text : seals_.key) {
+    words.notes.push_back({size, y, text, render::Note::Anchor::left,
+                           static_cast<float>(layout.width) - 2 * size, false, soft});
+    y += 1.4f * size;
+  }
   return compose(layout, tiles, words);
 }
 

@@ -23,6 +23,7 @@ struct SheetLayout {
   int tile_width = 0, tile_height = 0;  ///< px
   int font_size = 16;                   ///< px
   int header = 0;                       ///< px, above the labels
+  int key = 0;                          ///< px, below the tiles, for words that explain noise
   bool has_edges = false;               ///< the axes are along the edges
   WordRoom words;                       ///< on a tile
   std::vector<SheetTile> tiles;

@@ -94,11 +94,12 @@ std::string badge_text(const PickerState& state, int tile) {
 void draw_noise(const PickerState& state, const Frame& frame, int tile) {
   const auto k = static_cast<std::size_t>(tile);
   if (k >= state.noise.tiles.size() || state.noise.tiles[k].empty()) return;
-  const float inset = 0.3f * em();
-  ImGui::PushClipRect(frame.low, frame.high, true);
-  draw_badge(ImVec2(frame.low.x + inset, frame.high.y - 1.9f * em()), state.noise.tiles[k],
-             colour::text);
-  ImGui::PopClipRect();
+  const float inset = 0.3f * em(), room = frame.high.x - frame.low.x - 4 * inset;
+  const std::string& text = state.noise.tiles[k];
+  // A small tile has room for its letters alone.
+  const bool has_room = ImGui::CalcTextSize(text.c_str()).x <= room;
+  draw_badge(ImVec2(frame.low.x + inset, frame.high.y - 1.9f * em()),
+             has_room ? text : state.noise.letters[k], colour::text);
 }
 
 void draw_tile(PickerState& state, int tile) {

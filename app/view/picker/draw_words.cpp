@@ -109,6 +109,10 @@ void draw_files(const PickerState& state) {
 void draw_words(PickerState& state) {
   if (state.phase == Phase::stuck) draw_failure(state);
   if (state.layout.is_stacked) draw_axes(state);
+  if (!state.noise.key.empty()) {
+    draw_heading("Noise");
+    draw_paragraph(state.noise.key);
+  }
   draw_lesson(state);
   draw_hand(state);
 }

@@ -168,7 +168,6 @@ void Picker::ask() {
   state_.phase = Phase::asking;
   state_.note = pick::all_failed_text(state_.runs);
   if (!state_.note.empty()) state_.note += "; None of them makes nine others";
-  if (state_.note.empty()) state_.note = state_.noise.key;
   settle_ = 3;
   if (options_.tell) options_.tell(state_);
 }

@@ -227,6 +227,11 @@ function makeTableRow(row) {
 
 function startTable() {
   const element = by('table-box'), table = by('table'), heads = makeTableHead(table), lines = new Map();
+  if (hasSeeds) {
+    by('table-title').textContent = 'Points';
+    by('table-hint').textContent = `A metric has its mean over ${seeds} seeds, from min to max, and its letters: ` +
+      'points that share one are too close to call, and sorting by ranks keeps their order.';
+  }
   const body = make('tbody'), box = watchBox(element);
   const above = make('tr', {className: 'room'}, make('td', {colSpan: columns.length + 1}));
   const below = above.cloneNode(true);
