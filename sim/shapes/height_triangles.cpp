@@ -126,8 +126,7 @@ std::vector<std::size_t> drawn_posts(std::size_t count, double low, double high,
     add_outward(static_cast<std::size_t>(begin), count, false, step, growth, posts);
     add_outward(static_cast<std::size_t>(end), count, true, step, growth, posts);
     std::ranges::sort(posts);
-    const auto [first_double, all] = std::ranges::unique(posts);
-    posts.erase(first_double, all);
+    posts.erase(std::unique(posts.begin(), posts.end()), posts.end());
     if (posts.size() <= most) return posts;
   }
 }

@@ -112,7 +112,8 @@ TEST_F(Terrain, HostileFilesEndBeforeTheRunWithTheirLine) {
 }
 
 TEST_F(Terrain, IsNotReadWithoutRoomForIt) {
-  const auto result = neve({"render", "scene.toml", "--dry-run", "--max-memory", "1000"});
+  folder.write("slope.asc", height_grid(300, 300, 0.5, [](double x, double) { return slope(x); }));
+  const auto result = neve({"render", "scene.toml", "--dry-run", "--max-memory", "1MiB"});
   EXPECT_EQ(result.exit_code, 8) << result.errors;
   EXPECT_TRUE(contains(result.errors, "the height field needs about")) << result.errors;
 }
@@ -128,7 +129,8 @@ TEST_F(Terrain, CoversWithoutGroundAreRefusedWithTheRemedy) {
   refused("body.slab.shape.cover.width=0", "give width and length, or radius alone");
   refused("body.slab.shape.cover.width=9", "its posts are at x = 0 to 8");
   refused("body.slab.shape.cover.rotation=[10,0,0]", "cannot be tilted");
-  refused("collider.slope.shape.terrain.rotation=[0,0,5]", "a terrain that is tilted carries no cover");
+  refused("collider.slope.shape.terrain.rotation=[0,0,5]",
+          "a terrain that is tilted carries no cover");
 }
 
 }  // namespace
