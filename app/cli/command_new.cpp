@@ -53,9 +53,10 @@ void write_schema_once(const fs::path& path) {
 int run_new(const PlainOptions& options) {
   const fs::path path = new_scene_path(options.name), schema = path.parent_path() / schema_name;
   try {
+    // The scene last: where it exists, the same command refuses to write it again.
+    write_schema_once(schema);
     output::write_file(
         path, scene::first_scene(path.stem().string(), path.filename().string(), schema_name));
-    write_schema_once(schema);
   } catch (const IoError& error) {
     throw IoError(error.what(), error.where, "choose another folder, as in neve new FOLDER/NAME");
   }

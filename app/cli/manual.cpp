@@ -4,6 +4,7 @@
 
 #include "app/options/help.h"
 #include "app/output/atomic_file.h"
+#include "app/output/temporary.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 
@@ -148,6 +149,7 @@ std::string fish_completion(const Entry& program) {
 void make_part(const std::filesystem::path& folder) {
   try {
     output::make_folder(folder);
+    output::remove_abandoned(folder);
   } catch (const IoError& error) {
     throw IoError(error.what(), error.where, "choose another folder, as in neve manual DIR");
   }

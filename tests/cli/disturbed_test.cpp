@@ -14,7 +14,7 @@ TEST_P(DisturbedSample, AnAllocationThatFailsIsSaidAndTheSameCommandContinues) {
 INSTANTIATE_TEST_SUITE_P(Commands, DisturbedSample,
                          testing::ValuesIn(disturbed_commands({"view", "emit", "check",
                                                                "scene_exports", "strip", "compare",
-                                                               "fork", "pick", "new", "manual"})),
+                                                               "fork", "pick", "manual"})),
                          name_of);
 
 }  // namespace

@@ -44,9 +44,9 @@ TEST_P(EveryCommand, InterruptedAtAnyMomentContinues) {
   interrupt_at_any_moment(count_or_whole(3, 25));
 }
 
-// Memory of the viewer's panels is ImGui's; new and manual allocate little.
+// Memory of the viewer's panels is ImGui's; manual allocates little.
 INSTANTIATE_TEST_SUITE_P(Commands, EveryAllocation,
-                         testing::ValuesIn(disturbed_commands({"view", "emit", "new", "manual"})),
+                         testing::ValuesIn(disturbed_commands({"view", "emit", "manual"})),
                          name_of);
 // The others write nothing.
 INSTANTIATE_TEST_SUITE_P(Commands, EveryOperation,

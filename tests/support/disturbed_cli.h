@@ -236,7 +236,6 @@ inline std::vector<DisturbedCommand> disturbed_commands(const std::set<std::stri
        "pick scene.toml -p material.snow.hardening=5,20 --clicks clicks.txt --frames 0-1 "
        "--size 64x36 --out p",
        "p"},
-      {"new", "rm -rf n; mkdir n", "new n/first", "n"},
       {"manual", "rm -rf m", "manual m", "m"},
       {"verify", "true", "verify half", ""},
       {"check", "true", "check scene.toml", ""}};
