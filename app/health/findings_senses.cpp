@@ -26,8 +26,8 @@ std::optional<double> degrees_of_radians(double value) {
   return std::nullopt;
 }
 
-void check_rotation(const std::string& address, const Vec3d& rotation,
-                    std::vector<Finding>& findings) {
+void check_unit_of_rotation(const std::string& address, const Vec3d& rotation,
+                            std::vector<Finding>& findings) {
   Vec3d meant = rotation;
   bool is_radians = false;
   for (int k = 0; k < 3; ++k)
@@ -43,7 +43,8 @@ void check_rotation(const std::string& address, const Vec3d& rotation,
 }
 
 /// Spins are in radians a second; whole multiples of 45 look like degrees.
-void check_spin(const std::string& address, const Vec3d& spin, std::vector<Finding>& findings) {
+void check_unit_of_spin(const std::string& address, const Vec3d& spin,
+                        std::vector<Finding>& findings) {
   constexpr double step = 45;
   const double fastest = spin.cwiseAbs().maxCoeff();
   if (fastest < step || std::fmod(fastest, step) != 0) return;
@@ -106,8 +107,8 @@ void check_senses(const scene::Scene& scene, std::vector<Finding>& findings) {
   const auto check_things = [&](const auto& things, const char* kind) {
     for (const auto& thing : things) {
       const std::string address = std::string(kind) + "." + thing.name;
-      check_rotation(address + ".shape", thing.shape.rotation, findings);
-      check_spin(address, thing.angular_velocity, findings);
+      check_unit_of_rotation(address + ".shape", thing.shape.rotation, findings);
+      check_unit_of_spin(address, thing.angular_velocity, findings);
     }
   };
   check_things(scene.bodies, "body");

@@ -122,6 +122,11 @@ SCENES = [
     edit("name = \"ball\"", "name = \"ball\"\nmaterial = \"ice\""),
     edit("gravity = [0, -9.81, 0]", "gravity = [0, 9.81, 0]"),
     edit("gravity = [0, -9.81, 0]", "gravity = [0, 0, -9.81]"),
+    edit("gravity = [0, -9.81, 0]", "gravity = [0, -1, 0]"),
+    edit("critical_compression = 0.025", "critical_stretch = 7.5"),
+    edit("[[view]]", "[material.powder]\npreset = \"powder\"\n[[view]]"),
+    edit("frames = 4", "camera.turntable = 360\nframes = 4"),
+    edit("frames = 4", "light.direction = [1, -2, 1]\nframes = 4"),
     edit("velocity = [0, -2, 0]", "velocity = [0, -200, 0]"),
     # Views.
     edit("name = \"main\"", "name = \"main view\""),
