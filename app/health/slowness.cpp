@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/health/findings.h"
 #include "app/scene/coarsen.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
@@ -150,7 +151,7 @@ void check_slowness(const scene::Scene& scene, const Check& check, std::vector<F
   if (worst != slow.end() && worst->times >= stands_out) {
     if (!is_named(worst->address))
       findings.push_back({Severity::note, worst->address, worst->what, worst->hint});
-  } else if (work >= very_long) {
+  } else if (work >= very_long && !is_too_large(scene)) {
     findings.push_back(
         {Severity::note, "solver.cell_size",
          fmt::format("about {} steps of {} particles are a long run", about_count_text(steps),

@@ -12,6 +12,7 @@
 #include "app/support/errors.h"
 #include "app/support/room.h"
 #include "render/image/exr.h"
+#include "render/image/jpeg.h"
 #include "sim/shapes/numbered_files.h"
 
 namespace neve::app::run {

@@ -66,7 +66,6 @@ void* grown_by_stb(void* memory, std::size_t size) {
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
 #define STBI_MALLOC(size) neve::render::note_of_stb(std::malloc(size))
@@ -239,31 +238,6 @@ Image decode_png(std::span<const std::uint8_t> bytes, double room) {
   // stb checks no checksums and forgives missing ends.
   const DecodedSize size = check_size(read_png_chunks(bytes), room);
   return decode_by_stb(bytes, "PNG", static_cast<std::size_t>(size.unpacked));
-}
-
-Image decode_jpeg(std::span<const std::uint8_t> bytes, double room) {
-  if (bytes.size() > INT_MAX) throw ImageError("JPEG is too large");
-  if (bytes.size() < 3 || bytes[0] != 0xff || bytes[1] != 0xd8 || bytes[2] != 0xff)
-    throw ImageError("not a JPEG: it does not begin as one");
-  // Each scan of a progressive one goes over all its pixels; encoders write about ten.
-  constexpr std::ptrdiff_t max_scans = 100;
-  std::ptrdiff_t scans = 0;
-  for (std::size_t i = 0; i + 1 < bytes.size(); ++i)
-    scans += bytes[i] == 0xff && bytes[i + 1] == 0xda;
-  if (scans > max_scans)
-    throw ImageError("a JPEG of " + std::to_string(scans) + " scans; expected at most " +
-                     std::to_string(max_scans));
-  int width = 0, height = 0, channels = 0;
-  const auto length = static_cast<int>(bytes.size());
-  if (stbi_info_from_memory(bytes.data(), length, &width, &height, &channels)) {
-    // Planes of coefficients (progressive), of samples, and the pixels.
-    const double needed = 8.0 * width * height * std::max(channels, 3);
-    if (needed > room)
-      throw ImageSizeError(
-          "a picture of " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
-          needed);
-  }
-  return decode_by_stb(bytes, "JPEG", bytes.size());
 }
 
 double read_png_gamma(std::span<const std::uint8_t> bytes) {

@@ -41,10 +41,6 @@ PngText read_png_text(std::span<const std::uint8_t> bytes);
 /// Exponent that made the samples of light, 1 for samples in linear light; 0 where the PNG says
 /// sRGB, another profile, or nothing. @throws ImageError when the bytes are no whole PNG
 double read_png_gamma(std::span<const std::uint8_t> bytes);
-/// Baseline and progressive, of one or three channels. @throws as decode_png
-Image decode_jpeg(std::span<const std::uint8_t> bytes,
-                  double room = std::numeric_limits<double>::infinity());
-
 /// Absolute difference over all channels, 0 to 255.
 struct Difference {
   double max = 0, mean = 0;

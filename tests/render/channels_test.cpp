@@ -505,6 +505,17 @@ TEST(Jpeg, ManyScansAreRefused) {
   EXPECT_THROW(decode_jpeg(bytes), ImageError);
 }
 
+TEST(Jpeg, DamagedFilesAreRefused) {
+  if (!can_encode_jpeg()) GTEST_SKIP() << jpeg_advice;
+  Image image{40, 30, 3, {}};
+  for (int i = 0; i < 40 * 30 * 3; ++i) image.pixels.push_back(static_cast<std::uint8_t>(37 * i));
+  const std::vector<std::uint8_t> whole = encode_jpeg(image, 90, true);
+  EXPECT_EQ(decode_jpeg(whole).width, 40);
+  for (const std::size_t size : {whole.size() / 2, whole.size() - 20, std::size_t{20}})
+    EXPECT_THROW(decode_jpeg(std::span(whole).first(size)), ImageError) << size;
+  EXPECT_THROW(decode_jpeg(whole, 1000), ImageSizeError);
+}
+
 TEST(Exr, DamagedFilesAreRefused) {
   const ExrPicture picture{40, 40, {{"Z", std::vector<float>(1600, 2.5f)}}};
   const std::vector<std::uint8_t> whole = encode_exr(picture);
