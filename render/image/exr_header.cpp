@@ -100,7 +100,8 @@ struct Header {
     const double needed = 4 * numbers * pixel;
     if (needed > room)
       throw ImageSizeError("an OpenEXR file with parts of " +
-                               std::to_string(static_cast<std::int64_t>(numbers)) + " pixels",
+                               std::to_string(static_cast<std::int64_t>(std::min(numbers, 1e18))) +
+                               " pixels",
                            needed);
   }
 };
