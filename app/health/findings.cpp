@@ -302,12 +302,17 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
     const bool is_used =
         std::any_of(pieces.begin(), pieces.end(),
                     [&](const setup::SnowPiece& piece) { return piece.material == &material; });
-    if (!is_used) continue;
-    check_material_units(material, findings);
-    check_consolidation(material, findings);
+    if (is_used) {
+      check_material_units(material, findings);
+      check_consolidation(material, findings);
+    } else if (material.name != sim::Material{}.name) {  // snow is there in every scene
+      findings.push_back(
+          {Severity::warning, "material." + material.name,
+           fmt::format("no body and no emitter is of {}: its numbers do nothing", material.name),
+           fmt::format("{}.material = \"{}\"", pieces.front().address, material.name)});
+    }
   }
   check_senses(scene, findings);
-  check_materials_of_nothing(scene, findings);
   const double g = scene.solver.gravity.norm();
   if (g > line(Law::gravity))
     findings.push_back({Severity::warning, "solver.gravity",

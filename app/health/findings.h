@@ -23,7 +23,7 @@ double thickness(const sim::shapes::Shape& shape);
 /// True of snow whose size suggests that its lengths are no metres.
 bool is_too_large(const scene::Scene& scene);
 
-/// Numbers that look like centimetres, grams or kilopascals.
+/// Numbers that look like centimetres, grams or kilopascals, and those of a material of nothing.
 /// @param coarsening the N of --coarsen, for advice
 void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening = 1);
 
@@ -46,9 +46,6 @@ std::string remedy_for_clogging(const scene::Scene& scene, const std::string& em
 
 /// Sinks that fast snow crosses between two tests. @param speed m/s, of the fastest snow
 void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
-
-/// Materials of nothing: numbers that a run never reads.
-void check_materials_of_nothing(const scene::Scene& scene, std::vector<Finding>& findings);
 
 /// Settings without effect: bodies and emitters in sinks, keyframes after the last frame, slices
 /// that no layer shows, a dt that adaptive steps do not use, settings of another transfer.

@@ -3,9 +3,9 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "app/health/findings.h"
 #include "app/scene/toml/value.h"
@@ -86,7 +86,7 @@ void check_camera_angles(const std::string& address, const scene::CameraSettings
     findings.push_back(
         {Severity::warning, address + ".orbit",
          fmt::format("an orbit of {} degrees is hardly seen", number_text(*camera.orbit)),
-         fmt::format("it is in degrees over the whole scene; a turn is 360")});
+         "it is in degrees over the whole scene; a turn is 360"});
   constexpr double wide = 100;
   if (camera.fov > wide)
     findings.push_back(

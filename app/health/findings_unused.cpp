@@ -105,23 +105,6 @@ void check_transfer_settings(const sim::SolverSettings& s, std::vector<Finding>&
 
 }  // namespace
 
-void check_materials_of_nothing(const scene::Scene& scene, std::vector<Finding>& findings) {
-  for (const sim::Material& material : scene.materials) {
-    const auto is_of_it = [&](const auto& thing) { return thing.material == material.name; };
-    // Snow is there in every scene.
-    if (material.name == sim::Material{}.name ||
-        std::any_of(scene.bodies.begin(), scene.bodies.end(), is_of_it) ||
-        std::any_of(scene.emitters.begin(), scene.emitters.end(), is_of_it))
-      continue;
-    const std::string snow = scene.bodies.empty() ? "emitter." + scene.emitters.front().name
-                                                  : "body." + scene.bodies.front().name;
-    findings.push_back(
-        {Severity::warning, "material." + material.name,
-         fmt::format("no body and no emitter is of {}: its numbers do nothing", material.name),
-         fmt::format("{}.material = \"{}\"", snow, material.name)});
-  }
-}
-
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings) {
   // Most snow escapes from an emitter that only touches a sink; a third lost is a mistake.
   constexpr double whole = 0.999, much = 0.3;

@@ -9,6 +9,7 @@
 #include "sim/simulation.h"
 #include "sim/staged.h"
 #include "sim/state/kernel_pose.h"
+#include "tests/support/out_of_reach.h"
 #include "tests/support/snow.h"
 #include "tests/support/temporary_folder.h"
 
@@ -226,19 +227,9 @@ TEST(ContactKernel, EveryColliderInReachIsFound) {
     for (int k = 0; k < 400; ++k) {
       const Vec3d centre = middle_of_shapes + Vec3d(unit(random), unit(random), unit(random));
       const double reach = 0.1 + 0.1 * unit(random);
-      const Vec3d from = centre - place_of_block;
-      if (!sim::kernels::is_out_of_reach(
-              local,
-              Vec3<float>{static_cast<float>(from[0]), static_cast<float>(from[1]),
-                          static_cast<float>(from[2])},
-              static_cast<float>(reach)))
-        continue;
-      ++left_out;
-      for (int q = 0; q < 20; ++q) {
-        Vec3d way(unit(random), unit(random), unit(random));
-        way *= std::abs(unit(random)) * (reach - 1e-5) / way.norm();
-        EXPECT_GT(seen_by_kernel<double>(pose, centre + way).distance, 0);
-      }
+      left_out += test::is_left_out(
+          local, centre - place_of_block, reach, 1e-5, random,
+          [&](const Vec3d& way) { return seen_by_kernel<double>(pose, centre + way).distance; });
     }
     EXPECT_GT(left_out, 20);
   }

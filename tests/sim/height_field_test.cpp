@@ -13,6 +13,7 @@
 #include "sim/simulation.h"
 #include "sim/state/kernel_pose.h"
 #include "tests/support/height_files.h"
+#include "tests/support/out_of_reach.h"
 #include "tests/support/snow.h"
 #include "tests/support/temporary_folder.h"
 
@@ -163,18 +164,9 @@ TEST_F(HeightFields, NothingWithinReachIsLeftOut) {
   for (int k = 0; k < 4000; ++k) {
     const Vec3d centre(4 + 6 * unit(random), 4 * unit(random), 3 + 5 * unit(random));
     const double reach = 0.3 + 0.3 * unit(random);
-    if (!sim::kernels::is_out_of_reach(
-            local,
-            Vec3<float>{static_cast<float>(centre[0]), static_cast<float>(centre[1]),
-                        static_cast<float>(centre[2])},
-            static_cast<float>(reach)))
-      continue;
-    ++left_out;
-    for (int q = 0; q < 10; ++q) {
-      Vec3d way(unit(random), unit(random), unit(random));
-      way *= std::abs(unit(random)) * (reach - 1e-4) / way.norm();
-      EXPECT_GT(shapes::signed_distance(c, 0, centre + way), 0);
-    }
+    left_out += is_left_out(local, centre, reach, 1e-4, random, [&](const Vec3d& way) {
+      return shapes::signed_distance(c, 0, centre + way);
+    });
   }
   EXPECT_GT(left_out, 200);
 }
