@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <pty.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -51,9 +52,9 @@ class PickPage : public PickSearch {
   void press(WebClient& page, char key) {
     for (const char* down : {" 1 0", " 0 0"})
       page.send_text("k " + std::to_string(int(key)) + down);
-    watch(page);
   }
-  /// Confirms pictures for a moment.
+  /// Confirms pictures for a moment, as a page does all the time: a program whose picture waits for
+  /// that draws no other one, and reads no keys.
   static void watch(WebClient& page) {
     for (int k = 0; k < 5; ++k)
       if (const auto picture = page.receive(WebClient::binary, 0.05)) confirm(page, *picture);
@@ -62,6 +63,14 @@ class PickPage : public PickSearch {
     std::uint32_t number = 0;
     if (picture.payload.size() >= 4) std::memcpy(&number, picture.payload.data(), 4);
     page.send_text("a " + std::to_string(number));
+  }
+
+  template <class IsTrue>
+  static bool watch_until(WebClient& page, IsTrue is_true) {
+    return wait_until([&] {
+      watch(page);
+      return is_true();
+    });
   }
 
   bool round_is_made(int round) {
@@ -86,10 +95,17 @@ class PickPage : public PickSearch {
     const app::view::picker::Grid& grid = layout.grid;
     return {grid.tile_x(tile) + grid.tile_width / 2.0, grid.tile_y(tile) + grid.tile_height / 2.0};
   }
-  /// Waits for the end. @return exit code
-  int end() { return wait_for(std::exchange(program_, -1)); }
+  /// Waits for the end, two minutes at most. @return exit code
+  int end() {
+    if (!wait_until([&] { return has_ended(); })) ::kill(program_, SIGKILL);
+    return wait_for(std::exchange(program_, -1));
+  }
 
-  bool is_running() const { return ::waitpid(program_, nullptr, WNOHANG) == 0; }
+  bool has_ended() const {
+    siginfo_t told{};
+    return ::waitid(P_PID, static_cast<id_t>(program_), &told, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+           told.si_pid != 0;
+  }
 
   pid_t program_ = -1;
   int port_ = 0;
@@ -106,20 +122,19 @@ TEST_F(PickPage, PagesComeAndGoAndTheSearchContinues) {
   ASSERT_TRUE(second->receive(WebClient::binary, 20));
   ASSERT_TRUE(round_is_made(1));
   press(*first, '3');  // is not heard any more
+  watch(*first);
   press(*second, '5');
-  ASSERT_TRUE(wait_until([&] { return answers("a") == "5\n"; })) << answers("a");
+  ASSERT_TRUE(watch_until(*second, [&] { return answers("a") == "5\n"; })) << answers("a");
   second.reset();
   ASSERT_TRUE(round_is_made(2));
   auto third = connect();
   ASSERT_TRUE(third->receive(WebClient::binary, 20));
   press(*third, '1');
-  ASSERT_TRUE(wait_until([&] { return answers("a") == "5\n1\n"; })) << answers("a");
+  ASSERT_TRUE(watch_until(*third, [&] { return answers("a") == "5\n1\n"; })) << answers("a");
   press(*third, 'Q');
-  ASSERT_TRUE(wait_until([&] {
-    watch(*third);
-    return exists("a/picked.toml");
-  }));
+  ASSERT_TRUE(watch_until(*third, [&] { return exists("a/picked.toml"); }));
   press(*third, 'Q');
+  ASSERT_TRUE(watch_until(*third, [&] { return has_ended(); }));
   EXPECT_EQ(end(), 0) << read_text(folder / "said");
   ASSERT_EQ(by_list("5\n1\n", "b").exit_code, 0);
   expect_same_pick("a", "b");
@@ -201,7 +216,7 @@ TEST_F(PickPage, AWindowIsAnsweredByKeys) {
   XHand hand;
   if (!hand.reason().empty()) SKIP_OR_FAIL(hand.reason());
   program_ = start("a", "--window");
-  if (!wait_until([&] { return exists("a/round.html") || !is_running(); }) || !is_running()) {
+  if (!wait_until([&] { return exists("a/round.html") || has_ended(); }) || has_ended()) {
     if (contains(read_text(folder / "said"), "built without")) SKIP_OR_FAIL("no window");
     FAIL() << read_text(folder / "said");
   }
