@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 set(neve_contact "neve developers <neve@neve.invalid>")
 set(neve_data ${CMAKE_INSTALL_DATADIR}/neve)
-if(NEVE_KERNEL_SETS STREQUAL "native")
+if(NOT NEVE_KERNEL_SETS STREQUAL "all")
   install(CODE "message(FATAL_ERROR \"This build runs on machines like this one alone. Configure it \"
     \"with -DNEVE_KERNEL_SETS=all, and install it then.\")")
 endif()
