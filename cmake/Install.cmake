@@ -5,8 +5,11 @@ include(GNUInstallDirs)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 set(neve_contact "neve developers <neve@neve.invalid>")
 set(neve_data ${CMAKE_INSTALL_DATADIR}/neve)
-if(NOT NEVE_KERNEL_SETS STREQUAL "all")
+if(NEVE_KERNEL_SETS STREQUAL "native")
   install(CODE "message(FATAL_ERROR \"This build runs on machines like this one alone. Configure it \"
+    \"with -DNEVE_KERNEL_SETS=all, and install it then.\")")
+elseif(NEVE_KERNEL_SETS STREQUAL "checked")
+  install(CODE "message(WARNING \"This build is slow on machines unlike this one: for them configure it \"
     \"with -DNEVE_KERNEL_SETS=all, and install it then.\")")
 endif()
 install(TARGETS neve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -8,8 +8,8 @@ namespace neve::test {
 namespace {
 
 /// A ball of about 2000 particles and whatever a test adds or changes.
-std::string scene(const std::string& solver, const std::string& more = {}) {
-  return "frames = 6\n[solver]\ncell_size = 0.02\n" + solver +
+std::string scene(const std::string& solver, const std::string& more = {}, int frames = 2) {
+  return "frames = " + std::to_string(frames) + "\n[solver]\ncell_size = 0.02\n" + solver +
          "\n[[body]]\nname = \"ball\"\n"
          "shape = { sphere = { center = [0, 0.2, 0], radius = 0.08 } }\n"
          "velocity = [0, -3, 0]\n" +
@@ -227,20 +227,20 @@ TEST_F(Check, CheckSaysThatThePapersTransferMovesSnowByWhatDoesNotStrainIt) {
 }
 
 TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
-  EXPECT_EQ(findings(scene("", "")), Findings{"warning body.ball"});
+  EXPECT_EQ(findings(scene("", "", 6)), Findings{"warning body.ball"});
   // Nor can what it does not meet crush it.
-  folder.write("scene.toml", scene("", ""));
+  folder.write("scene.toml", scene("", "", 6));
   EXPECT_FALSE(contains(
       neve({"check", "scene.toml", "--set", "body.ball.velocity=[0, -25, 0]"}).output, "crush"));
   const std::string wall =
       "[[collider]]\nname = \"wall\"\nshape = { box = { center = [0.3, 0, 0], size = [0.1, 0.6, "
       "0.6] } }\n";
-  EXPECT_EQ(findings(scene("", wall)), Findings{"warning body.ball"});
+  EXPECT_EQ(findings(scene("", wall, 6)), Findings{"warning body.ball"});
   const auto text = neve({"check", "scene.toml"});
   EXPECT_TRUE(contains(text.output, "nearest is wall, 0.177 m away at 0 s")) << text.output;
-  EXPECT_EQ(findings(scene("", wall), 0).size(), 1u);
+  EXPECT_EQ(findings(scene("", wall, 6), 0).size(), 1u);
   // Thrown at it, the ball meets it.
-  folder.write("scene.toml", scene("", wall));
+  folder.write("scene.toml", scene("", wall, 6));
   EXPECT_FALSE(
       contains(neve({"check", "scene.toml", "--set", "body.ball.velocity=[3, 1, 0]"}).output,
                "meets nothing"));
@@ -249,7 +249,7 @@ TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
                                              "[[body]]\nname = \"pile\"\nshape = { cone = { center "
                                              "= [1, 0.1, 0], radius = 0.2, height = "
                                              "0.2 } }\n");
-  folder.write("scene.toml", scene("", pile));
+  folder.write("scene.toml", scene("", pile, 6));
   const std::vector<std::string> flat{"check", "scene.toml", "--set",
                                       "body.ball.velocity=[9, 0, 0]"};
   EXPECT_FALSE(contains(neve(flat).output, "meets nothing"));
@@ -394,7 +394,7 @@ TEST_F(Check, CheckForeseesTheFirstFrameToo) {
 
 /// The forecast comes from a coarse copy: the factor of two is what it claims, no more.
 TEST_F(Check, CheckForeseesTheStepsOfTheRun) {
-  folder.write("scene.toml", scene("", floor_plane));
+  folder.write("scene.toml", scene("", floor_plane, 6));
   const auto check = neve({"check", "scene.toml", "--json"});
   ASSERT_EQ(check.exit_code, 0) << check.errors;
   const app::Json json = app::parse_json(std::string_view(check.output));
