@@ -179,11 +179,11 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
   constexpr double min_work_of_step = 100, max_steps_of_frame = 1e15;
   double seconds = 0;
   bool is_over = false;
+  const auto is_late = [&] { return is_interrupted() || seconds_since(start) >= budget.seconds; };
   for (int frame = 1; frame <= last; ++frame) {
     // The frame's start and end both count; where time runs out the last frames are as the one
     // before.
-    if (!is_over && seconds_since(start) < budget.seconds && run.work < budget.particle_steps &&
-        !is_interrupted()) {
+    if (!is_over && run.work < budget.particle_steps && !is_late()) {
       const double work_of_step =
           std::max(min_work_of_step, static_cast<double>(simulation.particle_count()));
       const sim::StepLimits before = simulation.step_limits();
@@ -192,14 +192,14 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
       const auto last_step =
           simulation.steps() + static_cast<std::size_t>(2 * budget.particle_steps / work_of_step);
       const double from = simulation.time(), to = frame / scene.fps;
-      sim::AdvanceReport report = simulation.advance_to(to, is_interrupted, last_step);
+      sim::AdvanceReport report = simulation.advance_to(to, is_late, last_step);
       seconds += seconds_since(before_frame);
       result.peak_force = std::max(result.peak_force, report.max_force());
       run.work += static_cast<double>(report.steps) * work_of_step;
       run.particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
       if (simulation.divergence()) break;  // a broken state foretells nothing
-      is_over = simulation.steps() >= last_step;
+      is_over = simulation.steps() >= last_step || is_late();
       if (is_over && simulation.time() > from)
         report.steps = static_cast<std::size_t>(
             std::min(max_steps_of_frame,

@@ -26,7 +26,8 @@ struct Check {
   forecast::Cost seconds() const;  ///< of the simulation
 };
 
-/// Seeds the scene, takes some steps, and runs coarse copies: about four seconds.
+/// Seeds the scene, takes some steps, and runs coarse copies: about four seconds, at most twenty
+/// where steps are short and snow is spread out.
 /// @param scene resolved is not needed
 /// @param coarsening  factor of --coarsen
 Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads,

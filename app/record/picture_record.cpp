@@ -190,8 +190,9 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   const Json files = reader.json("neve:files");
   for (const auto& [path, hash] : files.items())
     if (hash.is_string()) record.files[path] = hash.get<std::string>();
-  if (record.frame < 0 || record.frame > output::max_frame)
-    reader.fail("its frame is not from 0 to " + std::to_string(output::max_frame));
+  // Its number: below 0 with handles or a first_frame below 0.
+  if (record.frame < -output::max_frame || record.frame > output::max_frame)
+    reader.fail("its frame has more digits than " + std::to_string(output::max_frame));
   if (record.changes.size() > max_changes)
     reader.fail("it has more than " + std::to_string(max_changes) + " changes");
   if (!output::is_plain_name(record.view)) reader.fail("the name of its view is invalid");

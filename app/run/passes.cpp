@@ -194,7 +194,8 @@ render::ExrHeader PassReader::header(const record::PictureRecord& record,
   render::ExrHeader header = render::channels::camera_header(frame);
   header.text = record::to_png_text(record);
   header.fps = scene_.fps;
-  header.text["neve:time"] = scene::toml::number_text(record.frame / scene_.fps);
+  header.text["neve:time"] =
+      scene::toml::number_text(scene::frame_of(scene_, record.frame) / scene_.fps);
   header.text["neve:bodies"] = numbered(scene::snow_sources(scene_));
   std::vector<std::string> colliders;
   for (const scene::Collider& collider : scene_.colliders) colliders.push_back(collider.name);

@@ -75,6 +75,11 @@ void read_picture(const Edits& edits, Origin& origin) {
   // By the numbers that the picture has, whatever the edits say.
   const int frame = scene::frame_of(
       scene::read_scene_text(record.scene, origin.scene_file + " (its scene)"), record.frame);
+  if (frame < 0)
+    throw Error(exit_invalid_scene,
+                origin.scene_file + ": error: not a picture made by neve: its frame " +
+                    std::to_string(record.frame) + " is before the first of its scene",
+                origin.scene_file, "name a picture that neve render wrote");
   origin.frames = {frame, frame};
   read_scene(
       edits,

@@ -175,7 +175,10 @@ void Viewer::draw() {
   paint_picture();
   screen_.end(renderer_, state_.viewport);
   if (state_.wants_picture && has_picture_to_save()) save_picture();
-  front_.set_progress(state_.live->frame, state_.live->is_running);
+  // Scripts name the frames that a user sees.
+  const session::LiveFrame& live = *state_.live;
+  front_.set_progress(live.scene ? scene::number_of(*live.scene, live.frame) : live.frame,
+                      live.is_running);
   front_.set_typing(ImGui::GetIO().WantTextInput);
   front_.show(screen_);
   state_.picture_ms = 1e3 * seconds_since(start);

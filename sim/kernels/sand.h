@@ -100,7 +100,9 @@ NEVE_INLINE unsigned sand(Record<V, I>& p, const MaterialConstants<ElementOf<V>>
   V e[3];
   for (int k = 0; k < 3; ++k) e[k] = Real(0.5) * logarithm_lanes(axes.l[k]);
   if (is_projected) {
-    const V before = e[0] + e[1] + e[2], gained = logarithm_lanes(p.J_P);
+    // Packed snow that became sand has no volume to give back: it would be pressed from inside.
+    const V loose = larger_lanes(p.J_P, all<V>(1));
+    const V before = e[0] + e[1] + e[2], gained = logarithm_lanes(loose);
     const V third = Real(1.0 / 3) * gained, t = before + gained, mean = Real(1.0 / 3) * t;
     V d[3];
     for (int k = 0; k < 3; ++k) d[k] = e[k] + third - mean;
@@ -119,7 +121,7 @@ NEVE_INLINE unsigned sand(Record<V, I>& p, const MaterialConstants<ElementOf<V>>
       s[k] = exponential_lanes(e[k]);
       change[k] = exponential_lanes(by);
     }
-    V J_P = is_apart ? p.J_P * exponential_lanes(before) : all<V>(1);
+    V J_P = is_apart ? loose * exponential_lanes(before) : all<V>(1);
     J_P = J_P > m.max_J_P ? m.max_J_P : J_P;
     p.J_P = (is_apart | slides | (gained != V{})) ? J_P : p.J_P;
     const Sym3<V> A = in_axes(axes.U, change);

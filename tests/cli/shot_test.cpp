@@ -7,6 +7,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
+#include "render/image/exr.h"
 #include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/needs.h"
@@ -87,6 +88,14 @@ TEST_F(Shots, AreResumedAndMadeAgainByTheirNumbers) {
             run_json("whole")["frames"][3]["state_hash"]);
 }
 
+/// As in run.json, the time of a picture is 0 at the first handle, whatever its number.
+TEST_F(Shots, PassesHaveTheTimeOfTheRun) {
+  run({"render", "shot.toml", "--out", "a", "--no-movie", "--quiet", "--frames", "1001-1001",
+       "--passes", "depth"});
+  const auto text = render::read_exr_text(app::output::read_file(folder / "a/particles/1001.exr"));
+  EXPECT_NEAR(std::stod(text.at("neve:time")), 1.0 / 24, 1e-12);
+}
+
 TEST_F(Shots, RefuseNumbersBeforeTheFirst) {
   const auto result = neve({"render", "shot.toml", "--frames", "0-3"});
   EXPECT_EQ(result.exit_code, 2);
@@ -114,6 +123,15 @@ TEST_F(Shots, CountBelowZero) {
   for (const char* name : {"-002.png", "-001.png", "0000.png", "0003.png"})
     EXPECT_TRUE(exists(std::string("a/particles/") + name)) << name;
   EXPECT_EQ(exists("a/particles.mp4"), app::output::find_program("ffmpeg").has_value());
+  run({"render", "a/particles/-001.png", "--out", "again", "--no-movie", "--quiet"});
+  EXPECT_EQ(run_json("again")["frames"][0]["state_hash"], run_json("a")["frames"][0]["state_hash"]);
+}
+
+/// A script waits for the number that the user sees.
+TEST_F(Shots, ScriptsOfViewNameTheirNumbers) {
+  folder.write("script.json", R"([
+    {"click": "Frame"}, {"wait_for": "simulation frame 1001", "within": 60}, {"quit": true}])");
+  run({"view", "shot.toml", "--replay", "script.json", "--out", "viewed", "--size", "900x600"});
 }
 
 /// Plates have the numbers of the frames.

@@ -93,6 +93,22 @@ TEST(Sand, SandGivesBackTheVolumeThatItGained) {
   EXPECT_NEAR(p.J_P, 1, 1e-12);
 }
 
+/// Packed snow becomes sand where its material changes during a run, and points may bring a J_P
+/// below 1: a pressure from that would be energy out of nothing.
+TEST(Sand, SandThatWasPackedBearsNoPressureByItself) {
+  at_every_simd_level([] {
+    const Material m = dry_sand();
+    for (const double J_P : {0.1, 0.8, 0.999}) {
+      kernels::Particle<double> p = grain<double>(Mat3d::Identity(), J_P);
+      update_material(p, engine::constants_of<double>(m));
+      for (const double tau : p.tau) EXPECT_EQ(tau, 0) << J_P;
+      engine::store_matrix(Mat3d(1.01 * engine::matrix(p.F_E)), p.F_E);
+      update_material(p, engine::constants_of<double>(m));
+      EXPECT_NEAR(p.J_P, std::pow(1.01, 3), 1e-12) << "the volume that it gains from there on";
+    }
+  });
+}
+
 /// Acceleration of the upper half of an endless layer on a rough floor, m/s2.
 double acceleration_on_a_slope(double degrees) {
   constexpr double h = 0.02;

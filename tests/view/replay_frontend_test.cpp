@@ -146,6 +146,14 @@ TEST(Replay, ReplayWaitsForFramesAndForTheSimulation) {
   EXPECT_EQ(viewer.resets, 1);
 }
 
+TEST(Replay, FramesBelowZeroAreAwaited) {
+  SmallViewer viewer;
+  viewer.simulation_frame = -9;
+  viewer.run(R"([{"wait_for": "simulation paused", "within": 5}, {"click": "Run"},
+                 {"wait_for": "simulation frame -5"}])");
+  EXPECT_GE(viewer.simulation_frame, -5);
+}
+
 TEST(Replay, ReplayResizesDropsAndTurnsTheWheel) {
   SmallViewer viewer;
   app::view::replay::ReplayFrontend::Options options;

@@ -72,6 +72,14 @@ TEST(ReplayScript, EveryStepIsReadAndWrittenAlike) {
   EXPECT_EQ(steps[18].line, 20);
 }
 
+/// Handles of a scene from 0 have such numbers, and what records them is replayed.
+TEST(ReplayScript, FramesBelowZeroAreAwaited) {
+  const auto goal = app::view::replay::parse_goal("simulation frame -12");
+  ASSERT_TRUE(goal);
+  EXPECT_EQ(goal->frame, -12);
+  EXPECT_FALSE(app::view::replay::parse_goal("simulation frame -"));
+}
+
 TEST(ReplayScript, MisspeltStepNamesPlaceAndNearestName) {
   EXPECT_EQ(complaint("[\n {\"wait\": 3},\n {\"clik\": \"Run\"}\n]"),
             "clicks.json:3:2: error: step 2: nothing to do; expected one of click, drag, move, "

@@ -187,7 +187,7 @@ bool ReplayFrontend::is_reached(const ReplayGoal& goal) const {
     case ReplayGoal::Kind::running:
       return is_simulation_running_;
     case ReplayGoal::Kind::paused:
-      return simulation_frame_ >= 0 && !is_simulation_running_;
+      return simulation_frame_ && !is_simulation_running_;
     case ReplayGoal::Kind::label:
       return panels::Labels::of_panels().find(goal.label).has_value();
   }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "app/view/frontend/frontend.h"
 #include "app/view/panels/labels.h"
@@ -74,7 +75,7 @@ class ReplayFrontend : public frontend::Frontend {
   std::map<std::string, panels::LabelPlace> seen_;  ///< labels of the step, a frame ago
 
   std::string clipboard_;
-  int simulation_frame_ = -1;
+  std::optional<int> simulation_frame_;
   bool is_simulation_running_ = false;
 
   std::mutex mutex_;

@@ -80,11 +80,12 @@ std::optional<ReplayGoal> parse_goal(const std::string& text) {
   if (text.starts_with(label) && text.size() > label.size())
     return ReplayGoal{Goal::label, 0, text.substr(label.size())};
   if (!text.starts_with(frame)) return std::nullopt;
-  const std::string digits = text.substr(frame.size());
+  const bool is_negative = text.starts_with(frame + "-");  // frames before that of first_frame 0
+  const std::string digits = text.substr(frame.size() + (is_negative ? 1 : 0));
   const bool is_number = !digits.empty() && digits.size() <= 8 &&
                          digits.find_first_not_of("0123456789") == std::string::npos;
   if (!is_number) return std::nullopt;
-  return ReplayGoal{Goal::frame, std::stoi(digits), {}};
+  return ReplayGoal{Goal::frame, (is_negative ? -1 : 1) * std::stoi(digits), {}};
 }
 
 std::vector<ReplayStep> parse_replay(std::string_view text, const std::string& file) {
