@@ -8,8 +8,10 @@
 
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
+#include "app/setup/seed_scene.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
+#include "sim/health/diagnostics.h"
 
 namespace neve::app::health {
 
@@ -40,6 +42,26 @@ Slow below_default(const std::string& address, double value, double usual, doubl
       scene::setting_text(address, usual, factor)};
 }
 
+/// Snow that starts packed is stiffer, and sets the steps for as long as it exists.
+void add_of_packed(const scene::Scene& scene, std::vector<Slow>& slow) {
+  const auto add = [&](const char* kind, const auto& bodies) {
+    for (const auto& body : bodies) {
+      const sim::Material& m = scene.materials[setup::material_index(scene, body.material)];
+      if (!(body.J_P < 1) || !sim::hardens(m.model)) continue;
+      const double times = std::sqrt(sim::health::hardening_factor(m, body.J_P));
+      const std::string address = std::string(kind) + "." + body.name + ".J_P";
+      slow.push_back(
+          {address, times,
+           fmt::format("snow packed to {:g} makes sound {} times as fast as 1 would, and "
+                       "steps as much shorter",
+                       body.J_P, times_text(times)),
+           address + " = 1"});
+    }
+  };
+  add("body", scene.bodies);
+  add("emitter", scene.emitters);
+}
+
 /// What makes sound fast: density, moduli, lumps that are stiffer, snow that starts packed.
 void add_of_sound(const scene::Scene& scene, std::vector<Slow>& slow) {
   const sim::Material usual;
@@ -67,6 +89,7 @@ void add_of_sound(const scene::Scene& scene, std::vector<Slow>& slow) {
     add("variation.youngs_modulus", m.variation.youngs_modulus, 0,
         std::exp(0.5 * 3.5 * m.variation.youngs_modulus));
   }
+  add_of_packed(scene, slow);
 }
 
 /// The limit that sets most steps.

@@ -47,6 +47,10 @@ TEST(Slowness, TheParameterThatShortensTheStepsIsNamedWithAValueThatDoesNot) {
   EXPECT_EQ(note_on("[material.snow]\nyoungs_modulus = 1.4e9\n", acoustic),
             "material.snow.youngs_modulus: 1.4e+09 makes sound 100 times as fast as 140000 would, "
             "and steps as much shorter; material.snow.youngs_modulus = 140000");
+  EXPECT_EQ(
+      note_on("J_P = 0.5\n", acoustic),
+      "body.ball.J_P: snow packed to 0.5 makes sound 12.2 times as fast as 1 would, and steps "
+      "as much shorter; body.ball.J_P = 1");
   EXPECT_EQ(note_on("[solver]\nbeta = 1\nsolve_tolerance = 1e-9\n", max_dt),
             "solver.solve_tolerance: solves take 400 iterations to 1e-09; solver.solve_tolerance = "
             "0.01");

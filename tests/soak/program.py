@@ -11,7 +11,7 @@ import time
 import zlib
 
 # Exit codes; a run may end well, as a snow that explodes, at a limit, or be too slow to wait for.
-GOOD, INVALID, DIVERGED, FAILED_RUNS, LIMIT, UNHEALTHY, INTERRUPTED = 0, 3, 5, 7, 8, 9, 75
+GOOD, REFUSED, INVALID, DIVERGED, FAILED_RUNS, LIMIT, UNHEALTHY, INTERRUPTED = 0, 2, 3, 5, 7, 8, 9, 75
 SLOW, HANGS = "slow", "hangs"
 
 

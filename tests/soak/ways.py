@@ -6,10 +6,10 @@ import re
 
 import files
 from draw import as_toml
-from program import DIVERGED, FAILED_RUNS, GOOD, HANGS, INVALID, LIMIT, SLOW, UNHEALTHY, differences, gaps, report
+from program import DIVERGED, FAILED_RUNS, GOOD, HANGS, INVALID, LIMIT, REFUSED, SLOW, UNHEALTHY, differences, gaps, report
 
-# How a command may end that does something else with a scene that runs.
-USUAL = (GOOD, INVALID, DIVERGED, FAILED_RUNS, LIMIT, UNHEALTHY, SLOW)
+# How a command may end that does something else with a scene that runs; changes may not fit together.
+USUAL = (GOOD, REFUSED, INVALID, DIVERGED, FAILED_RUNS, LIMIT, UNHEALTHY, SLOW)
 
 
 class Ways:
