@@ -117,7 +117,7 @@ class Scene:
         if kind == "emitter":
             table["start"] = self.fall * draw.one(0, 0, draw.within(0, 1))
             if draw.chance(0.8):
-                table["rate"] = 400 * (2 * self.h) ** 2 * max(self.speed, self.h / self.fall) * draw.within(0.1, 2)
+                table["rate"] = min(1e9, 400 * (2 * self.h) ** 2 * max(self.speed, self.h / self.fall) * draw.within(0.1, 2))
             if "rate" in table and draw.chance(0.5):
                 table["end"] = table["start"] + self.fall * draw.within(0.1, 5)
         return table
