@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "app/scene/read.h"
+#include "app/support/clock.h"
 
 namespace neve::app {
 namespace {
@@ -75,6 +76,17 @@ TEST(Slowness, AVeryLongRunWithoutSuchAParameterIsTold) {
   EXPECT_EQ(note_on("", sim::DtLimit::acoustic, 4e6),
             "solver.cell_size: about 4000000 steps of 10000 particles are a long run; --coarsen 2 "
             "takes about a sixteenth of the work, and is a first look");
+}
+
+/// A single frame may have more steps than there is time for: its beginning tells them.
+TEST(Slowness, AFrameOfManyStepsIsForetoldInTheSecondsThatThereAre) {
+  const scene::Scene scene = scene::read_scene_text(
+      std::string(slow_ball) + "[material.snow]\nyoungs_modulus = 1e12\n", "");
+  const auto start = Clock::now();
+  const forecast::Forecast forecast = forecast::foresee(scene, 4000, 1, {0.3, 1e12, 500});
+  EXPECT_LT(seconds_since(start), 10) << "of some hours, on a machine that does other work";
+  // Sound crosses half a cell of 2 cm in 2e-7 s at 5e4 m/s.
+  EXPECT_GT(forecast.steps().expected, 1e5);
 }
 
 }  // namespace
