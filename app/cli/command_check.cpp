@@ -135,8 +135,7 @@ void print_forecast(const health::Check& check) {
 void print_check(const health::Check& check, const run::RenderJob& job,
                  const forecast::FastLook& look) {
   const double h = job.scene.solver.cell_size;
-  std::cout << "scene      " << job.scene_file
-            << (job.coarsening > 1 ? ", coarsened " + scene::coarsening_text(job.coarsening) : "")
+  std::cout << "scene      " << job.scene_file << scene::coarsened_words(job.scene, job.coarsening)
             << "\n"
             << "particles  " << fixed_text(check.plan.particles, 0) << " in "
             << fixed_text(check.cells, 0) << " cells of " << scene::toml::number_text(h) << " m, "

@@ -68,8 +68,7 @@ void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json
   }
   std::cout << "particles  about " << fixed_text(plan.particles, 0) << "\n"
             << "cells      " << scene::toml::number_text(job.scene.solver.cell_size) << " m"
-            << (job.coarsening > 1 ? ", coarsened " + scene::coarsening_text(job.coarsening) : "")
-            << "\n"
+            << scene::coarsened_words(job.scene, job.coarsening) << "\n"
             << "memory     about " << bytes_text(plan.memory) << " of "
             << bytes_text(plan.memory_limit) << " allowed\n"
             << "frames     " << plan.first_number + plan.frames.first << " to "
@@ -229,9 +228,6 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
                 Progress& progress) {
   const std::string to_come =
       plan.emitted > 0 ? fmt::format(" and {} to come", fixed_text(plan.emitted, 0)) : "";
-  const std::string coarsened =
-      job.coarsening > 1 ? fmt::format(", coarsened {}", scene::coarsening_text(job.coarsening))
-                         : "";
   if (job.fast) progress.note(job.fast->sentence());
   if (job.frames.last > scene::last_frame(job.scene))
     progress.note(
@@ -239,7 +235,8 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
                     scene::number_of(job.scene, job.frames.last),
                     scene::number_of(job.scene, scene::last_frame(job.scene))));
   progress.note(fmt::format("{}: {} particles{}, about {} of memory{}", job.scene_file, particles,
-                            to_come, bytes_text(plan.memory), coarsened));
+                            to_come, bytes_text(plan.memory),
+                            scene::coarsened_words(job.scene, job.coarsening)));
 }
 
 int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,

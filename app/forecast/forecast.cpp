@@ -117,6 +117,8 @@ std::optional<scene::Scene> coarse_copy(const scene::Scene& scene, double partic
     scene::Scene copy = scene;
     try {
       scene::coarsen(copy, factor);
+      // Forecasts were measured with thresholds that hold in any cell.
+      copy.solver.threshold_cell = scene.solver.threshold_cell;
       return copy;
     } catch (const UsageError&) {
       if (factor == 1) return std::nullopt;

@@ -12,6 +12,7 @@
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
 #include "sim/shapes/variation.h"
+#include "sim/types/threshold_cell.h"
 
 namespace neve::app::health {
 
@@ -40,9 +41,10 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
     heaviest_ = std::max(heaviest_, state.m[p]);
     if (std::isfinite(state.J_P[p])) min_J_P_ = std::min(min_J_P_, state.J_P[p]);
   }
-  for (std::size_t k = 0; k < scene.materials.size(); ++k) {
+  const std::vector<sim::Material> materials = sim::in_cells(scene.materials, scene.solver);
+  for (std::size_t k = 0; k < materials.size(); ++k) {
     if (!is_used[k]) continue;
-    const sim::Material& m = scene.materials[k];
+    const sim::Material& m = materials[k];
     const sim::Lame lame = sim::lame(m.youngs_modulus, m.poisson_ratio);
     density_ = std::max(density_, m.density);
     loosest_ = std::max(loosest_, m.max_J_P);

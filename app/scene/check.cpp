@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <vector>
 
 #include "app/advice/suggest.h"
@@ -22,6 +23,7 @@
 #include "sim/shapes/solid.h"
 #include "sim/shapes/variation.h"
 #include "sim/shapes/world_place.h"
+#include "sim/types/threshold_cell.h"
 
 namespace neve::app::scene {
 namespace {
@@ -170,16 +172,25 @@ Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
 }
 
 /// The factors of variation leave every particle a stretch to which it can be compressed.
-Found variation_problem(const sim::Material& material) {
+Found variation_problem(const Scene& scene, const sim::Material& material) {
   if (material.model != sim::Model::snow) return {};
-  const double factor = sim::shapes::max_factor(material.variation.thresholds);
+  const double finer = std::sqrt(sim::threshold_factor(scene.solver));
+  if (material.critical_compression * finer >= 1)
+    return Problem{"solver.threshold_cell",
+                   "threshold_cell = " + rough_text(scene.solver.threshold_cell) +
+                       " makes critical_compression " +
+                       rough_text(material.critical_compression * finer) +
+                       " in these cells: snow cannot be compressed to nothing",
+                   "use a threshold_cell nearer to cell_size"};
+  const double factor = finer * sim::shapes::max_factor(material.variation.thresholds);
   const double theta_c = material.critical_compression;
   if (theta_c * factor < 1) return {};
   return Problem{"material." + material.name + ".variation.thresholds",
                  "thresholds = " + rough_text(material.variation.thresholds) +
                      " gives some particles a critical_compression of " +
                      rough_text(theta_c * factor) + ": snow cannot be compressed to nothing",
-                 "use thresholds below " + rough_text(sim::shapes::deviation_of(1 / theta_c)) +
+                 "use thresholds below " +
+                     rough_text(sim::shapes::deviation_of(1 / (theta_c * finer))) +
                      ", or critical_compression below " + rough_text(1 / factor)};
 }
 
@@ -556,7 +567,7 @@ std::optional<Problem> find_problem(const Scene& scene) {
                    "add [[body]] with shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }"};
   }
   for (const sim::Material& material : scene.materials) {
-    if ((found = variation_problem(material))) return found;
+    if ((found = variation_problem(scene, material))) return found;
   }
   for (const sim::seeding::Body& body : scene.bodies) {
     if ((found = body_problem(scene, body))) return found;

@@ -1,5 +1,6 @@
 #include "app/scene/coarsen.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -64,6 +65,15 @@ void refuse_empty_bodies(const Scene& scene, double factor) {
   }
 }
 
+bool has_thresholds(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const sim::Material& m) { return sim::is_snow(m.model); });
+}
+
+bool lacks_threshold_cell(const Scene& scene) {
+  return scene.solver.threshold_cell == 0 && has_thresholds(scene);
+}
+
 }  // namespace
 
 void coarsen(Scene& scene, double factor) {
@@ -72,9 +82,15 @@ void coarsen(Scene& scene, double factor) {
                      "expected a number of at least 1, as in --coarsen 2");
   if (factor == 1) return;
   refuse_empty_bodies(scene, factor);
+  if (lacks_threshold_cell(scene)) scene.solver.threshold_cell = scene.solver.cell_size;
   scale_settings(scene, factor);
   RangeCheck check{factor};
   describe(check, scene.solver);
+}
+
+std::vector<std::string> coarsening_overrides(const Scene& scene) {
+  if (!lacks_threshold_cell(scene)) return {};
+  return {"solver.threshold_cell=" + toml::number_text(scene.solver.cell_size)};
 }
 
 void refine_settings(Scene& scene, double factor) {
@@ -89,6 +105,15 @@ std::string setting_text(const std::string& address, double value, double factor
 
 std::string coarsening_text(double factor) {
   return toml::number_text(factor) + "x";
+}
+
+std::string coarsened_words(const Scene& scene, double factor) {
+  if (!(factor > 1)) return "";
+  const double meant = scene.solver.threshold_cell;
+  return ", coarsened " + coarsening_text(factor) +
+         (has_thresholds(scene) && meant > 0
+              ? ", thresholds for cells of " + rough_text(meant) + " m"
+              : "");
 }
 
 }  // namespace neve::app::scene

@@ -1,6 +1,9 @@
 #pragma once
 /// `--coarsen N`: the same scene with larger cells, for looking and tuning.
 
+#include <string>
+#include <vector>
+
 #include "app/scene/scene.h"
 
 namespace neve::app::scene {
@@ -9,10 +12,16 @@ namespace neve::app::scene {
 /// stays; a fixed dt and max_dt grow with the cells, like the limits that follow from them. Snow is
 /// damped as much per second as before: flip_reference_dt sees to that, and where flip_ratio acts
 /// per step (flip_reference_dt = 0) it becomes flip_ratio^factor, for steps factor times as long.
+/// Thresholds of snow stay those of the finer cells: threshold_cell becomes cell_size as it was,
+/// where the scene does not name one.
 /// @param factor 1 changes nothing
 /// @throws UsageError when it is not a finite number of at least 1, takes a parameter out of its
 ///         range, or leaves a body without a particle
 void coarsen(Scene& scene, double factor);
+
+/// What --coarsen sets beside lengths and times, as --set would: "solver.threshold_cell=0.02". None
+/// where the scene has a threshold_cell, or no snow with thresholds.
+std::vector<std::string> coarsening_overrides(const Scene& scene);
 
 /// The scene with the numbers that its file and --set take, for panels and messages: coarsen with
 /// the same factor gives it back, within rounding.
@@ -24,5 +33,7 @@ std::string setting_text(const std::string& address, double value, double factor
 
 /// "2x", "1.5x"
 std::string coarsening_text(double factor);
+/// ", coarsened 2x, thresholds for cells of 0.02 m", for messages; "" of a scene that is not.
+std::string coarsened_words(const Scene& scene, double factor);
 
 }  // namespace neve::app::scene

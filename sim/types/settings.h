@@ -24,7 +24,9 @@ enum class OnDivergence { stop, retry, ignore };
 enum class Precision { single, real64 };  ///< written "float" and "double" in scenes
 
 struct SolverSettings {
-  double cell_size = 0.02;        ///< h, m
+  double cell_size = 0.02;  ///< h, m
+  /// m, of the cells that thresholds of snow were meant for; 0: of any. See threshold_cell.h.
+  double threshold_cell = 0;
   Kernel kernel = Kernel::cubic;  ///< B-spline of the transfers
   /// What moves the snow also strains it. The paper's `flip` moves particles by a velocity that the
   /// grid does not see, and their places part from F.

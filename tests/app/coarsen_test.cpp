@@ -5,12 +5,15 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "app/record/picture_record.h"
 #include "app/scene/read.h"
 #include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
+#include "sim/types/threshold_cell.h"
 #include "sim/types/time_step.h"
 
 namespace neve::app {
@@ -85,6 +88,85 @@ TEST(Coarsen, CoarseningKeepsTheDampingPerSecond) {
     app::scene::coarsen(coarse, 3);
     EXPECT_NEAR(kept(coarse.solver, 3e-4, 10), kept(full.solver, 1e-4, 30), 1e-11) << reference;
   }
+}
+
+TEST(Coarsen, ThresholdsOfSnowAreThoseOfTheCellsThatTheSceneHad) {
+  app::scene::Scene scene = coarse_ball();
+  EXPECT_EQ(app::scene::coarsening_overrides(scene),
+            std::vector<std::string>{"solver.threshold_cell=0.02"});
+  app::scene::coarsen(scene, 4);
+  EXPECT_EQ(scene.solver.threshold_cell, 0.02);
+  EXPECT_EQ(scene.materials[0].critical_stretch, 0.0075) << "the number that the scene has";
+  const sim::Material in_cells = sim::in_cells(scene.materials[0], scene.solver);
+  EXPECT_DOUBLE_EQ(in_cells.critical_stretch, 0.0075 / 2);
+  EXPECT_DOUBLE_EQ(in_cells.critical_compression, 0.025 / std::sqrt(2));
+  EXPECT_EQ(app::scene::coarsened_words(scene, 4),
+            ", coarsened 4x, thresholds for cells of 0.02 m");
+  app::scene::coarsen(scene, 2);
+  EXPECT_EQ(scene.solver.threshold_cell, 0.02) << "a copy of a copy is a copy";
+  EXPECT_TRUE(app::scene::coarsening_overrides(scene).empty());
+}
+
+TEST(Coarsen, CamClayKeepsItsCrackEnergyByItsCohesion) {
+  app::scene::Scene clay = coarse_ball("[material.snow]\nmodel = \"cam_clay\"\n");
+  app::scene::coarsen(clay, 4);
+  const sim::Material in_cells = sim::in_cells(clay.materials[0], clay.solver);
+  EXPECT_DOUBLE_EQ(in_cells.cohesion, clay.materials[0].cohesion / 2);
+  EXPECT_EQ(in_cells.consolidation_pressure, clay.materials[0].consolidation_pressure);
+  EXPECT_EQ(in_cells.critical_stretch, clay.materials[0].critical_stretch);
+}
+
+TEST(Coarsen, ThresholdsAreLeftAloneWhereCellsAreNotCoarsenedOrThereAreNone) {
+  EXPECT_EQ(sim::in_cells(coarse_ball().materials[0], coarse_ball().solver).critical_stretch,
+            0.0075);
+  app::scene::Scene chosen = coarse_ball("threshold_cell = 0.03\n");
+  app::scene::coarsen(chosen, 2);
+  EXPECT_EQ(chosen.solver.threshold_cell, 0.03);
+  app::scene::Scene sand = coarse_ball("[material.snow]\nmodel = \"sand\"\n");
+  app::scene::coarsen(sand, 2);
+  EXPECT_EQ(sand.solver.threshold_cell, 0);
+  EXPECT_EQ(app::scene::coarsened_words(sand, 2), ", coarsened 2x");
+}
+
+TEST(Coarsen, FinerCellsAreToughByTheSameRule) {
+  const app::scene::Scene fine = app::scene::read_scene_text(
+      "[solver]\ncell_size = 0.01\nthreshold_cell = 0.04\n"
+      "[[body]]\nshape = { sphere = { center = [0, 0.3, 0], radius = 0.15 } }\n",
+      "fine.toml");
+  EXPECT_DOUBLE_EQ(sim::in_cells(fine.materials[0], fine.solver).critical_stretch, 0.015);
+  EXPECT_THROW(app::scene::read_scene_text(
+                   "[solver]\ncell_size = 0.01\nthreshold_cell = 100000\n"
+                   "[[body]]\nshape = { sphere = { center = [0, 0.3, 0], radius = 0.15 } }\n",
+                   "too_fine.toml"),
+               app::Error)
+      << "critical_compression would be above 1";
+}
+
+TEST(Coarsen, LumpsStayWhereTheyAreAndSeedsDrawThemAnew) {
+  app::scene::Scene full =
+      coarse_ball("[material.snow]\nvariation = { thresholds = 1, size = 0.06 }\n");
+  app::scene::Scene coarse = full, other = full;
+  app::scene::coarsen(coarse, 2);
+  other.seed = 2;
+  const auto particles = [](const app::scene::Scene& scene) {
+    return app::setup::seed_scene(scene).particles;
+  };
+  const sim::ParticleArrays few = particles(coarse), all = particles(full), anew = particles(other);
+  // Mean difference of log factors between each coarse particle and the nearest fine one, 0.008 m
+  // away: a seventh of a lump. Their standard deviation is sqrt(ln 2) = 0.83.
+  const auto apart = [&](const sim::ParticleArrays& fine) {
+    double sum = 0;
+    for (std::size_t p = 0; p < few.x.size(); p += 10) {
+      std::size_t nearest = 0;
+      for (std::size_t q = 1; q < fine.x.size(); ++q)
+        if ((fine.x[q] - few.x[p]).squaredNorm() < (fine.x[nearest] - few.x[p]).squaredNorm())
+          nearest = q;
+      sum += std::abs(std::log(few.threshold[p] / fine.threshold[nearest]));
+    }
+    return sum * 10 / static_cast<double>(few.x.size());
+  };
+  EXPECT_LT(apart(all), 0.25);
+  EXPECT_GT(apart(anew), 0.5);
 }
 
 TEST(Coarsen, AFactorOfOneChangesNothing) {
