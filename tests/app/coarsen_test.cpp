@@ -138,7 +138,7 @@ TEST(Coarsen, FinerCellsAreToughByTheSameRule) {
                    "[solver]\ncell_size = 0.01\nthreshold_cell = 100000\n"
                    "[[body]]\nshape = { sphere = { center = [0, 0.3, 0], radius = 0.15 } }\n",
                    "too_fine.toml"),
-               app::Error)
+               app::scene::toml::SceneError)
       << "critical_compression would be above 1";
 }
 
