@@ -19,7 +19,7 @@ class Ways:
 
     def run(self, *words):
         """@return exit code; a fault where a command ends as none should"""
-        code, _, errors = self.neve.run(*words, seconds=4 * self.neve.seconds)
+        code, _, errors = self.neve.run(*words, seconds=2 * self.neve.seconds)
         self.seen.append([" ".join(words), code, errors.strip()[-200:] if code else ""])
         return code, [] if code in USUAL else [f"{' '.join(words)} ends with {code}: {errors.strip()[-300:]}"]
 
@@ -115,7 +115,7 @@ class Ways:
             other = other if isinstance(other, str) else as_toml(other)
             lines.append(f'"{address}" = [{quoted(value)}, {quoted(other)}]')
         with open(self.neve.path("sweep.toml"), "w") as file:
-            file.write("\n".join(lines) + "\n")
+            file.write("\n".join([*lines, "[limits]", f"timeout = {self.neve.seconds}"]) + "\n")
         fork = ("--fork", self.moment()) * draw.chance(0.4)
         yield from self.run("sweep", "sweep.toml", *fork, "--size", "64x48", "--out", "swept", "--quiet",
                             *("--seeds", "2") * (not fork and draw.chance(0.2)))[1]
