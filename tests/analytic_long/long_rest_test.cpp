@@ -77,19 +77,4 @@ TEST(LongRest, ABallThatHeldDoesNotCrackByItself) {
   }
 }
 
-/// The paper's line moves particles by velocities that do not strain them: it creeps, and that is
-/// told.
-TEST(LongRest, ThePapersLineCreeps) {
-  SolverSettings s;
-  s.transfer = Transfer::flip;
-  s.shock_viscosity = 0;
-  const auto [before, after] = rest_for_ten_seconds(s);
-  keep_number({"ten seconds", "flip, the paper's line", "radius of 99 % of the snow, m"},
-              after.radius);
-  keep_number({"ten seconds", "flip, the paper's line", "its radius / that of before"},
-              after.radius / before.radius);
-  keep_number({"ten seconds", "flip, the paper's line", "median of J_P"}, after.J_P);
-  EXPECT_LT(after.radius / before.radius, 1.3) << "or it would not be snow at rest at all";
-}
-
 }  // namespace

@@ -167,11 +167,13 @@ class Scene:
             table["camera"] = self.camera(bodies)
         return table
 
-    def export(self, number):
+    def export(self, number, emitters):
         table = {"name": f"export{number}",
                  **self.draw.table("export.NAME.", 0.4, ("name", "carried", "bodies", "every", "surface"))}
         if table.get("format") == "obj":
             table["surface"] = True
+        if len(emitters) > 1:  # the state does not say from which of them a particle comes
+            table["attributes"] = [name for name in table.get("attributes", ["id"]) if name not in ("body", "age")]
         return table
 
     def solver(self):
@@ -191,6 +193,7 @@ class Scene:
         names = [body["name"] for body in bodies]
         views = [self.view(k, names) for k in range(draw.one(0, 1, 1, 2))]
         mosaic = {"name": "all", "views": [view["name"] for view in views], "columns": draw.one(0, 1, 2), "width": draw.random.randint(64, 300)}
+        emitters = [self.snow("emitter", k) for k in range(draw.one(0, 0, 0, 1, 2))]
         sinks = [{"name": "sink", "shape": self.shape("sink", 5, self.place(6, -8, 0)),
                   **draw.table("sink.NAME.", 0.2, ("name",))}] * draw.chance(0.2)
         return {
@@ -200,9 +203,9 @@ class Scene:
             "camera": self.camera(names), "light": draw.table("light.", 0.2),
             "shot": draw.table("shot.", 0.1, ("time_code",)), "burn_in": draw.table("burn_in.", 0.1),
             "output": {"size": draw.value("output.size")}, "body": bodies,
-            "emitter": [self.snow("emitter", k) for k in range(draw.one(0, 0, 0, 1, 2))],
+            "emitter": emitters,
             "sink": sinks, "collider": colliders, "view": views, "mosaic": [mosaic] * (len(views) > 1),
-            "export": [self.export(k) for k in range(draw.one(0, 0, 1, 2))],
+            "export": [self.export(k, emitters) for k in range(draw.one(0, 0, 1, 2))],
         }
 
     def first(self):

@@ -93,7 +93,9 @@ class Ways:
             json.dump(script, file)
         code, faults = self.run("view", "scene.toml", "--replay", "script.json", "--out", "viewed", "--size", "700x500", "--quiet")
         yield from faults
-        pictures = [name for name in os.listdir(self.neve.path("viewed")) if name.endswith(".png")] if code == GOOD else []
+        # The session may end while a picture waits for the end of its frame.
+        saved = code == GOOD and os.path.isdir(self.neve.path("viewed"))
+        pictures = [name for name in os.listdir(self.neve.path("viewed")) if name.endswith(".png")] if saved else []
         if pictures:
             picture = "viewed/" + pictures[0]
             code, text, _ = self.neve.run("info", picture, "--json")
