@@ -72,8 +72,8 @@ void describe(V& visit, sim::SolverSettings& s) {
   visit("cell_size", s.cell_size, unit::metre, at_least(1e-9).at_most(1e6), restart,
         "Spacing h of the grid.");
   visit("threshold_cell", s.threshold_cell, unit::metre, at_least(1e-9).at_most_or_0(1e6), live,
-        "Cell for which critical_compression and critical_stretch were meant: in other cells they "
-        "are scaled so that a crack costs the same energy; 0: they hold in any.");
+        "Cell for which thresholds and cohesion are meant: in others they are scaled to keep the "
+        "energy of cracks; 0: any.");
   visit("kernel", s.kernel, unit::none, anything, live,
         "B-spline that carries data between particles and grid.");
   visit("transfer", s.transfer, unit::none, anything, live,
