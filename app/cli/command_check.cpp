@@ -1,11 +1,15 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "app/cli/commands.h"
 #include "app/health/check.h"
 #include "app/output/atomic_file.h"
 #include "app/picture/collider_looks.h"
+#include "app/predict/predict.h"
 #include "app/run/render_job.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/override.h"
@@ -173,10 +177,21 @@ void write_open_edges(const run::RenderOptions& options, const scene::Scene& sce
   output::write_file(options.open_edges, render::encode_png(renderer.draw(*frame)));
 }
 
+/// Says what it costs, then runs the copies.
+predict::Prediction predicted(const run::RenderJob& job, const health::Check& check,
+                              const run::RenderOptions& options) {
+  setup::check_limits(job.scene, check.plan, job.coarsening);
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  const double seconds = predict::share_of_work() * check.seconds().expected;
+  progress.note(predict::cost_text() + (seconds > 0 ? ", about " + seconds_text(seconds) : ""));
+  return predict::judge(predict::run_copies(job.scene, job.frames.last, options.threads, progress),
+                        job.scene);
+}
+
 }  // namespace
 
-int run_check(const run::RenderOptions& given) {
-  run::RenderOptions options = given;
+int run_check(const CheckCommand& command) {
+  run::RenderOptions options = command.run;
   options.is_start_only = true;
   const run::RenderJob job = run::make_job(options);
   const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
@@ -186,10 +201,16 @@ int run_check(const run::RenderOptions& given) {
   const health::Check check = health::examine(job.scene, plan, options.threads, job.coarsening);
   const forecast::FastLook look = possible_look(options, job);
   const bool is_quiet = options.verbosity == Verbosity::quiet;
-  if (options.is_json)
-    std::cout << to_text(check_json(check, job, look)) << "\n";
-  else if (!is_quiet)
+  std::optional<predict::Prediction> prediction;
+  if (command.predicts) prediction = predicted(job, check, options);
+  if (options.is_json) {
+    Json json = check_json(check, job, look);
+    if (prediction) json["prediction"] = predict::to_json(*prediction);
+    std::cout << to_text(json) << "\n";
+  } else if (!is_quiet) {
     print_check(check, job, look);
+  }
+  if (prediction && !options.is_json) std::cout << predict::text_of(*prediction) << "\n";
   if (!options.is_json) print_findings(check, !is_quiet);
   std::cout.flush();
   if (!options.open_edges.empty()) write_open_edges(options, job.scene);

@@ -32,6 +32,11 @@ struct ExportCommand {
   scene::Export common;
 };
 
+struct CheckCommand {
+  run::RenderOptions run;
+  bool predicts = false;  ///< by coarse copies that run to the end
+};
+
 struct PickCommand {
   pick::PickOptions pick;
   view::ScreenOptions screen;
@@ -55,7 +60,7 @@ struct ParamsOptions {
 
 int run_render(const run::RenderOptions& options);
 /// Reads only the options that choose the scene: scene, overrides, coarsening, threads.
-int run_check(const run::RenderOptions& options);
+int run_check(const CheckCommand& command);
 int run_dump(const dump::DumpOptions& options);
 int run_strip_command(const run::StripOptions& options);
 int run_export_command(const run::ExportOptions& options);

@@ -17,7 +17,7 @@ void describe_version(options::Command& visit, PlainOptions& o);
 void describe_help(options::Command& visit, PlainOptions& o);
 void describe_params(options::Command& visit, ParamsOptions& o);
 
-void describe_check(options::Command& visit, run::RenderOptions& o);
+void describe_check(options::Command& visit, CheckCommand& command);
 void describe_dump(options::Command& visit, dump::DumpOptions& o);
 void describe_export(options::Command& visit, ExportCommand& o);
 void describe_strip(options::Command& visit, run::StripOptions& o);

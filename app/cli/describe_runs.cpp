@@ -114,11 +114,16 @@ void describe_formats(Command& visit, ExportCommand& o) {
 
 }  // namespace
 
-void describe_check(Command& visit, run::RenderOptions& o) {
+void describe_check(Command& visit, CheckCommand& command) {
+  run::RenderOptions& o = command.run;
   visit.about("check",
               "Forecast the cost of a scene and the limits of its steps, and warn of likely "
               "mistakes; takes a few steps and runs a coarse copy");
   describe_scene(visit, o, run::origin_help);
+  visit("--predict", command.predicts,
+        "Run coarse copies to the end, and say what the scene itself will do at its last frame: "
+        "breaks, holds or undecided, and its size, each with an interval that holds four times in "
+        "five; costs about a third of the run");
   visit("--open-edges", o.open_edges, options::text("PNG", "holes.png"),
         "Write a picture of the meshes that are open, with the edges of their holes in red");
   options::describe_backend(visit, o.backend);

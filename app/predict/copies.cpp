@@ -1,0 +1,100 @@
+#include "app/predict/copies.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/record/metrics.h"
+#include "app/record/run_json.h"
+#include "app/scene/coarsen.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+#include "app/timeline/timeline.h"
+
+namespace neve::app::predict {
+
+namespace {
+
+double largest_force(const timeline::Timeline& timeline) {
+  double force = 0;
+  for (const record::ColliderForce& on :
+       record::forces_of(timeline.here().advance, timeline.summary(), timeline.start().colliders))
+    force = std::max(force, on.force.norm());
+  return force;
+}
+
+void run(const scene::Scene& scene, int last, int threads, Progress& progress, Copy& copy) {
+  timeline::Timeline timeline(scene, {},
+                              std::make_shared<const setup::SeededScene>(setup::seed_scene(scene)),
+                              threads, {}, timeline::watched_by(progress, scene.fps));
+  const double h = scene.solver.cell_size;
+  const record::Metrics first = record::measure(timeline.simulation().particles(), h);
+  double force = 0;
+  for (int frame = 1; frame <= last; ++frame) {
+    if (!timeline.advance_frame()) {
+      copy.failure = timeline.simulation().divergence() ? "it diverged" : "it was interrupted";
+      return;
+    }
+    copy.work += static_cast<double>(timeline.here().advance.steps) *
+                 static_cast<double>(timeline.simulation().particle_count());
+    force = std::max(force, largest_force(timeline));
+  }
+  const record::Metrics end = record::measure(timeline.simulation().particles(), h);
+  copy.has_broken = record::has_broken(first, end);
+  if (first.largest_fragment > 0) copy.whole = end.largest_fragment / first.largest_fragment;
+  const double values[] = {end.spread, end.height, end.mean_J_P, end.largest_fragment, force};
+  std::copy(std::begin(values), std::end(values), copy.values);
+}
+
+}  // namespace
+
+const QuantityInfo& info_of(Quantity quantity) {
+  static constexpr QuantityInfo infos[] = {{"spread", "m", "spread"},
+                                           {"height", "m", "height"},
+                                           {"mean_J_P", "", "mean J_P"},
+                                           {"largest_fragment", "", "largest piece"},
+                                           {"max_force", "N", "top force"}};
+  return infos[static_cast<int>(quantity)];
+}
+
+double share_of_work() {
+  double share = 0;
+  for (const CopyPlan& plan : copy_plans) share += plan.seeds / std::pow(plan.coarsening, 4);
+  return share;
+}
+
+std::string cost_text() {
+  std::string copies;
+  int count = 0;
+  for (const CopyPlan& plan : copy_plans) {
+    copies += fmt::format("{}{} with --coarsen {}", copies.empty() ? "" : ", ", plan.seeds,
+                          rough_text(plan.coarsening));
+    count += plan.seeds;
+  }
+  return fmt::format("runs {} coarse copies ({}), about {:.0f} % of the work of the run", count,
+                     copies, 100 * share_of_work());
+}
+
+std::vector<Copy> run_copies(const scene::Scene& scene, int last, int threads, Progress& progress) {
+  std::vector<Copy> copies;
+  for (const CopyPlan& plan : copy_plans)
+    for (int k = 0; k < plan.seeds; ++k) {
+      Copy copy;
+      copy.coarsening = plan.coarsening;
+      copy.seed = scene.seed + static_cast<std::uint64_t>(k);
+      scene::Scene coarse = scene;
+      coarse.seed = copy.seed;
+      try {
+        scene::coarsen(coarse, plan.coarsening);
+        run(coarse, last, threads, progress, copy);
+      } catch (const UsageError& error) {
+        copy.failure = error.what();
+      }
+      copies.push_back(copy);
+    }
+  return copies;
+}
+
+}  // namespace neve::app::predict

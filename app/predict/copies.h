@@ -1,0 +1,52 @@
+#pragma once
+/// Coarse copies of a scene, run to their end.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "app/support/progress.h"
+
+namespace neve::app::predict {
+
+/// Quantities that are predicted: those that a person sees, and that copies tell.
+enum class Quantity { spread, height, mean_J_P, largest_piece, force };
+inline constexpr int quantity_count = 5;
+
+struct QuantityInfo {
+  const char *name, *unit, *title;
+};
+const QuantityInfo& info_of(Quantity quantity);
+
+struct Copy {
+  double coarsening = 1;
+  std::uint64_t seed = 1;
+  std::string failure;  ///< why it has no end, a sentence; empty: it has
+  /// Of the end; the force is the largest on one collider, the mean over a frame.
+  double values[quantity_count] = {};
+  std::optional<bool> has_broken;  ///< nothing where there was no snow at the start
+  double whole = 1;                ///< largest piece as a share of what it was at the start
+  double work = 0;                 ///< particles times steps
+  double value(Quantity quantity) const { return values[static_cast<int>(quantity)]; }
+};
+
+/// The copies that a prediction runs: one fine one, and some coarse ones that differ in their seed.
+struct CopyPlan {
+  double coarsening;
+  int seeds;
+};
+inline constexpr CopyPlan copy_plans[] = {{1.5, 1}, {2, 2}};
+
+/// Of the work of the run itself, as far as it follows from cells and steps alone.
+double share_of_work();
+
+/// "runs 3 coarse copies (1 with --coarsen 1.5, 2 with 2), 32 % of the work of the run"
+std::string cost_text();
+
+/// The finest first. Those that cannot run, or diverge, say so.
+/// @param last  frame, counted from 0
+std::vector<Copy> run_copies(const scene::Scene& scene, int last, int threads, Progress& progress);
+
+}  // namespace neve::app::predict

@@ -1,0 +1,158 @@
+#include "app/predict/predict.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "app/record/metrics.h"
+#include "app/support/text.h"
+#include "sim/types/material.h"
+
+namespace neve::app::predict {
+
+namespace {
+
+/// The value expected is that of the fine copy, and half of what it differs from the coarse ones
+/// further. Its interval has half of that difference, half of how far seeds lie apart, and a share
+/// of the value. docs/prediction/fit.py chose the shares, and counts how many intervals hold.
+constexpr double toward = 0.5, per_difference = 0.5, per_noise = 0.5;
+constexpr double shares[] = {0.07, 0.09, 0.24, 0.012, 0.14};
+static_assert(std::size(shares) == quantity_count);
+
+/// A largest piece between may fall on either side at full resolution. Snow that loosens loses dust
+/// that copies are too coarse for: only where it does not, whole copies say that it holds.
+constexpr double clearly_broken = 0.985, clearly_whole = 0.996, unpacked = 1.05;
+
+Estimate estimate(Quantity quantity, const std::vector<Copy>& copies) {
+  const double fine = copies.front().value(quantity);
+  double sum = 0, low = copies[1].value(quantity), high = low;
+  for (std::size_t k = 1; k < copies.size(); ++k) {
+    const double value = copies[k].value(quantity);
+    sum += value;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  const double difference = fine - sum / static_cast<double>(copies.size() - 1);
+  Estimate out{quantity};
+  out.expected = std::max(0.0, fine + toward * difference);
+  const double half = per_difference * std::abs(difference) + per_noise * (high - low) / 2 +
+                      shares[static_cast<int>(quantity)] * out.expected;
+  out.low = std::max(0.0, out.expected - half);
+  out.high = out.expected + half;
+  if (quantity == Quantity::largest_piece) {
+    out.expected = std::min(out.expected, 1.0);
+    out.high = std::min(out.high, 1.0);
+  }
+  return out;
+}
+
+/// Nothing where copies can speak.
+std::string silence(const std::vector<Copy>& copies, const scene::Scene& scene) {
+  for (const Copy& copy : copies) {
+    if (!copy.failure.empty())
+      return fmt::format("the copy with --coarsen {} and seed {} has no end: {}",
+                         rough_text(copy.coarsening), copy.seed, copy.failure);
+    if (!copy.has_broken) return "there is no snow at the start";
+  }
+  if (std::none_of(scene.materials.begin(), scene.materials.end(),
+                   [](const sim::Material& m) { return sim::is_snow(m.model); }))
+    return "no material of the scene breaks";
+  return "";
+}
+
+std::string count_text(std::size_t count, std::size_t all) {
+  return count == all ? fmt::format("all {} copies", all)
+                      : fmt::format("{} of {} copies", count, all);
+}
+
+void decide(Prediction& prediction) {
+  const std::vector<Copy>& copies = prediction.copies;
+  const auto count = [&](const auto& is_so) {
+    return static_cast<std::size_t>(std::count_if(copies.begin(), copies.end(), is_so));
+  };
+  const std::size_t all = copies.size(), broken = count([](const Copy&c) { return *c.has_broken; });
+  if (broken == all && copies.front().whole < clearly_broken) {
+    prediction.verdict = Verdict::breaks;
+    prediction.reason = "in " + count_text(all, all);
+  } else if (count([](const Copy& c) {
+               return c.whole > clearly_whole && c.value(Quantity::mean_J_P) < unpacked;
+             }) == all) {
+    prediction.verdict = Verdict::holds;
+    prediction.reason = "in " + count_text(all, all);
+  } else {
+    prediction.verdict = Verdict::undecided;
+    prediction.reason = broken == 0     ? "all copies hold, but their snow loosens"
+                        : broken == all ? "all copies break, the finest of them barely"
+                                        : "it breaks in " + count_text(broken, all);
+  }
+}
+
+std::string number_text(double value, const Estimate& estimate) {
+  const double size = std::max(std::abs(estimate.expected), 1e-9);
+  const int digits = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 4);
+  return fixed_text(value, digits);
+}
+
+}  // namespace
+
+const char* name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::breaks:
+      return "breaks";
+    case Verdict::holds:
+      return "holds";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::cannot_say:
+      return "cannot say";
+  }
+  return "";
+}
+
+Prediction judge(std::vector<Copy> copies, const scene::Scene& scene) {
+  Prediction prediction;
+  prediction.reason = silence(copies, scene);
+  prediction.copies = std::move(copies);
+  if (!prediction.reason.empty()) return prediction;
+  for (int k = 0; k < quantity_count; ++k)
+    prediction.estimates.push_back(estimate(static_cast<Quantity>(k), prediction.copies));
+  decide(prediction);
+  return prediction;
+}
+
+std::string text_of(const Prediction& prediction) {
+  std::string text = fmt::format("at full   {}: {}\n", name(prediction.verdict), prediction.reason);
+  for (const Estimate& e : prediction.estimates) {
+    const QuantityInfo& info = info_of(e.quantity);
+    const std::string unit = *info.unit ? std::string(" ") + info.unit : "";
+    text +=
+        fmt::format("           {:14} {}{} ({} to {})\n", info.title, number_text(e.expected, e),
+                    unit, number_text(e.low, e), number_text(e.high, e));
+  }
+  return text;
+}
+
+Json to_json(const Prediction& prediction) {
+  Json json;
+  json["verdict"] = name(prediction.verdict);
+  json["reason"] = prediction.reason;
+  json["estimates"] = Json::object();
+  for (const Estimate& e : prediction.estimates)
+    json["estimates"][info_of(e.quantity).name] = {
+        {"expected", e.expected}, {"low", e.low}, {"high", e.high}};
+  json["copies"] = Json::array();
+  for (const Copy& copy : prediction.copies) {
+    Json one = {{"coarsen", copy.coarsening}, {"seed", copy.seed}};
+    one["failure"] = copy.failure.empty() ? Json() : Json(copy.failure);
+    one["broken"] = copy.has_broken ? Json(*copy.has_broken) : Json();
+    if (copy.failure.empty())
+      for (int k = 0; k < quantity_count; ++k)
+        one[info_of(static_cast<Quantity>(k)).name] = copy.values[k];
+    json["copies"].push_back(one);
+  }
+  return json;
+}
+
+}  // namespace neve::app::predict
