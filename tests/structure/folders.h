@@ -84,8 +84,7 @@ inline constexpr Folder folders[] = {
     {"app/compare",
      "sim/base sim/types sim render/image render/frame render/gl render app/support app/scene/toml "
      "app/advice app/scene app/output app/record app/setup app/picture app/timeline app/run"},
-    {"app/predict",
-     "sim/types sim app/support app/scene app/record app/setup app/timeline"},
+    {"app/predict", "sim/types sim app/support app/scene app/record app/setup app/timeline"},
     {"app/dump",
      "sim/base sim/types sim/health sim app/support app/scene/toml app/advice app/scene app/record "
      "app/setup app/health app/run"},
@@ -138,7 +137,8 @@ inline constexpr Folder folders[] = {
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render/overlay render "
      "app/support app/scene/toml app/advice app/scene app/output app/record app/setup app/options "
      "app/forecast "
-     "app/health app/picture app/exports app/timeline app/run app/predict app/compare app/dump app/sweep/read "
+     "app/health app/picture app/exports app/timeline app/run app/predict app/compare app/dump "
+     "app/sweep/read "
      "app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet app/pick/search app/pick "
      "app/view/picker app/view app/bench app/cli/devices"},
     {"app", "app/output app/cli", "neve::app"},
