@@ -183,7 +183,7 @@ TEST_F(ForkSweep, AxesThatNeedARestartAreRefusedWithThoseThatDoNot) {
   };
   refused({"0.1s", "-p", "body.ball.velocity=[0,-1,0],[0,-3,0]"},
           "--fork: body.ball.velocity cannot change while a simulation runs; parameters that can: "
-          "solver.kernel");
+          "solver.threshold_cell, solver.kernel");
   refused({"0.1s", "-p", "solver.cell_size=0.04,0.05"}, "material.NAME.hardening");
   refused({"9s", "-p", "material.snow.hardening=4,5"}, "their last frame is 4");
   refused({"soon", "-p", "material.snow.hardening=4,5"}, "as in --fork 0.25s");

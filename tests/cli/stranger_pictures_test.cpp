@@ -80,7 +80,7 @@ TEST_F(StrangerPictures, LongPathsAndManyNamesEndAtOnce) {
 
 TEST_F(StrangerPictures, NumbersThatNoPersonMeansAreRefused) {
   for (const auto& [key, value] : {std::pair{"frame", "2147483647"},
-                                   {"frame", "-1"},
+                                   {"frame", "-2147483647"},
                                    {"coarsen", "inf"},
                                    {"coarsen", "nan"},
                                    {"coarsen", "1e300"},
@@ -90,6 +90,9 @@ TEST_F(StrangerPictures, NumbersThatNoPersonMeansAreRefused) {
     const auto info = neve({"info", picture_with({{key, value}})});
     EXPECT_EQ(info.exit_code, 3) << key << " " << value << "\n" << info.errors;
   }
+  // A scene with handles has a frame -1, this one has not.
+  const auto made_again = neve({"render", picture_with({{"frame", "-1"}}), "--yes"});
+  EXPECT_EQ(made_again.exit_code, 3) << made_again.errors;
   expect_all_end(picture_with({{"strip", R"({"times":[0,0.01],"columns":1,"width":16384})"}}));
 }
 

@@ -119,7 +119,7 @@ TEST_F(SweepFrom, MistakesAreSaidBeforeAnyRun) {
   };
   refused({"a", "--from", "0.125s", "-p", "solver.cell_size=0.04,0.05"},
           "--from: solver.cell_size cannot change while a simulation runs; parameters that can: "
-          "solver.kernel");
+          "solver.threshold_cell, solver.kernel");
   refused({"a", "-p", "material.snow.hardening=4,5"}, "add --from TIME");
   refused({"scene.toml", "--from", "0.125s", "-p", "material.snow.hardening=4,5"},
           "for a scene or a sweep file, give --fork 0.125s");

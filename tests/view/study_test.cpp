@@ -101,7 +101,7 @@ TEST_F(Study, WhatCannotVaryIsRefusedWithWhatCan) {
   const std::string restart = vary({{"solver.cell_size", "0.04, 0.05"}}, 4);
   EXPECT_TRUE(contains(restart,
                        "solver.cell_size cannot change while a simulation runs; parameters "
-                       "that can: solver.kernel"))
+                       "that can: solver.threshold_cell, solver.kernel"))
       << restart;
   EXPECT_TRUE(contains(vary({{"material.snow.hardening", "soft, hard"}}, 4), "soft"));
   EXPECT_TRUE(contains(vary({{"material.snow.hardening", "1, 2"}}, 1), "at or after frame 1"));
