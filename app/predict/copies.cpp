@@ -37,8 +37,6 @@ void run(const scene::Scene& scene, int last, int threads, Progress& progress, C
       copy.failure = timeline.simulation().divergence() ? "it diverged" : "it was interrupted";
       return;
     }
-    copy.work += static_cast<double>(timeline.here().advance.steps) *
-                 static_cast<double>(timeline.simulation().particle_count());
     force = std::max(force, largest_force(timeline));
   }
   const record::Metrics end = record::measure(timeline.simulation().particles(), h);

@@ -24,11 +24,10 @@ struct Copy {
   double coarsening = 1;
   std::uint64_t seed = 1;
   std::string failure;  ///< why it has no end, a sentence; empty: it has
-  /// Of the end; the force is the largest on one collider, the mean over a frame.
+  /// At the last frame; the force is the largest mean over a frame that a collider felt.
   double values[quantity_count] = {};
   std::optional<bool> has_broken;  ///< nothing where there was no snow at the start
   double whole = 1;                ///< largest piece as a share of what it was at the start
-  double work = 0;                 ///< particles times steps
   double value(Quantity quantity) const { return values[static_cast<int>(quantity)]; }
 };
 
@@ -39,10 +38,11 @@ struct CopyPlan {
 };
 inline constexpr CopyPlan copy_plans[] = {{1.5, 1}, {2, 2}};
 
-/// Of the work of the run itself, as far as it follows from cells and steps alone.
+/// @return work of the copies over that of the run, as far as it follows from cells and steps
 double share_of_work();
 
-/// "runs 3 coarse copies (1 with --coarsen 1.5, 2 with 2), 32 % of the work of the run"
+/// "runs 3 coarse copies (1 with --coarsen 1.5, 2 with --coarsen 2), about 32 % of the work of the
+/// run"
 std::string cost_text();
 
 /// The finest first. Those that cannot run, or diverge, say so.

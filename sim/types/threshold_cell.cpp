@@ -10,7 +10,6 @@ double threshold_factor(const SolverSettings& settings) {
 
 Material in_cells(const Material& material, const SolverSettings& settings) {
   Material out = material;
-  if (!(settings.threshold_cell > 0)) return out;
   const double factor = threshold_factor(settings);
   if (material.model == Model::snow) {
     out.critical_stretch *= factor;
