@@ -53,7 +53,7 @@ scene::Scene falling_box(const BoxSize& size, const std::string& solver) {
           scene::toml::number_text(size.z) +
           "] } }\nvelocity = [0, -3, 0]\nsampling = \"lattice\"\n"
           "[[collider]]\nshape = { plane = { point = [0, 0, 0], "
-          "normal = [0, 1, 0] } }\n[output]\nsize = [640, 360]\n",
+          "normal = [0, 1, 0] } }\n[[view]]\nname = \"particles\"\n[output]\nsize = [640, 360]\n",
       "bench frame");
 }
 

@@ -29,6 +29,8 @@ shape = { sphere = { center = [0, 0.2, 0], radius = 0.16 } }
 velocity = [0, -3, 0]
 [[collider]]
 shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[[view]]
+name = "particles"
 [output]
 size = [480, 270]
 )";

@@ -290,8 +290,8 @@ class Edit {
   /// Views that every scene has are written down when something about them is.
   void add_view() {
     const bool has_views = root_.find("view") != nullptr;
-    const std::string first = "particles";  // the only one of a scene without views
-    if (!has_views && words_[1] != first) add_block("[[view]]" + line_end_ + named(first));
+    if (!has_views && words_[1] != first_view)
+      add_block("[[view]]" + line_end_ + named(first_view));
     add_block("[[view]]" + line_end_ + named(words_[1]));
     if (root_.find("view") && node_->kind == Kind::array) fail("its views are one array");
     Edit(text_, change_).make();

@@ -36,9 +36,9 @@ std::vector<View> built_in_views() {
 
 namespace {
 
-toml::Table table_of(const View& built_in) {
+toml::Table table_of(const std::string& built_in) {
   toml::Table view;
-  view.entries.push_back({"name", {}, {built_in.name}});
+  view.entries.push_back({"name", {}, {built_in}});
   return view;
 }
 
@@ -93,7 +93,7 @@ bool is_in_mosaic(const toml::Table& root, const std::string& name) {
 /// a --set or a mosaic speaks of.
 void add_views(toml::Table& root, const std::vector<Override>& overrides) {
   if (!root.find("view"))
-    root.entries.push_back({"view", {}, {toml::Array{toml::Value{table_of(View{})}}}});
+    root.entries.push_back({"view", {}, {toml::Array{toml::Value{table_of(first_view)}}}});
   toml::Array* views = std::get_if<toml::Array>(&root.find("view")->value.data);
   if (!views) return;
   for (const View& built_in : built_in_views()) {
@@ -104,7 +104,7 @@ void add_views(toml::Table& root, const std::vector<Override>& overrides) {
       return is_named(view, built_in.name);
     });
     const bool is_wanted = is_set || is_in_mosaic(root, built_in.name);
-    if (is_wanted && !is_there) views->push_back({table_of(built_in)});
+    if (is_wanted && !is_there) views->push_back({table_of(built_in.name)});
   }
   for (toml::Value& view : *views)
     if (toml::Table* table = std::get_if<toml::Table>(&view.data)) add_layers(*table);
@@ -131,10 +131,12 @@ void lay_covers(Scene& scene) {
     auto* cover = std::get_if<sim::shapes::Cover>(&body.shape.form);
     if (!cover) continue;
     for (const Collider& collider : scene.colliders) {
-      const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form);
-      if (!terrain || collider.name != cover->on) continue;
-      cover->ground = *terrain;
-      cover->turned = collider.shape.rotation.y();
+      if (collider.name != cover->on) continue;
+      const sim::shapes::Shape& shape = collider.shape;
+      if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&shape.form))
+        cover->ground = *terrain;
+      if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&shape.form)) cover->ground = *mesh;
+      cover->turned = shape.rotation;
     }
   }
 }

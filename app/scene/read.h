@@ -40,8 +40,11 @@ std::string write_scene(const Scene& scene);
 /// The same before it is text.
 toml::Table scene_table(const Scene& scene);
 
-/// Views that every scene has: particles, smoke and slice.
+/// Views that every scene has: particles, smoke, slice and snow.
 std::vector<View> built_in_views();
+
+/// The one that is drawn of a scene that names no view.
+inline constexpr const char* first_view = "snow";
 
 /// The view of this name, or the built-in one.
 /// @throws UsageError with the nearest name

@@ -14,6 +14,8 @@ constexpr const char* flap_scene = R"(
 frames = 4
 [solver]
 cell_size = 0.04
+[[view]]
+name = "particles"
 [[body]]
 shape = { box = { center = [0, 0.06, 0], size = [0.16, 0.1, 0.16] } }
 [[collider]]

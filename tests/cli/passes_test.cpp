@@ -15,6 +15,8 @@ frames = 3
 [solver]
 cell_size = 0.04
 gravity = [0, 0, 0]
+[[view]]
+name = "particles"
 [[body]]
 name = "ball"
 shape = { sphere = { center = [0, 0.3, 0], radius = 0.12 } }

@@ -18,6 +18,8 @@ frames = 1
 [solver]
 cell_size = 0.04
 gravity = [0, 0, 0]
+[[view]]
+name = "particles"
 [[body]]
 shape = { sphere = { center = [0, 0.3, 0], radius = 0.12 } }
 velocity = [3, 0, 0]

@@ -28,6 +28,8 @@ constexpr const char* block_scene = R"(
 frames = 2
 [solver]
 cell_size = 0.04
+[[view]]
+name = "particles"
 [[body]]
 name = "block"
 shape = { points = { file = "points/block.csv", center = [0, 0.05, 0] } }
@@ -165,6 +167,8 @@ frames = 6
 [solver]
 cell_size = 0.04
 transfer = "mls"
+[[view]]
+name = "particles"
 [[body]]
 name = "ball"
 shape = { sphere = { center = [0, 0.1, 0], radius = 0.08 } }

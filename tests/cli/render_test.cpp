@@ -96,7 +96,7 @@ TEST_F(Cli, AMosaicIsAFolderOfPicturesAndAMovieLikeAView) {
   for (const char* file : {"a/snow/0002.png", "a/speed/0002.png", "a/both/0002.png"})
     EXPECT_TRUE(exists(file)) << file;
   EXPECT_EQ(exists("a/both.mp4"), app::output::find_program("ffmpeg").has_value());
-  EXPECT_EQ(json_of("a/run.json")["views"], (app::Json{"snow", "speed", "both"}));
+  EXPECT_EQ(json_of("a/run.json")["views"], (app::Json{"particles", "snow", "speed", "both"}));
 
   // Alone, and again from its picture: the same bytes.
   ASSERT_EQ(

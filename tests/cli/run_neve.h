@@ -26,6 +26,8 @@ velocity = [0, -2, 0]
 [[collider]]
 name = "floor"
 shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[[view]]
+name = "particles"
 [output]
 size = [160, 90]
 )";
@@ -45,6 +47,8 @@ shape = { sphere = { center = [0, 0.08, 0], radius = 0.08 } }
 velocity = [0, -8, 0]
 [[collider]]
 shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[[view]]
+name = "particles"
 [output]
 size = [160, 90]
 )";

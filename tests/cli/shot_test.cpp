@@ -22,6 +22,8 @@ first_frame = 1001
 handles = 1
 [solver]
 cell_size = 0.08
+[[view]]
+name = "particles"
 [[body]]
 shape = { sphere = { center = [0, 0.3, 0], radius = 0.12 } }
 [output]
@@ -193,6 +195,8 @@ constexpr const char* map_scene = R"(
 frames = 0
 [solver]
 cell_size = 0.1
+[[view]]
+name = "particles"
 [[body]]
 name = "hut"
 shape = { mesh = { file = "hut.obj", coordinates = "world", rotation = [-90, 0, 0] } }

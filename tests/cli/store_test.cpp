@@ -128,6 +128,8 @@ TEST_F(Store, EveryDamageOfRunJsonIsNoticed) {
       other.resize(place);
     else
       other[place] = other[place] == '7' ? '8' : '7';
+    // An eighteenth digit of a number changes nothing.
+    if (app::Json::parse(other, nullptr, false) == app::Json::parse(text)) continue;
     folder.write("out/run.json", other);
     EXPECT_EQ(neve({"verify", "out"}).exit_code, 9) << k << ": " << other.substr(place, 40);
   }

@@ -107,7 +107,7 @@ TEST_F(StrangerPictures, ANameThatIsFoundInItsReplacementIsReplacedOnce) {
                "\"m.obj\", center = [0, 0.1, 0] } }\n[output]\nsize = [160, 90]\n");
   folder.write("m.obj", mesh);
   ASSERT_EQ(neve({"render", "m.toml", "--out", "m", "--quiet"}).exit_code, 0);
-  fs::copy_file(folder / "m/particles/0000.png", folder / (odd + "0000.png"));
+  fs::copy_file(folder / "m/snow/0000.png", folder / (odd + "0000.png"));
   fs::remove(folder / "m.obj");
   const auto again = neve({"render", odd + "0000.png", "--out", "again"});
   EXPECT_EQ(again.exit_code, 0) << again.errors;
@@ -204,10 +204,10 @@ TEST_F(StrangerPictures, FilesElsewhereAreReadAfterAWord) {
                "frames = 0\nsolver.cell_size = 0.02\n[[body]]\nshape = { mesh = { file = "
                "\"m.obj\", center = [0, 0.1, 0] } }\n[output]\nsize = [160, 90]\n");
   ASSERT_EQ(neve({"render", "project/m.toml", "--out", "project/m", "--quiet"}).exit_code, 0);
-  EXPECT_EQ(neve({"dump", "project/m/particles/0000.png", "--json"}).exit_code, 0)
+  EXPECT_EQ(neve({"dump", "project/m/snow/0000.png", "--json"}).exit_code, 0)
       << "in the folder of its run";
   fs::create_directories(folder / "mail");
-  fs::copy_file(folder / "project/m/particles/0000.png", folder / "mail/m.png");
+  fs::copy_file(folder / "project/m/snow/0000.png", folder / "mail/m.png");
   for (const char* command : {"render PICTURE", "view PICTURE --frames 1 --web", "check PICTURE",
                               "dump PICTURE", "strip PICTURE", "export PICTURE --format csv",
                               "compare PICTURE PICTURE --out c --mode beside"})
@@ -311,7 +311,7 @@ TEST_F(StrangerPictures, PicturesOfLongScenesAreReadAgain) {
             std::to_string(k / 80) + "], size = [0.04, 0.04, 0.04] } }\n";
   folder.write("long.toml", text);
   ASSERT_EQ(neve({"render", "long.toml", "--out", "long", "--quiet"}).exit_code, 0);
-  const auto again = neve({"dump", "long/particles/0000.png", "--at", "0", "--json"});
+  const auto again = neve({"dump", "long/snow/0000.png", "--at", "0", "--json"});
   EXPECT_EQ(again.exit_code, 0) << again.errors;
 }
 

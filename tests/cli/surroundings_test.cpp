@@ -20,7 +20,8 @@ TEST_F(Surroundings, ASceneIsReadFromStandardInputAndItsFolderHasAName) {
   folder.write("ball.obj",
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   folder.write("mesh.toml",
-               "[[body]]\nshape = { sphere = { center = [0, 2, 0], radius = 0.1 } }\n"
+               "[[view]]\nname = \"particles\"\n[[body]]\nshape = { sphere = { center = [0, 2, 0], "
+               "radius = 0.1 } }\n"
                "[[collider]]\nshape = { mesh = { file = \"ball.obj\" } }\n");
   EXPECT_EQ(shell("cat scene.toml | \"$0\" render - --frames 0-1 -q --no-movie").exit_code, 0);
   EXPECT_TRUE(exists("out/stdin/run.json"));

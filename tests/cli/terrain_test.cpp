@@ -22,6 +22,8 @@ name = "slope"
 file = "slope.asc"
 coordinates = "world"
 origin = [431000, 5254000, 1800]
+[[view]]
+name = "particles"
 [[body]]
 name = "slab"
 shape = { cover = { on = "slope", depth = 0.4, width = 1.5, length = 2, center = [4, 0, 3] } }

@@ -69,7 +69,13 @@ std::optional<scene::Preset> preset_in(const scene::Override& edit, const scene:
   return word ? scene::value_named<scene::Preset>(*word) : std::nullopt;
 }
 
+/// Films of a scene that names no view show snow; who looks inside begins with particles, which are
+/// drawn many times a second.
 void add_built_in_views(scene::Scene& scene) {
+  const scene::View& first = scene.views.front();
+  const bool names_none = scene.views.size() == 1 && first.name == scene::first_view &&
+                          first.layers == scene::find_view({}, first.name).layers;
+  if (names_none) scene.views.insert(scene.views.begin(), scene::built_in_views().front());
   for (const scene::View& built_in : scene::built_in_views()) {
     const bool is_there =
         std::any_of(scene.views.begin(), scene.views.end(),
