@@ -43,11 +43,17 @@ gravity = [0, -9.81, 0]
 
 # A kind of snow. Bodies name it; the one called "snow" is that of bodies that name none.
 [material.snow]
-@material.NAME.preset
-preset = "paper"
+@material.NAME.model
+model = "cam_clay"
 
-@material.NAME.critical_stretch
-critical_stretch = 0.005
+@material.NAME.preset
+preset = "quick"
+
+# Lumps, between which it breaks: how far its strength varies, and how large the lumps are in m.
+variation = { thresholds = 1.5, size = 0.1 }
+
+@material.NAME.min_J_P
+min_J_P = 0.44
 
 # A piece of snow. Each [[body]] is one more.
 [[body]]
@@ -56,10 +62,10 @@ name = "ball"
 
 # The volume to fill with snow: sphere, box, capsule, cylinder, cone, torus, mesh or points.
 # Centre and radius in m.
-shape = { sphere = { center = [-0.8, 0.45, 0], radius = 0.15 } }
+shape = { sphere = { center = [-0.7, 0.3, 0], radius = 0.14 } }
 
 @body.NAME.velocity
-velocity = [5, 1, 0]
+velocity = [6, 1, 0]
 
 @body.NAME.material
 material = "snow"
@@ -67,7 +73,7 @@ material = "snow"
 [[body]]
 # A second piece: a wall. Centre and edge lengths in m.
 name = "wall"
-shape = { box = { center = [0.2, 0.25, 0], size = [0.2, 0.5, 0.6] } }
+shape = { box = { center = [0, 0.25, 0], size = [0.2, 0.5, 0.7] } }
 
 # A solid that snow cannot enter. Each [[collider]] is one more; it may move (velocity, keyframes).
 [[collider]]
@@ -83,7 +89,8 @@ contact = "separate"
 @collider.NAME.friction
 friction = 0.5
 
-# The pictures. Without a [camera] they frame the whole scene.
+# The pictures. Without a [camera] they frame the whole scene, and without a [[view]] they show snow;
+# --view particles, smoke or slice look into it.
 [output]
 @output.size
 size = [1280, 720]
