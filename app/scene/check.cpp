@@ -164,7 +164,12 @@ Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
   // Its place is found when the whole scene is known.
   if (sim::shapes::needs_place(shape)) return {};
   if (const auto* cover = std::get_if<sim::shapes::Cover>(&shape.form))
-    if (sim::shapes::needs_place({cover->ground, {}})) return {};
+    if (std::visit(
+            [](const auto& ground) {
+              return sim::shapes::needs_place({ground, {}});
+            },
+            cover->ground))
+      return {};
   return ready_problem(address, [&] {
     const sim::shapes::Bounds b = sim::shapes::Solid(shape).bounds();
     return too_far(scene, b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()), at);
@@ -209,12 +214,15 @@ Found cover_problem(const Scene& scene, const sim::shapes::Shape& shape,
   std::vector<std::string> names;
   for (const Collider& collider : scene.colliders) {
     const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form);
-    if (terrain) names.push_back(collider.name);
+    const bool is_mesh = std::holds_alternative<sim::shapes::Mesh>(collider.shape.form);
+    if (terrain || is_mesh) names.push_back(collider.name);
     if (collider.name != cover->on) continue;
-    if (!terrain)
+    if (!terrain && !is_mesh)
       return Problem{
-          at, "collider " + cover->on + " is not a terrain",
-          "a cover lies on a collider with shape = { terrain = { file = \"NAME.asc\" } }"};
+          at, "collider " + cover->on + " is neither a terrain nor a mesh",
+          "a cover lies on a collider with shape = { terrain = { file = \"NAME.asc\" } } "
+          "or { mesh = { file = \"NAME.obj\" } }"};
+    if (!terrain) continue;
     if (collider.shape.rotation.x() != 0 || collider.shape.rotation.z() != 0)
       return Problem{"collider." + collider.name + ".shape.rotation",
                      "a terrain that is tilted carries no cover",
@@ -222,11 +230,11 @@ Found cover_problem(const Scene& scene, const sim::shapes::Shape& shape,
     require_room_for(*terrain);
   }
   if (std::ranges::find(names, cover->on) == names.end())
-    return Problem{at,
-                   "there is no collider " + toml::toml_string(cover->on) + " that is a terrain",
-                   names.empty() ? "give on = the name of one" : name_advice(cover->on, names)};
+    return Problem{
+        at, "there is no collider " + toml::toml_string(cover->on) + " that is a terrain or a mesh",
+        names.empty() ? "give on = the name of one" : name_advice(cover->on, names)};
   if (shape.rotation.x() != 0 || shape.rotation.z() != 0)
-    return Problem{address + ".shape.rotation", "a cover lies on its terrain and cannot be tilted",
+    return Problem{address + ".shape.rotation", "a cover lies on its ground and cannot be tilted",
                    "turn its outline about y alone: rotation = [0, ANGLE, 0]"};
   return {};
 }

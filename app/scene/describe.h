@@ -325,7 +325,8 @@ void describe(V& visit, sim::shapes::Terrain& t, Change change) {
 
 template <class V>
 void describe(V& visit, sim::shapes::Cover& c, Change change) {
-  visit("on", c.on, unit::none, identifier, change, "Name of the collider, a terrain, it lies on.");
+  visit("on", c.on, unit::none, identifier, change,
+        "Name of the collider that it lies on, a terrain or a mesh.");
   visit("depth", c.depth, unit::metre, needed_length, change,
         "Vertical distance from the ground to the surface of the snow.");
   visit("width", c.width, unit::metre, at_least(0).at_most(1e6), change,

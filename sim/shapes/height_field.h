@@ -102,9 +102,9 @@ Vec3d middle_of(const Terrain& terrain);
 /// The block of ground, from the surface to a spacing below the lowest post.
 std::unique_ptr<const Form> make_terrain_solid(const Terrain& terrain);
 
-/// Snow on a terrain. Its volume is exact: the area of the outline times the depth.
+/// Snow on a terrain or a mesh. Its volume is exact: the area of the outline times the depth.
 /// @param turned  degrees about y, of the cover
-/// @throws ShapeError where it reaches over holes or beyond the posts
+/// @throws ShapeError where it reaches over holes or beyond the ground
 std::unique_ptr<const Form> make_cover_solid(const Cover& cover, double turned);
 
 }  // namespace neve::sim::shapes

@@ -88,16 +88,16 @@ struct Terrain {
   Coordinates coordinates = Coordinates::own;
   Vec3d origin{0, 0, 0};  ///< east, north and up in the file that are taken for its origin
 };
-/// Snow on a terrain, between its surface and a depth straight above it, within a rectangle or,
-/// with a radius, a disc. Rotation is about y alone.
+/// Snow on a terrain or a mesh, between its surface, the highest where there are several, and a
+/// depth straight above it, within a rectangle or, with a radius, a disc. Rotation is about y alone.
 struct Cover {
   std::string on;                ///< name of a collider
   double depth = 0.1;            ///< m, vertical
   double width = 0, length = 0;  ///< m, along x and z
   double radius = 0;             ///< m
-  Vec3d center{0, 0, 0};         ///< middle of the outline; y: how far above the terrain it lies
-  Terrain ground{};              ///< of that collider
-  double turned = 0;             ///< degrees, of that collider about y
+  Vec3d center{0, 0, 0};         ///< middle of the outline; y: how far above the ground it lies
+  std::variant<Terrain, Mesh> ground{};  ///< of that collider
+  Vec3d turned{0, 0, 0};                 ///< degrees, of that collider
 };
 
 struct Shape {

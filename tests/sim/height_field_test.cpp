@@ -234,7 +234,7 @@ TEST_F(HeightFields, SeedingFillsACoverFromTheGroundToItsDepth) {
     EXPECT_NEAR(seeded.volume, 0.5 * 3 * 2.5, 1e-12);
     const double expected = seeded.volume * 8 / 0.001;
     EXPECT_NEAR(static_cast<double>(seeded.x.size()), expected, 0.01 * expected);
-    const auto field = shapes::height_field(cover.ground);
+    const auto field = shapes::height_field(std::get<Terrain>(cover.ground));
     double mean = 0;
     for (const Vec3d& x : seeded.x) {
       const double above = x.y() - 0.25 - field->at(x.x(), x.z())->height;
