@@ -7,6 +7,7 @@
 
 #include "app/support/clock.h"
 #include "app/support/interrupt.h"
+#include "app/view/panels/beside.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/style.h"
 #include "app/view/panels/tip.h"
@@ -180,6 +181,7 @@ void Viewer::draw() {
   front_.set_progress(live.scene ? scene::number_of(*live.scene, live.frame) : live.frame,
                       live.is_running);
   front_.set_typing(ImGui::GetIO().WantTextInput);
+  front_.set_scrolling(panels::scroll_places());
   front_.show(screen_);
   state_.picture_ms = 1e3 * seconds_since(start);
   state_.frames_per_second = 0.9 * state_.frames_per_second + 0.1 / std::max(passed, 1e-3);

@@ -180,6 +180,44 @@ TEST_F(Browser, PinchOnATouchPadIsAWheelWithoutCtrl) {
   }));
 }
 
+/// A swipe that begins on a slider of a list scrolls the list and changes nothing.
+TEST_F(Browser, AFingerScrollsAListAndDragsSideways) {
+  browser->call("Emulation.setTouchEmulationEnabled", {{"enabled", true}, {"maxTouchPoints", 2}});
+  open();
+  front->set_scrolling({{0, 100, 200, 200, 50}});
+  EXPECT_TRUE(show_until([&] { return is_true("scrolls.length === 1"); }))
+      << "the page knows the list";
+  const auto pressed = [&] {
+    return std::any_of(events.begin(), events.end(), [](const InputEvent& event) {
+      return event.kind == Kind::button && event.is_down;
+    });
+  };
+  events.clear();
+  browser->touch("touchStart", {{100, 250}});
+  browser->touch("touchMove", {{103, 220}});
+  browser->touch("touchMove", {{104, 150}});
+  browser->touch("touchEnd", {});
+  EXPECT_TRUE(wait_for_move(-100000, -100000));
+  float notches = 0;
+  for (const InputEvent& event : events)
+    if (event.kind == Kind::wheel) notches += event.y;
+  // 100 pixels up, 50 to a notch; the page rounds each move to hundredths.
+  EXPECT_NEAR(notches, -2, 0.02);
+  EXPECT_FALSE(pressed());
+  // Sideways, and beside the list, it drags.
+  for (const auto& [from, to] : {std::pair(std::pair(100, 250), std::pair(160, 240)),
+                                 std::pair(std::pair(300, 250), std::pair(300, 150))}) {
+    events.clear();
+    browser->touch("touchStart", {{from.first, from.second}});
+    browser->touch("touchMove", {{(from.first + to.first) / 2, (from.second + to.second) / 2}});
+    browser->touch("touchMove", {{to.first, to.second}});
+    browser->touch("touchEnd", {});
+    EXPECT_TRUE(wait_for_button(0, false, to.first, to.second));
+    EXPECT_TRUE(pressed());
+  }
+  browser->call("Emulation.setTouchEmulationEnabled", {{"enabled", false}});
+}
+
 TEST_F(Browser, FingersAreButtonsAndWheel) {
   browser->call("Emulation.setTouchEmulationEnabled", {{"enabled", true}, {"maxTouchPoints", 2}});
   open();

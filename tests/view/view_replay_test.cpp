@@ -1,6 +1,7 @@
 /// `neve view` as a person uses it, whose hand is a script.
 
 #include <algorithm>
+#include <array>
 
 #include "app/output/atomic_file.h"
 #include "app/support/errors.h"
@@ -268,6 +269,40 @@ TEST_F(ViewByScript, TheTourHasTenStepsAndEnds) {
     SKIP_WITHOUT_GL(result);
     EXPECT_EQ(result.exit_code, 0) << size << ": " << result.errors;
   }
+}
+
+/// Middle of what differs between two pictures, px: the button that lights up under the mouse.
+std::array<int, 2> middle_of_change(const render::Image& a, const render::Image& b) {
+  int left = a.width, right = 0, top = a.height, bottom = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x) {
+      const std::size_t k = (static_cast<std::size_t>(y) * a.width + x) * a.channels;
+      if (std::equal(a.pixels.begin() + k, a.pixels.begin() + k + a.channels, b.pixels.begin() + k))
+        continue;
+      left = std::min(left, x);
+      right = std::max(right, x);
+      top = std::min(top, y);
+      bottom = std::max(bottom, y);
+    }
+  return {(left + right) / 2, (top + bottom) / 2};
+}
+
+/// A hand that stays where it is clicks through the tour: no other button comes to lie there.
+TEST_F(ViewByScript, TheTourIsClickedThroughAtOnePlace) {
+  const auto found = view(R"([{"resize": [1280, 760]}, {"wait": 3}, {"click": "Tour"}, {"wait": 4},
+    {"screenshot": "before.png"}, {"move": "Next"}, {"wait": 4}, {"screenshot": "lit.png"}])");
+  SKIP_WITHOUT_GL(found);
+  ASSERT_EQ(found.exit_code, 0) << found.errors;
+  const auto image = [&](const char* name) {
+    return render::decode_png(app::output::read_file(folder / "out" / name));
+  };
+  const auto [x, y] = middle_of_change(image("before.png"), image("lit.png"));
+  std::string script = R"([{"resize": [1280, 760]}, {"wait": 3}, {"click": "Tour"}, {"wait": 4})";
+  for (int step = 0; step < 9; ++step)
+    script +=
+        ", {\"click\": [" + std::to_string(x) + ", " + std::to_string(y) + "]}, {\"wait\": 3}";
+  const auto clicked = view(script + R"(, {"wait_for": "label Done"}])");
+  EXPECT_EQ(clicked.exit_code, 0) << clicked.errors;
 }
 
 /// The list of keys is beside what it explains, in any window.

@@ -42,6 +42,13 @@ struct ScreenSize {
   float scale = 1;                 ///< px per point: 2 on a screen with high resolution
 };
 
+/// A list that has more than it shows, in pixels of the screen.
+struct ScrollPlace {
+  float x, y, width, height;
+  float notch;  ///< how far a notch of the wheel scrolls it
+  bool operator==(const ScrollPlace&) const = default;
+};
+
 class Frontend {
  public:
   virtual ~Frontend() = default;
@@ -77,6 +84,9 @@ class Frontend {
 
   /// Tells whether a text field waits for input: a phone shows its keyboard.
   virtual void set_typing(bool /*is_wanted*/) {}
+
+  /// Tells where a finger scrolls that moves up or down; elsewhere it drags.
+  virtual void set_scrolling(const std::vector<ScrollPlace>& /*places*/) {}
 
   /// True if the user is at another machine, which offer() sends files to.
   virtual bool takes_files() const { return false; }

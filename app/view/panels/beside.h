@@ -3,6 +3,9 @@
 
 #include <imgui.h>
 
+#include <vector>
+
+#include "app/view/frontend/frontend.h"
 #include "app/view/panels/viewer_state.h"
 
 namespace neve::app::view::panels {
@@ -14,5 +17,8 @@ struct PanelPlace {
 /// The right column, else the left one, else all that is below the picture. Hidden panels come
 /// back.
 PanelPlace column_beside(ViewerState& state);
+
+/// All lists of this picture that have more than they show.
+std::vector<frontend::ScrollPlace> scroll_places();
 
 }  // namespace neve::app::view::panels

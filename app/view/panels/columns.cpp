@@ -1,6 +1,6 @@
 /// The columns beside the picture, and questions above it.
 
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -53,6 +53,18 @@ PanelPlace column_beside(ViewerState& state) {
   if (state.panels.is_stacked) return {ImVec2(0, below), ImVec2(all.x, all.y - below)};
   if (right < all.x) return {ImVec2(right, y), ImVec2(all.x - right, all.y - y)};
   return {ImVec2(0, y), ImVec2(std::max(x, 1.0f), all.y - y)};
+}
+
+std::vector<frontend::ScrollPlace> scroll_places() {
+  std::vector<frontend::ScrollPlace> places;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (!window->WasActive || window->Hidden || window->ScrollMax.y <= 0) continue;
+    const ImRect& place = window->InnerRect;
+    // As ImGui moves a window for a notch of the wheel.
+    const float notch = std::min(5 * window->CalcFontSize(), 0.67f * place.GetHeight());
+    places.push_back({place.Min.x, place.Min.y, place.GetWidth(), place.GetHeight(), notch});
+  }
+  return places;
 }
 
 void draw_left_column(ViewerState& state) {

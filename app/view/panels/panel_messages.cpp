@@ -1,5 +1,6 @@
 /// Messages and incidents, the time line of kept frames, help.
 
+#include <fmt/core.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -118,8 +119,9 @@ void draw_time_line(ViewerState& state) {
   ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x +
                   ImGui::CalcTextSize(("frame " + std::to_string(start + last)).c_str()).x +
                   0.6f * em());
-  const bool is_short = ImGui::GetContentRegionAvail().x < (live.is_older ? 40 : 26) * em();
-  const float right = (live.is_older ? (is_short ? 12 : 26) : is_short ? 4 : 19) * em();
+  // As wide whichever frame is shown, so that no button comes to lie where another was.
+  const bool is_short = ImGui::GetContentRegionAvail().x < 40 * em();
+  const float right = (is_short ? 13 : 26) * em();
   ImGui::SetNextItemWidth(std::max(4 * em(), ImGui::GetContentRegionAvail().x - right));
   int frame = start + live.frame;
   const bool is_typed = ImGui::TempInputIsActive(ImGui::GetID("##time"));
@@ -131,26 +133,26 @@ void draw_time_line(ViewerState& state) {
     show_frame(state, std::clamp(frame - start, 0, live.head));
   }
   note_label("time line");
+  tip(fmt::format("{} frames are kept, {}; beyond {} older ones are thinned out", live.kept.size(),
+                  bytes_text(live.kept_bytes), bytes_text(live.kept_budget))
+          .c_str());
   draw_ticks(live, last);
-  ImGui::SameLine();
-  if (ImGui::Button(is_short ? "Vary" : "Vary from here")) open_study(state);
-  note_label("Vary from here");
-  tip("runs that begin at this frame, with other values");
-  if (is_short && !live.is_older) return;
-  ImGui::SameLine();
-  if (live.is_older) {
-    if (ImGui::Button(is_short ? "Continue" : "Continue from here"))
-      state.bench.continue_from_here();
-    note_label("Continue from here");
-    tip("simulate from this frame with the current values;\nlater frames are dropped");
+  const auto button = [&](const char* name, const char* short_name, bool is_on, const char* help) {
     ImGui::SameLine();
-    if (ImGui::Button(is_short ? "Back" : "Back to the run")) state.bench.session().show_head();
-    note_label("Back to the run");
-    tip("show the newest frame");
-  } else {
-    ImGui::TextDisabled("%zu kept, %s", live.kept.size(), bytes_text(live.kept_bytes).c_str());
-    tip(("up to " + bytes_text(live.kept_budget) + "; then older frames are thinned out").c_str());
-  }
+    ImGui::BeginDisabled(!is_on);
+    const bool is_pressed = ImGui::Button(is_short ? short_name : name);
+    ImGui::EndDisabled();
+    note_label(name);
+    tip(help);
+    return is_pressed;
+  };
+  if (button("Vary from here", "Vary", true, "runs that begin at this frame, with other values"))
+    open_study(state);
+  if (button("Continue from here", "Continue", live.is_older,
+             "simulate from this frame with the current values;\nlater frames are dropped"))
+    state.bench.continue_from_here();
+  if (button("Back to the run", "Back", live.is_older, "show the newest frame"))
+    state.bench.session().show_head();
 }
 
 void draw_help(ViewerState& state) {

@@ -56,20 +56,39 @@ bool is_removed(const ViewerState& state, const std::string& address) {
          });
 }
 
-void draw_waiting(ViewerState& state) {
-  const std::vector<std::string> waiting = state.bench.waiting_for_reset();
-  if (waiting.empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4(0.30f, 0.20f, 0.05f, 0.9f));
-  ImGui::BeginChild("waiting", ImVec2(0, 4.3f * em()), true);
-  std::string list;
-  for (const std::string& address : waiting)
-    list += (list.empty() ? "" : ", ") + address + (is_removed(state, address) ? " (removed)" : "");
-  wrapped_text("waits for Reset: " + list);
-  if (ImGui::SmallButton("Reset now")) state.bench.reset();
-  note_label("Reset now");
-  ImGui::EndChild();
-  ImGui::PopStyleColor();
-}
+/// What waits for Reset, below the list, where it moves nothing that a hand is about to click.
+class WaitingBox {
+ public:
+  explicit WaitingBox(ViewerState& state)
+      : state_(state), waiting_(state.bench.waiting_for_reset()) {}
+
+  /// Of the list above it, which takes what is left.
+  ImVec2 size_of_list() const {
+    const float below = ImGui::GetStyle().ItemSpacing.y + height();
+    return {0, waiting_.empty() ? 0 : -below};
+  }
+
+  void draw() {
+    if (waiting_.empty()) return;
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4(0.30f, 0.20f, 0.05f, 0.9f));
+    ImGui::BeginChild("waiting", ImVec2(0, height()), true);
+    std::string list;
+    for (const std::string& address : waiting_)
+      list +=
+          (list.empty() ? "" : ", ") + address + (is_removed(state_, address) ? " (removed)" : "");
+    wrapped_text("waits for Reset: " + list);
+    if (ImGui::SmallButton("Reset now")) state_.bench.reset();
+    note_label("Reset now");
+    ImGui::EndChild();
+    ImGui::PopStyleColor();
+  }
+
+ private:
+  static float height() { return 4.3f * em(); }
+
+  ViewerState& state_;
+  std::vector<std::string> waiting_;
+};
 
 /// The range of colours that the selected body, or all snow, fills now.
 void fit_range(ViewerState& state, const scene::View& view) {
@@ -141,14 +160,14 @@ void draw_view_list(ViewerState& state, const std::vector<scene::View>& views) {
 }  // namespace
 
 void draw_parameters(ViewerState& state) {
-  draw_waiting(state);
   char text[128];
   std::snprintf(text, sizeof text, "%s", state.filter.c_str());
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::InputTextWithHint("##filter", "find a parameter", text, sizeof text))
     state.filter = text;
   note_label("find a parameter");
-  ImGui::BeginChild("list");
+  WaitingBox waiting(state);
+  ImGui::BeginChild("list", waiting.size_of_list());
   scene::Scene scene = settings_of(state);
   KnobPanel panel(state.filter, changed_addresses(state.bench.document()));
   Knobs knobs(panel, "");
@@ -160,6 +179,7 @@ void draw_parameters(ViewerState& state) {
     ImGui::PopTextWrapPos();
   }
   ImGui::EndChild();
+  waiting.draw();
   take_edits(state, panel);
 }
 
@@ -246,7 +266,7 @@ void forget_removed_selection(ViewerState& state, const scene::Scene& scene) {
 }  // namespace
 
 void draw_objects(ViewerState& state) {
-  draw_waiting(state);
+  WaitingBox waiting(state);
   forget_removed_selection(state, *state.bench.document().scene());
   draw_object_buttons(state);
   scene::Scene scene = settings_of(state);
@@ -268,7 +288,7 @@ void draw_objects(ViewerState& state) {
   for (const scene::Collider& collider : scene.colliders)
     entry("collider." + collider.name, collider.shape);
   ImGui::Separator();
-  ImGui::BeginChild("object");
+  ImGui::BeginChild("object", waiting.size_of_list());
   KnobPanel panel("", changed_addresses(state.bench.document()));
   const auto knobs_of = [&](const char* list, auto& items) {
     for (auto& item : items)
@@ -283,6 +303,7 @@ void draw_objects(ViewerState& state) {
   knobs_of("collider.", scene.colliders);
   if (state.selected.empty()) ImGui::TextDisabled("Select an object to move or change it.");
   ImGui::EndChild();
+  waiting.draw();
   take_edits(state, panel);
 }
 

@@ -99,12 +99,15 @@ void draw_tour(ViewerState& state) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(stop.text);
     ImGui::PopTextWrapPos();
-    const auto button = [&](const char* label, int to) {
+    // At one place in every step, so that a hand that stays where it is goes on through the tour.
+    const auto button = [&](const char* label, int to, bool is_on = true) {
+      ImGui::BeginDisabled(!is_on);
       if (ImGui::Button(label)) go_to(state, to);
+      ImGui::EndDisabled();
       note_label(label);
       ImGui::SameLine();
     };
-    if (step > 0) button("Previous", step - 1);
+    button("Previous", step - 1, step > 0);
     button(step < last ? "Next" : "Done", step + 1);
     if (step < last) button("End the tour", last + 1);
     ImGui::TextDisabled("%d of %d", step + 1, last + 1);

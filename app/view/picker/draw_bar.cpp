@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "app/view/panels/labels.h"
@@ -15,7 +16,7 @@ namespace neve::app::view::picker {
 namespace {
 
 struct Answer {
-  const char* name;
+  const char* name;        ///< "": nothing is here now
   const char* short_name;  ///< where there is little room
   const char* help;
   bool is_on;  ///< can be given now
@@ -23,13 +24,16 @@ struct Answer {
   Wish::Kind wish;  ///< nothing: it only changes what the next click means
 };
 
+/// "Take back" has one place, and where "Stop and write the pick" was nothing comes under the hand
+/// that has just clicked it.
 std::vector<Answer> answers_of(const PickerState& state) {
   if (state.phase == Phase::over)
-    return {{"Continue", "Continue", "More rounds of the same search", !state.game.is_over(), false,
+    return {{"Done", "Done", "Ends neve (Q); all files stay", true, true, Wish::Kind::done},
+            {"Continue", "Continue", "More rounds of the same search", !state.game.is_over(), false,
              Wish::Kind::more_rounds},
             {"Take back", "Take back", "Takes the last answer back (U)", state.can_undo(), false,
              Wish::Kind::undo},
-            {"Done", "Done", "Ends neve (Q); all files stay", true, true, Wish::Kind::done}};
+            {"", "", "", false, false, Wish::Kind::nothing}};
   if (state.phase == Phase::stuck)
     return {
         {"Try again", "Try again", "Does the same again", true, true, Wish::Kind::try_again},
@@ -56,6 +60,7 @@ void give(PickerState& state, const Answer& answer) {
 }
 
 void draw_answer(PickerState& state, const Answer& answer, const char* name, ImVec2 size) {
+  if (*name == '\0') return ImGui::Dummy(size);
   if (!answer.is_on) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.4f);
   if (answer.is_lit) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.24f, 0.45f, 0.70f, 1));
   const bool is_pressed = ImGui::Button(name, size);
@@ -102,11 +107,17 @@ void draw_buttons_of_phone(PickerState& state) {
   }
 }
 
+/// The widest word that each place of the bar ever has: no answer moves when the words change.
+constexpr std::array slots{"Two are equal", "None of them", "Take back", "Stop and write the pick"};
+
+float width_of_slot(std::size_t k) {
+  return ImGui::CalcTextSize(slots[k]).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
 float width_of(const std::vector<Answer>& answers) {
-  const ImGuiStyle& style = ImGui::GetStyle();
   float width = 0;
-  for (const Answer& answer : answers)
-    width += ImGui::CalcTextSize(answer.name).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  for (std::size_t k = 0; k < answers.size(); ++k)
+    width += width_of_slot(k) + ImGui::GetStyle().ItemSpacing.x;
   return width;
 }
 
@@ -146,8 +157,8 @@ void draw_bar(PickerState& state) {
   draw_text(status_of(state), "status", status_color);
   ImGui::PopClipRect();
   ImGui::SetCursorPos(ImVec2(left, row));
-  for (const Answer& answer : answers) {
-    draw_answer(state, answer, answer.name, ImVec2(0, 0));
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    draw_answer(state, answers[k], answers[k].name, ImVec2(width_of_slot(k), 0));
     ImGui::SameLine();
   }
 }

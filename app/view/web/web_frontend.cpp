@@ -1,5 +1,7 @@
 #include "app/view/web/web_frontend.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -229,6 +231,17 @@ void WebFrontend::set_typing(bool is_wanted) {
   tell(page_text("typing", is_typing_ ? "on" : "off"));
 }
 
+void WebFrontend::set_scrolling(const std::vector<frontend::ScrollPlace>& places) {
+  std::string text;
+  for (const frontend::ScrollPlace& place : places)
+    text += fmt::format("{}{:.0f} {:.0f} {:.0f} {:.0f} {:.0f}", text.empty() ? "" : ";", place.x,
+                        place.y, place.width, place.height, place.notch);
+  const std::lock_guard lock(mutex_);
+  if (scrolls_ == text) return;
+  scrolls_ = text;
+  tell(page_text("scrolls", scrolls_));
+}
+
 void WebFrontend::set_title(const std::string& title) {
   const std::lock_guard lock(mutex_);
   if (title_ == title) return;
@@ -252,6 +265,7 @@ void WebFrontend::on_viewer(std::uint64_t viewer) {
     tell(page_text("title", title_));
     tell(page_text("cursor", cursor_));
     if (is_typing_) tell(page_text("typing", "on"));
+    if (!scrolls_.empty()) tell(page_text("scrolls", scrolls_));
   }
   changed_.notify_all();
 }

@@ -71,6 +71,7 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
   void show_image(render::Image image);
 
   void set_typing(bool is_wanted) override;
+  void set_scrolling(const std::vector<frontend::ScrollPlace>& places) override;
   void set_cursor(Cursor cursor);
   /// Sets the title of the page, shown in the browser's tab.
   void set_title(const std::string& title);
@@ -104,6 +105,7 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
   FramePacing pacing_;
   frontend::ScreenSize size_;
   std::string clipboard_, cursor_ = "default", title_ = "neve";
+  std::string scrolls_;       ///< "x y width height notch" of each list, between semicolons
   std::uint64_t viewer_ = 0;  ///< 0: no page is connected
   bool has_told_size_ = false, is_visible_ = true;
   bool is_typing_ = false;  ///< a text field waits for input
