@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "sim/engine/engine.h"
+#include "sim/laws/threshold_cell.h"
 #include "sim/rasterize.h"
 #include "sim/staged.h"
-#include "sim/types/threshold_cell.h"
 
 namespace neve::sim {
 
@@ -15,8 +15,8 @@ Simulation::Simulation(const SolverSettings& settings, const std::vector<Materia
                        const seeding::Flow& flow) {
   const auto make = [&]<class Real>(Real) {
     stepper_ =
-        std::make_unique<engine::Engine<Real>>(settings, in_cells(materials, settings), colliders,
-                                               particles, threads, lattice_origin, flow);
+        std::make_unique<engine::Engine<Real>>(settings, laws::in_cells(materials, settings),
+                                               colliders, particles, threads, lattice_origin, flow);
   };
   if (settings.precision == Precision::real64)
     make(double());
@@ -83,7 +83,7 @@ AdvanceReport Simulation::advance_to(double time, const StepObserver& after_step
 }
 void Simulation::apply(const SolverSettings& settings, const std::vector<Material>& materials,
                        const std::vector<shapes::Collider>& colliders) {
-  stepper_->apply(settings, in_cells(materials, settings), colliders);
+  stepper_->apply(settings, laws::in_cells(materials, settings), colliders);
 }
 std::vector<std::uint8_t> Simulation::save() const {
   return stepper_->save();

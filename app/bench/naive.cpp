@@ -85,7 +85,7 @@ NaiveSnow::NaiveSnow(const sim::SolverSettings& settings, const sim::Material& m
   const bool is_mls =
       settings.transfer == sim::Transfer::mls && settings.kernel == sim::Kernel::quadratic;
   if (!(is_flip || is_mls) || settings.advect != sim::Advect::particle ||
-      material.model != sim::Model::snow)
+      material.model != sim::Model{})
     throw std::invalid_argument("the naive code has only FLIP cubic and MLS quadratic snow");
   if (in.V0.size() != in.x.size()) throw std::invalid_argument("the naive code needs volumes");
   for (std::size_t q = 0; q < in.x.size(); ++q)
@@ -121,7 +121,7 @@ void NaiveSnow::fit_grid() {
   nodes_.assign(static_cast<std::size_t>(size_.x()) * size_.y() * size_.z(), Node{});
 }
 
-/// Hardened fixed-corotated stress times J: tau = 2 mu (F_E - R) F_E^T + lambda (J_E - 1) J_E I.
+/// Hardened stress of the paper times J: tau = 2 mu (F_E - R) F_E^T + lambda (J_E - 1) J_E I.
 Mat3 NaiveSnow::kirchhoff_stress(const Particle& p) const {
   const double hardening = std::exp(material_.hardening * (1 - p.F_P.determinant()));
   const Eigen::JacobiSVD<Mat3> svd(p.F_E, Eigen::ComputeFullU | Eigen::ComputeFullV);

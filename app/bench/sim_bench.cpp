@@ -11,6 +11,7 @@
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::bench {
 
@@ -35,23 +36,27 @@ constexpr ThinSpray thin_sprays[] = {{"spray_lattice", 14, SprayPlaces::on_a_lat
 struct Variant {
   BenchMethod method;
   sim::Precision precision;
-  sim::Model model = sim::Model::snow;
+  sim::Model model{};
 };
 
 /// The methods in the tables, and those with a naive counterpart.
 constexpr BenchMethod main_methods[] = {BenchMethod::mls_quadratic, BenchMethod::flip_cubic};
-constexpr Variant variants[] = {
-    {BenchMethod::mls_quadratic, sim::Precision::single},
-    {BenchMethod::flip_cubic, sim::Precision::single},
-    {BenchMethod::apic_cubic, sim::Precision::single},
-    {BenchMethod::asflip_cubic, sim::Precision::single},
-    {BenchMethod::mls_quadratic, sim::Precision::real64},
-    {BenchMethod::flip_cubic, sim::Precision::real64},
-    {BenchMethod::mls_quadratic, sim::Precision::single, sim::Model::cam_clay},
-    {BenchMethod::flip_cubic, sim::Precision::single, sim::Model::cam_clay}};
+std::vector<Variant> all_variants() {
+  using enum sim::Precision;
+  std::vector<Variant> all{
+      {BenchMethod::mls_quadratic, single}, {BenchMethod::flip_cubic, single},
+      {BenchMethod::apic_cubic, single},    {BenchMethod::asflip_cubic, single},
+      {BenchMethod::mls_quadratic, real64}, {BenchMethod::flip_cubic, real64}};
+  for (const sim::laws::Law& law : sim::laws::every())
+    for (const BenchMethod method : main_methods)
+      if (law.is_benched) all.push_back({method, single, law.model});
+  return all;
+}
 
 std::string variant_name(const Variant& v) {
-  return std::string(name(v.method)) + (v.model == sim::Model::cam_clay ? "_cam_clay" : "") +
+  const std::string law =
+      v.model == sim::Model{} ? "" : std::string("_") + sim::laws::of(v.model).name;
+  return std::string(name(v.method)) + law +
          (v.precision == sim::Precision::single ? "_float" : "_double");
 }
 
@@ -146,7 +151,7 @@ std::vector<BenchRow> SimBench::run() {
 }
 
 void SimBench::measure_variants() {
-  for (const Variant& variant : variants) {
+  for (const Variant& variant : all_variants()) {
     BenchCase c = packed_case(cells_, variant.method, variant.precision);
     c.material.model = variant.model;
     runs_[variant_name(variant)].add(time_run(c, threads_, variant_name(variant)));
@@ -210,7 +215,7 @@ void SimBench::add_throughput(const Variant& variant) {
   r.value = runs_.at(name).throughput();
   r.phases = runs_.at(name).phases();
   const auto race = races_.find(variant.method);
-  if (race != races_.end() && variant.model == sim::Model::snow)
+  if (race != races_.end() && variant.model == sim::Model{})
     r.ratio_to_naive = race->second.ratio(variant.precision);
   rows_.push_back(r);
 }
@@ -269,7 +274,7 @@ void SimBench::add_flow(BenchMethod method) {
 }
 
 void SimBench::gather_rows() {
-  for (const Variant& variant : variants) add_throughput(variant);
+  for (const Variant& variant : all_variants()) add_throughput(variant);
   for (const BenchMethod method : main_methods) add_one_thread(method);
   for (const BenchMethod method : main_methods) add_naive(method);
   // One core cannot tell.

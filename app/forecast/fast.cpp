@@ -10,6 +10,7 @@
 #include "app/scene/toml/value.h"
 #include "app/setup/coarse_run.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::forecast {
 
@@ -37,7 +38,7 @@ double fast_cfl(const scene::Scene& scene) {
   if (s.transfer != sim::Transfer::flip) return flip_cfl;
   const bool is_snow =
       std::all_of(scene.materials.begin(), scene.materials.end(), [](const sim::Material& m) {
-        return m.model == sim::Model::snow && m.poisson_ratio <= longest_steps_poisson_ratio;
+        return m.model == sim::Model{} && m.poisson_ratio <= longest_steps_poisson_ratio;
       });
   return is_snow && s.kernel == sim::Kernel::cubic ? flip_snow_cfl : flip_cfl;
 }
@@ -71,7 +72,7 @@ class Candidate {
 
   void limit_hardening() {
     for (sim::Material& m : scene_.materials)
-      if (m.hardening > 0 && m.model == sim::Model::snow)
+      if (m.hardening > 0 && sim::laws::of(m).is_snow && sim::laws::of(m).hardens)
         set("material." + m.name + ".max_hardening", m.max_hardening,
             std::min(m.max_hardening, hardening_ceiling));
   }

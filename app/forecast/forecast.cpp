@@ -17,6 +17,7 @@
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
 #include "sim/health/diagnostics.h"
+#include "sim/laws/law.h"
 #include "sim/shapes/variation.h"
 
 namespace neve::app::forecast {
@@ -32,12 +33,13 @@ sim::DtChoice allowed(const scene::Scene& scene, const sim::StepLimits& state,
   // The same difference of velocity over smaller cells.
   limits.max_strain_rate = state.max_strain_rate * cell_of_state / scene.solver.cell_size;
   for (const sim::Material& m : scene.materials)
-    sim::include_hardening(m, limits, sim::shapes::max_factor(m.variation.youngs_modulus));
+    if (sim::laws::of(m).hardens)
+      sim::include_hardening(m, limits, sim::shapes::max_factor(m.variation.youngs_modulus));
   return sim::choose_dt(scene.solver, limits, 1e9);
 }
 
 double hardening_of(const sim::Material& m, double J_P) {
-  return m.model == sim::Model::snow ? sim::health::hardening_factor(m, J_P) : 1;
+  return sim::laws::of(m).is_snow ? sim::health::hardening_factor(m, J_P) : 1;
 }
 
 /// The stiffest of many particles beside the stiffest of a copy: how much faster sound is in it.

@@ -16,6 +16,7 @@
 #include "app/support/text.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
+#include "sim/laws/law.h"
 #include "sim/types/time_step.h"
 
 namespace neve::app::health {
@@ -335,10 +336,10 @@ Hypothesis shock(const Case& c) {
       c.at("youngs_modulus")};
 }
 
+/// " and hardening = 10", where the law hardens.
 std::string hardening_text(const sim::Material& m) {
-  const bool is_clay = m.model == sim::Model::cam_clay;
-  return is_clay ? "consolidation_hardening = " + rough_text(m.consolidation_hardening)
-                 : "hardening = " + rough_text(m.hardening);
+  const sim::laws::Parameter* rate = sim::laws::of(m).rate;
+  return rate ? fmt::format(" and {} = {}", rate->key, rough_text(rate->of(m))) : "";
 }
 
 Hypothesis too_soft(const Case& c) {
@@ -350,7 +351,7 @@ Hypothesis too_soft(const Case& c) {
                   rough_text(stiffness_that_holds(c.material, c.d.J_P, speed)));
   return Diagnosis{
       Cause::too_soft,
-      fmt::format("snow of youngs_modulus = {} and {} is too soft for its impact at {} m/s: it was "
+      fmt::format("snow of youngs_modulus = {}{} is too soft for its impact at {} m/s: it was "
                   "packed to {} kg/m3",
                   rough_text(c.material.youngs_modulus), hardening_text(c.material),
                   rough_text(speed), rough_text(c.material.density / c.d.J_P)),

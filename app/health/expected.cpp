@@ -8,11 +8,11 @@
 #include "app/health/softness.h"
 #include "app/setup/auto_ranges.h"
 #include "app/support/text.h"
-#include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
+#include "sim/laws/law.h"
+#include "sim/laws/threshold_cell.h"
 #include "sim/shapes/variation.h"
-#include "sim/types/threshold_cell.h"
 
 namespace neve::app::health {
 
@@ -41,7 +41,7 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
     heaviest_ = std::max(heaviest_, state.m[p]);
     if (std::isfinite(state.J_P[p])) min_J_P_ = std::min(min_J_P_, state.J_P[p]);
   }
-  const std::vector<sim::Material> materials = sim::in_cells(scene.materials, scene.solver);
+  const std::vector<sim::Material> materials = sim::laws::in_cells(scene.materials, scene.solver);
   for (std::size_t k = 0; k < materials.size(); ++k) {
     if (!is_used[k]) continue;
     const sim::Material& m = materials[k];
@@ -49,7 +49,7 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
     density_ = std::max(density_, m.density);
     loosest_ = std::max(loosest_, m.max_J_P);
     lightest_density_ = std::min(lightest_density_, m.density);
-    if (m.model == sim::Model::cam_clay) {
+    if (sim::laws::of(m).surface) {
       include_surface(m);
       continue;
     }
@@ -57,17 +57,16 @@ Expected::Expected(const scene::Scene& scene, const sim::ParticleArrays& state, 
     stretch_ = std::max(stretch_, m.critical_stretch);
     stiffest_ = std::max(stiffest_, 2 * lame.mu + 3 * lame.lambda);
     hardened_ = std::max(hardened_, sim::health::hardening_factor(m, min_J_P_));
-    is_bounded_ = is_bounded_ && sim::is_snow(m.model);
+    is_bounded_ = is_bounded_ && sim::laws::of(m).is_snow;
   }
 }
 
-/// Stresses and strains that the yield surface of cam clay holds, where it is largest.
+/// Stresses and strains that the yield surface holds, where it is largest.
 void Expected::include_surface(const sim::Material& m) {
-  sim::Material strongest = m;
-  strongest.youngs_modulus *= sim::shapes::max_factor(m.variation.youngs_modulus);
-  strongest.consolidation_pressure *= sim::shapes::max_factor(m.variation.youngs_modulus);
-  strongest.strength = sim::shapes::max_factor(m.variation.thresholds);
-  const auto limits = sim::health::cam_clay::limits(strongest, min_J_P_);
+  const sim::Material strongest =
+      sim::scaled(m, sim::shapes::max_factor(m.variation.youngs_modulus),
+                  sim::shapes::max_factor(m.variation.thresholds));
+  const auto limits = sim::laws::of(m).surface(strongest, min_J_P_);
   const double p = std::max(limits.pressure, limits.tension);
   surface_stress_ =
       std::max(surface_stress_, std::sqrt(3 * p * p + 2.0 / 3 * limits.deviator * limits.deviator));
@@ -147,7 +146,7 @@ Expectation Expected::stretch() const {
   // Singular values in the arithmetic of the solver.
   constexpr double rounding = 1e-5;
   return {{1 - compression_ - rounding, 1 + stretch_ + rounding},
-          "1 - critical_compression to 1 + critical_stretch, or the yield surface of cam_clay"};
+          "1 - critical_compression to 1 + critical_stretch, or the yield surface of the law"};
 }
 
 Expectation Expected::J_E() const {

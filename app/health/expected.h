@@ -34,7 +34,7 @@ class Expected {
 
  private:
   double stress_limit() const;
-  void include_surface(const sim::Material& cam_clay);
+  void include_surface(const sim::Material& material);
   /// 1/h: the largest gradient of a weight over that weight, at a node that counts
   double steepest_gradient() const;
 
@@ -45,7 +45,7 @@ class Expected {
   double heaviest_ = 0;  ///< kg
   double min_J_P_ = 1;
   double compression_ = 0, stretch_ = 0;  ///< largest theta_c, theta_s in use, or as much
-  double surface_stress_ = 0;             ///< Pa, largest that cam clay in use bears
+  double surface_stress_ = 0;             ///< Pa, largest that a yield surface holds
   double stiffest_ = 0;                   ///< Pa, largest mu and lambda together
   double loosest_ = 1;                    ///< largest max_J_P
   double hardened_ = 1;                   ///< largest factor of hardening at min_J_P_

@@ -14,7 +14,7 @@
 #include "app/setup/snow_pieces.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
-#include "sim/health/cam_clay.h"
+#include "sim/laws/law.h"
 #include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/solid.h"
 #include "sim/types/time_step.h"
@@ -81,7 +81,7 @@ void report_thin(const std::vector<Thin>& thin, const ThinAdvice& advice,
 void check_material_units(const sim::Material& m, std::vector<Finding>& findings) {
   const std::string at = "material." + m.name + ".", density = rough_text(m.density),
                     modulus = rough_text(m.youngs_modulus);
-  if (m.model == sim::Model::sand) return;  // another density, another stiffness
+  if (sim::laws::of(m).is_granular) return;  // another density, another stiffness
   if (m.density > 0.03 && m.density < 2)
     findings.push_back(
         {Severity::warning, at + "density",
@@ -105,19 +105,14 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
                         "steps shorten with its square root; the paper's snow has 1.4e5"});
 }
 
-/// Cam clay bears no more pressure than K/2.
-void check_consolidation(const sim::Material& m, std::vector<Finding>& findings) {
-  if (m.model != sim::Model::cam_clay) return;
-  const double K = sim::health::cam_clay::bulk_modulus(m);
-  if (m.consolidation_pressure < 0.4 * K) return;
-  findings.push_back(
-      {Severity::warning, "material." + m.name + ".consolidation_pressure",
-       fmt::format("{} Pa is more than snow of youngs_modulus {} Pa can bear ({} Pa): it is "
-                   "squeezed like rubber before it packs",
-                   rough_text(m.consolidation_pressure), rough_text(m.youngs_modulus),
-                   rough_text(0.5 * K)),
-       fmt::format("a youngs_modulus of {} or more",
-                   rough_text(round_up(10 * m.youngs_modulus * m.consolidation_pressure / K)))});
+/// What its law doubts.
+void check_law(const sim::Material& m, std::vector<Finding>& findings) {
+  std::vector<sim::laws::Concern> concerns;
+  if (const auto find = sim::laws::of(m).concerns) find(m, concerns);
+  for (const sim::laws::Concern& concern : concerns)
+    findings.push_back({Severity::warning, "material." + m.name + "." + concern.key,
+                        filled(concern.text, concern.numbers),
+                        filled(concern.remedy, {round_up(concern.remedy_number)})});
 }
 
 /// Index of a grid cell.
@@ -304,7 +299,7 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
                     [&](const setup::SnowPiece& piece) { return piece.material == &material; });
     if (is_used) {
       check_material_units(material, findings);
-      check_consolidation(material, findings);
+      check_law(material, findings);
     } else if (material.name != sim::Material{}.name) {  // snow is there in every scene
       findings.push_back(
           {Severity::warning, "material." + material.name,

@@ -9,6 +9,7 @@
 #include "app/scene/coarsen.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 #include "sim/seeding/sampling.h"
 #include "sim/shapes/solid.h"
 
@@ -79,7 +80,7 @@ std::string remedy_for_clogging(const scene::Scene& scene, const std::string& em
     if (e.name != emitter || e.J_P > 1) continue;
     const sim::Material& material = scene.materials[setup::material_index(scene, e.material)];
     // Packed snow sticks together and stands in its own way.
-    if (sim::is_snow(material.model))
+    if (sim::laws::of(material).is_snow)
       return fmt::format("loose snow (emitter.{}.J_P = 1.5), {}", emitter, usual);
   }
   return usual;

@@ -10,6 +10,7 @@
 #include "app/health/findings.h"
 #include "app/scene/toml/value.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::health {
 
@@ -56,7 +57,7 @@ void check_unit_of_spin(const std::string& address, const Vec3d& spin,
 }
 
 void check_thresholds(const sim::Material& m, std::vector<Finding>& findings) {
-  if (m.model != sim::Model::snow) return;
+  if (!sim::laws::of(m).reads(&sim::Material::critical_stretch)) return;
   constexpr double doubtful_stretch = 1, doubtful_compression = 0.5;
   const auto add = [&](const char* key, double value, const char* what) {
     findings.push_back(

@@ -12,6 +12,7 @@
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/health/diagnostics.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::health {
 
@@ -47,7 +48,7 @@ void add_of_packed(const scene::Scene& scene, std::vector<Slow>& slow) {
   const auto add = [&](const char* kind, const auto& bodies) {
     for (const auto& body : bodies) {
       const sim::Material& m = scene.materials[setup::material_index(scene, body.material)];
-      if (!(body.J_P < 1) || !sim::hardens(m.model)) continue;
+      if (!(body.J_P < 1) || !sim::laws::of(m).hardens) continue;
       const double times = std::sqrt(sim::health::hardening_factor(m, body.J_P));
       const std::string address = std::string(kind) + "." + body.name + ".J_P";
       slow.push_back(

@@ -8,19 +8,18 @@
 #include "app/setup/auto_ranges.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
-#include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::health {
 
 double stiffness_that_holds(const sim::Material& material, double J_P, double speed) {
   constexpr double kept = 0.25, focus = 3, min_threshold = 0.005;
-  if (material.model == sim::Model::cam_clay) {
-    // The most pressure that its volume law can bear is K/2.
+  if (const auto largest_pressure = sim::laws::of(material).largest_pressure) {
     const double shock = focus * material.density * speed * speed / (1 - kept);
-    const double K = sim::health::cam_clay::bulk_modulus(material) / material.youngs_modulus;
-    return round_up(std::max(2 * material.youngs_modulus, 2 * shock / K));
+    const double per_E = largest_pressure(material) / material.youngs_modulus;
+    return round_up(std::max(2 * material.youngs_modulus, shock / per_E));
   }
   sim::Material unit = material;
   unit.youngs_modulus = 1;
@@ -41,7 +40,7 @@ namespace {
 double densest_snow(const scene::Scene& scene) {
   double density = 0;
   for (const sim::Material& m : scene.materials)
-    if (sim::is_snow(m.model)) density = std::max(density, m.density);
+    if (sim::laws::of(m).is_snow) density = std::max(density, m.density);
   return density;
 }
 

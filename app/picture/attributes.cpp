@@ -6,7 +6,7 @@
 #include "app/picture/snapshot.h"
 #include "app/setup/auto_ranges.h"
 #include "sim/health/diagnostics.h"
-#include "sim/types/threshold_cell.h"
+#include "sim/laws/threshold_cell.h"
 
 namespace neve::app::picture {
 
@@ -64,10 +64,11 @@ double attribute(const scene::Scene& scene, scene::ColorBy color_by, const Snaps
     case scene::ColorBy::p0:
       return sim::health::consolidation_pressure(material_of(scene, s, p), J_P(s, p));
     case scene::ColorBy::yield:
-      return s.particles.F_E.empty() ? 0
-                                     : sim::health::nearness_to_yield(
-                                           sim::in_cells(material_of(scene, s, p), scene.solver),
-                                           s.particles.F_E[p], J_P(s, p));
+      return s.particles.F_E.empty()
+                 ? 0
+                 : sim::health::nearness_to_yield(
+                       sim::laws::in_cells(material_of(scene, s, p), scene.solver),
+                       s.particles.F_E[p], J_P(s, p));
     case scene::ColorBy::id:
       return s.particles.id_of(p);
   }

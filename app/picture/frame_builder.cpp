@@ -25,6 +25,7 @@
 #include "app/setup/camera_path.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::picture {
 
@@ -84,15 +85,12 @@ std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& chan
   return override_lines(texts);
 }
 
-/// What the snow bears.
+/// What the material bears.
 std::string strength_line(const sim::Material& m) {
-  if (m.model == sim::Model::cam_clay)
-    return "cam clay, " + rough_text(m.friction_angle) + " degrees, cohesion " +
-           rough_text(m.cohesion) + ", p0 " + rough_text(m.consolidation_pressure) +
-           " Pa, hardening " + rough_text(m.consolidation_hardening);
-  if (m.model == sim::Model::sand) return "sand, " + rough_text(m.friction_angle) + " degrees";
-  return "hardening " + rough_text(m.hardening) + ", theta " + rough_text(m.critical_compression) +
-         " and " + rough_text(m.critical_stretch);
+  const sim::laws::Law& law = sim::laws::of(m);
+  std::vector<double> numbers;
+  for (const sim::laws::Parameter& p : law.parameters) numbers.push_back(p.of(m));
+  return filled(law.caption, numbers);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "app/record/metrics.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 #include "sim/types/material.h"
 
 namespace neve::app::predict {
@@ -57,7 +58,7 @@ std::string silence(const std::vector<Copy>& copies, const scene::Scene& scene) 
     if (!copy.has_broken) return "there is no snow at the start";
   }
   if (std::none_of(scene.materials.begin(), scene.materials.end(),
-                   [](const sim::Material& m) { return sim::is_snow(m.model); }))
+                   [](const sim::Material& m) { return sim::laws::of(m).is_snow; }))
     return "no material of the scene breaks";
   return "";
 }

@@ -15,6 +15,8 @@
 #include "app/support/text.h"
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
+#include "sim/laws/law.h"
+#include "sim/laws/threshold_cell.h"
 #include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/height_field.h"
 #include "sim/shapes/mesh_surface.h"
@@ -23,7 +25,6 @@
 #include "sim/shapes/solid.h"
 #include "sim/shapes/variation.h"
 #include "sim/shapes/world_place.h"
-#include "sim/types/threshold_cell.h"
 
 namespace neve::app::scene {
 namespace {
@@ -178,8 +179,8 @@ Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
 
 /// The factors of variation leave every particle a stretch to which it can be compressed.
 Found variation_problem(const Scene& scene, const sim::Material& material) {
-  if (material.model != sim::Model::snow) return {};
-  const double finer = std::sqrt(sim::threshold_factor(scene.solver));
+  if (!sim::laws::of(material).reads(&sim::Material::critical_compression)) return {};
+  const double finer = std::sqrt(sim::laws::threshold_factor(scene.solver));
   if (material.critical_compression * finer >= 1)
     return Problem{"solver.threshold_cell",
                    "threshold_cell = " + rough_text(scene.solver.threshold_cell) +

@@ -8,6 +8,7 @@
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::scene {
 namespace {
@@ -67,7 +68,7 @@ void refuse_empty_bodies(const Scene& scene, double factor) {
 
 bool has_thresholds(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [](const sim::Material& m) { return sim::is_snow(m.model); });
+                     [](const sim::Material& m) { return sim::laws::of(m).is_snow; });
 }
 
 bool lacks_threshold_cell(const Scene& scene) {

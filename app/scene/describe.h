@@ -20,6 +20,7 @@
 #include "app/scene/presets.h"
 #include "app/scene/scene.h"
 #include "app/scene/valid.h"
+#include "sim/laws/law.h"
 #include "sim/shapes/numbered_files.h"
 
 namespace neve::app::scene {
@@ -155,35 +156,19 @@ void describe(V& visit, sim::Variation& v) {
         "Relative standard deviation of the particles' stiffness.");
   visit("thresholds", v.thresholds, unit::none, between(0, 2), restart,
         "Relative standard deviation of theta_c and theta_s, which vary together, or of the "
-        "strength of cam_clay.");
+        "strength of a law that has others.");
   visit("size", v.size, unit::metre, at_least(1e-6).at_most_or_0(1e6), restart,
         "Size of the lumps that differ; 0: each particle differs on its own.");
 }
 
-/// Parameters that a preset sets.
-template <class V>
-void describe_snow_numbers(V& visit, sim::Material& m) {
-  using enum Change;
-  visit("density", m.density, unit::density, between(1e-3, 1e5), restart,
-        "Mass per volume at the start.");
-  visit("youngs_modulus", m.youngs_modulus, unit::pascal, between(1e-3, 1e12), live,
-        "Stiffness of undeformed snow.");
-  visit("poisson_ratio", m.poisson_ratio, unit::none, at_least(0).below(0.5), live,
-        "Sideways bulge under compression.");
-  visit("hardening", m.hardening, unit::none, between(0, 100), live,
-        "The paper's xi: rate at which packed snow stiffens.");
-  visit("critical_compression", m.critical_compression, unit::none, at_least(0).below(1), live,
-        "The paper's theta_c: compression at which snow yields.");
-  visit("critical_stretch", m.critical_stretch, unit::none, between(0, 100), live,
-        "The paper's theta_s: stretch at which snow breaks.");
-  visit("friction_angle", m.friction_angle, unit::degrees, above(0).below(90), live,
-        "Angle of friction of cam_clay that flows at constant volume, and of sand.");
-  visit("cohesion", m.cohesion, unit::none, between(0, 10), live,
-        "cam_clay: tension that snow bears, as a share of its consolidation pressure.");
-  visit("consolidation_pressure", m.consolidation_pressure, unit::pascal, between(1e-3, 1e12), live,
-        "cam_clay: pressure that the snow of the start bears before it packs.");
-  visit("consolidation_hardening", m.consolidation_hardening, unit::none, between(1e-3, 1e3), live,
-        "cam_clay: rate at which snow that packs gains consolidation pressure.");
+/// A number of a law, as a parameter.
+constexpr Valid valid_of(const sim::laws::Bounds& b) {
+  return {b.min, b.max, b.is_min_open, b.is_max_open};
+}
+constexpr const char* unit_of(sim::laws::Unit u) {
+  return u == sim::laws::Unit::pascal    ? unit::pascal
+         : u == sim::laws::Unit::degrees ? unit::degrees
+                                         : unit::none;
 }
 
 template <class V>
@@ -191,10 +176,15 @@ void describe(V& visit, sim::Material& m) {
   visit.shorthand(
       "preset", preset_of(m), [&m](Preset preset) { use_preset(m, preset); },
       "Named kind of snow: sets the density and the numbers below it, unless they are given.");
-  visit("model", m.model, unit::none, anything, Change::live,
-        "The paper's snow; cam_clay, snow whose stiffness stays as its strength grows; sand; or an "
-        "elastic law.");
-  describe_snow_numbers(visit, m);
+  visit("model", m.model, unit::none, anything, Change::live, sim::laws::help_of_model());
+  visit("density", m.density, unit::density, between(1e-3, 1e5), Change::restart,
+        "Mass per volume at the start.");
+  visit("youngs_modulus", m.youngs_modulus, unit::pascal, between(1e-3, 1e12), Change::live,
+        "Stiffness of undeformed snow.");
+  visit("poisson_ratio", m.poisson_ratio, unit::none, at_least(0).below(0.5), Change::live,
+        "Sideways bulge under compression.");
+  for (const sim::laws::Parameter& p : sim::laws::all_parameters())
+    visit(p.key, p.of(m), unit_of(p.unit), valid_of(p.bounds), Change::live, p.help);
   visit("min_J_P", m.min_J_P, unit::none, above(0).at_most(1), Change::live,
         "Smallest plastic volume ratio: snow packed further keeps yielding but hardens no more.");
   visit("max_J_P", m.max_J_P, unit::none, between(1, 1e6), Change::live,

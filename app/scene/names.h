@@ -9,6 +9,7 @@
 
 #include "app/scene/presets.h"
 #include "app/scene/scene.h"
+#include "sim/laws/list.h"
 
 namespace neve::app::scene {
 
@@ -56,10 +57,9 @@ constexpr auto names(sim::Precision) {
   return std::array{Name{single, "float"}, Name{real64, "double"}};
 }
 constexpr auto names(sim::Model) {
-  using enum sim::Model;
-  return std::array{Name{snow, "snow"}, Name{corotated, "corotated"},
-                    Name{neo_hookean, "neo_hookean"}, Name{cam_clay, "cam_clay"},
-                    Name{sand, "sand"}};
+#define NEVE_NAME_OF_LAW(name) Name{sim::laws::model::name, #name},
+  return std::array<Name<sim::Model>, sim::laws::law_count>{NEVE_LAWS(NEVE_NAME_OF_LAW)};
+#undef NEVE_NAME_OF_LAW
 }
 constexpr auto names(Preset) {
   using enum Preset;

@@ -1,17 +1,29 @@
 #include "app/scene/presets.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
-#include "app/scene/reader.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::scene {
 
 namespace {
 
-/// Density (kg/m3), Young's modulus (Pa), Poisson ratio; of the paper's snow hardening, critical
-/// compression and stretch; of cam clay friction angle (degrees), cohesion, consolidation pressure
-/// (Pa) and its hardening.
-///
+/// Parameters that presets set: those of any material, and those of laws that mean snow. A law
+/// reads some of them; those that it does not read do not tell its presets apart.
+constexpr std::size_t of_any_law = 3;
+constexpr const char* keys[] = {"density",
+                                "youngs_modulus",
+                                "poisson_ratio",
+                                "hardening",
+                                "critical_compression",
+                                "critical_stretch",
+                                "friction_angle",
+                                "cohesion",
+                                "consolidation_pressure",
+                                "consolidation_hardening"};
+
 /// The six of the paper are those of its figure of parameter variations. The other four follow what
 /// the paper says of its parameters: small thresholds make dry powder and large ones wet, chunky
 /// snow; high hardening and stiffness make it icy and brittle, low ones muddy. Their densities are
@@ -22,7 +34,7 @@ namespace {
 /// are as short as sound is fast.
 struct Row {
   Preset preset;
-  double numbers[10];
+  double numbers[std::size(keys)];
 };
 constexpr std::array rows{
     Row{Preset::paper, {400, 1.4e5, 0.2, 10, 0.025, 0.0075, 39, 0.4, 4500, 1}},
@@ -39,26 +51,24 @@ constexpr std::array rows{
     Row{Preset::quick, {400, 5e4, 0.2, 10, 0.025, 0.0075, 39, 0.4, 4500, 1}},
 };
 
-std::array<double*, 10> numbers_of(sim::Material& m) {
-  return {&m.density,
-          &m.youngs_modulus,
-          &m.poisson_ratio,
-          &m.hardening,
-          &m.critical_compression,
-          &m.critical_stretch,
-          &m.friction_angle,
-          &m.cohesion,
-          &m.consolidation_pressure,
-          &m.consolidation_hardening};
+const sim::laws::Parameter* parameter(std::span<const sim::laws::Parameter> all,
+                                      std::string_view key) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& p) { return key == p.key; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+double& number_of(sim::Material& m, std::size_t k) {
+  if (k >= of_any_law) return parameter(sim::laws::all_parameters(), keys[k])->of(m);
+  return k == 0 ? m.density : k == 1 ? m.youngs_modulus : m.poisson_ratio;
 }
 
 }  // namespace
 
 void use_preset(sim::Material& material, Preset preset) {
-  const auto numbers = numbers_of(material);
   for (const Row& row : rows)
     if (row.preset == preset)
-      for (std::size_t k = 0; k < numbers.size(); ++k) *numbers[k] = row.numbers[k];
+      for (std::size_t k = 0; k < std::size(keys); ++k) number_of(material, k) = row.numbers[k];
 }
 
 sim::Material snow_of(Preset preset) {
@@ -68,17 +78,13 @@ sim::Material snow_of(Preset preset) {
 }
 
 std::optional<Preset> preset_of(const sim::Material& material) {
-  // Density and elasticity are of every law; then three numbers of the paper's snow, four of cam
-  // clay. Those that a law does not read do not tell its presets apart.
-  constexpr std::size_t common = 3, cam_clay = 6, all = 10;
-  const bool is_clay = material.model == sim::Model::cam_clay;
+  const std::span<const sim::laws::Parameter> read = sim::laws::of(material).parameters;
   sim::Material copy = material;
-  const auto numbers = numbers_of(copy);
   for (const Row& row : rows) {
     bool is_same = true;
-    for (std::size_t k = 0; k < all; ++k)
-      if (k < common || (k >= cam_clay) == is_clay)
-        is_same = is_same && *numbers[k] == row.numbers[k];
+    for (std::size_t k = 0; k < std::size(keys); ++k)
+      if (k < of_any_law || parameter(read, keys[k]))
+        is_same = is_same && number_of(copy, k) == row.numbers[k];
     if (is_same) return row.preset;
   }
   return std::nullopt;
@@ -93,11 +99,9 @@ bool is_preset_address(std::string_view address) {
 
 std::vector<std::string> addresses_set_by(const std::string& preset_address) {
   const std::string table = preset_address.substr(0, preset_address.rfind('.') + 1);
-  Keys keys;
-  sim::Material material;
-  describe_snow_numbers(keys, material);
-  for (std::string& key : keys.keys) key.insert(0, table);
-  return std::move(keys.keys);
+  std::vector<std::string> addresses;
+  for (const char* key : keys) addresses.push_back(table + key);
+  return addresses;
 }
 
 }  // namespace neve::app::scene

@@ -6,8 +6,8 @@
 
 #include "app/setup/snow_pieces.h"
 #include "app/support/round_number.h"
-#include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
+#include "sim/laws/law.h"
 #include "sim/shapes/height_samples.h"
 #include "sim/shapes/placed_points.h"
 #include "sim/types/time_step.h"
@@ -89,29 +89,15 @@ double largest(const std::vector<sim::Material>& materials, double (*of)(const s
   return value;
 }
 
-/// Compression by theta_c in each direction, the elastic limit of undeformed snow.
+/// What undeformed material bears, of all laws.
 double yield_pressure(const sim::Material& m) {
-  if (m.model == sim::Model::sand) return std::numeric_limits<double>::infinity();
-  if (m.model == sim::Model::cam_clay) return m.consolidation_pressure;
-  const sim::Lame l = sim::lame(m.youngs_modulus, m.poisson_ratio);
-  const double theta = std::clamp(m.critical_compression, 0.001, 0.5);
-  return (3 * l.lambda + 2 * l.mu) * theta;
+  return sim::laws::of(m).scale(m).pressure;
 }
-
 double yield_shear(const sim::Material& m) {
-  if (m.model == sim::Model::sand) return std::numeric_limits<double>::infinity();
-  if (m.model == sim::Model::cam_clay) return sim::health::cam_clay::limits(m, 1).deviator;
-  const sim::Lame l = sim::lame(m.youngs_modulus, m.poisson_ratio);
-  const double theta = std::clamp(m.critical_compression + m.critical_stretch, 0.001, 0.5);
-  return 2 * l.mu * theta;
+  return sim::laws::of(m).scale(m).shear;
 }
-
-/// Largest change of J_E: three directions at the threshold, as in J = (1 + theta)^3.
 double elastic_reach(const sim::Material& m) {
-  if (m.model != sim::Model::cam_clay)
-    return std::max(3 * m.critical_compression, 3 * m.critical_stretch);
-  const auto limits = sim::health::cam_clay::limits(m, 1);
-  return std::max(1 - limits.min_J, limits.max_J - 1);
+  return sim::laws::of(m).scale(m).strain;
 }
 
 /// Pressure of snow at impact, rho v^2: below the elastic limit, and well above its own weight.

@@ -6,6 +6,7 @@
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/interrupt.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::setup {
 
@@ -39,7 +40,7 @@ scene::Scene coarsened(const scene::Scene& scene, Substitute substitute) {
     const double c = sim::sound_speed(material);
     if (c > max_sound_speed) material.youngs_modulus *= max_sound_speed * max_sound_speed / (c * c);
     if (substitute == Substitute::uncrushed) {
-      if (material.model == sim::Model::cam_clay) material.model = sim::Model::snow;
+      if (sim::laws::of(material).is_snow) material.model = sim::Model{};
       material.hardening = 0;
       material.critical_compression = 0.9;
     }

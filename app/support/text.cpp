@@ -19,6 +19,17 @@ std::string rough_text(double value) {
   return text;
 }
 
+std::string filled(std::string_view text, const std::vector<double>& numbers) {
+  std::string out;
+  for (const double number : numbers) {
+    const std::size_t at = text.find("{}");
+    if (at == text.npos) break;
+    out.append(text.substr(0, at)).append(rough_text(number));
+    text.remove_prefix(at + 2);
+  }
+  return out.append(text);
+}
+
 std::string about_count_text(double value) {
   const double unit = value < 1000 ? 1 : std::pow(10, std::floor(std::log10(value)) - 2);
   return fixed_text(unit * std::round(value / unit), 0);

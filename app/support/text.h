@@ -42,6 +42,8 @@ std::string trimmed(std::string_view text, std::string_view blanks = " \t");
 std::string last_line(std::string_view text);
 /// "a,b" without empty words.
 std::vector<std::string> comma_separated(std::string_view text);
+/// A text with its numbers, roughly, in place of {}.
+std::string filled(std::string_view text, const std::vector<double>& numbers);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 
 }  // namespace neve::app

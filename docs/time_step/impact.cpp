@@ -15,6 +15,7 @@
 #include <map>
 #include <string>
 
+#include "sim/laws/list.h"
 #include "sim/seeding/seeding.h"
 #include "sim/simulation.h"
 
@@ -54,7 +55,7 @@ Simulation make_simulation(Arguments& a) {
     material.critical_stretch = 0.005;
   }
   if (number("youngs_modulus") > 0) material.youngs_modulus = number("youngs_modulus");
-  if (a["model"] == "corotated") material.model = Model::corotated;
+  if (a["model"] == "corotated") material.model = laws::model::corotated;
   Body ball;
   ball.shape.form = Sphere{{0, radius + 0.02, 0}, radius};
   const Vec3d velocity(0.5, -number("speed"), 0);

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "sim/checks/self_test_tests.h"
+#include "sim/laws/law.h"
 
 namespace neve::sim::checks {
 
@@ -15,7 +16,7 @@ struct Test {
   const char* what;
   void (*run)(const SelfTestCase&, Measure&);
 };
-constexpr Test tests[] = {
+constexpr Test tests_of_steps[] = {
     {"weights", "the sums of w, its moments and its gradient are exact", self_test::weights},
     {"affine_field", "a linear velocity field deforms by exactly I + dt A and returns",
      self_test::affine_field},
@@ -23,10 +24,9 @@ constexpr Test tests[] = {
     {"force", "is minus the derivative of the elastic energy", self_test::force},
     {"solve", "semi-implicit velocities satisfy their equation", self_test::solve},
     {"projection", "keeps the identity and det F, clamps the stretches", self_test::projection},
-    {"hardening", "is 1 at J_P = 1 and grows by the law", self_test::hardening},
-    {"cam_clay", "ends on its surface, keeps volume and directions", self_test::cam_clay},
-    {"sand", "bears nothing apart, slides on its cone, gives back the volume it gained",
-     self_test::sand},
+    {"hardening", "is 1 at J_P = 1 and grows by the law", self_test::hardening}};
+/// Beside the laws' own ones.
+constexpr Test tests_of_bodies[] = {
     {"initial_state", "has F_E = I, J_P = 1, no stress", self_test::initial_state},
     {"free_fall", "three steps are exact and deform nothing", self_test::free_fall},
     {"volumes", "estimated volumes are right inside and bounded everywhere", self_test::volumes},
@@ -52,26 +52,45 @@ std::vector<SelfTestCase> all_self_test_cases() {
   return cases;
 }
 
+namespace {
+
+/// One test over all cases. @param run  run(case, measure)
+template <class Run>
+SelfTestResult result_of(const char* name, const char* what, std::span<const SelfTestCase> cases,
+                         const Run& run) {
+  SelfTestResult result{name, what, true, ""};
+  double worst = -1;
+  for (const SelfTestCase& one : cases) {
+    Measure measure(one);
+    try {
+      run(one, measure);
+      if (measure.worst() < 0) measure.failure("nothing was measured");
+    } catch (const std::exception& error) {
+      measure.failure(error.what());
+    }
+    if (!(measure.worst() > worst)) continue;
+    worst = measure.worst();
+    result.detail = measure.detail();
+  }
+  result.passed = worst >= 0 && worst <= 1;
+  return result;
+}
+
+}  // namespace
+
 std::vector<SelfTestResult> self_tests(std::span<const SelfTestCase> cases) {
   std::vector<SelfTestResult> results;
-  for (const Test& test : tests) {
-    SelfTestResult result{test.name, test.what, true, ""};
-    double worst = -1;
-    for (const SelfTestCase& one : cases) {
-      Measure measure(one);
-      try {
-        test.run(one, measure);
-        if (measure.worst() < 0) measure.failure("nothing was measured");
-      } catch (const std::exception& error) {
-        measure.failure(error.what());
-      }
-      if (!(measure.worst() > worst)) continue;
-      worst = measure.worst();
-      result.detail = measure.detail();
-    }
-    result.passed = worst >= 0 && worst <= 1;
-    results.push_back(result);
-  }
+  const auto add = [&](std::span<const Test> tests) {
+    for (const Test& test : tests)
+      results.push_back(result_of(test.name, test.what, cases, test.run));
+  };
+  add(tests_of_steps);
+  for (const laws::Law& law : laws::every())
+    if (law.self_test)
+      results.push_back(result_of(
+          law.name, law.self_test->claim, cases,
+          [&](const SelfTestCase& one, Measure& measure) { self_test::yield(law, one, measure); }));
+  add(tests_of_bodies);
   return results;
 }
 

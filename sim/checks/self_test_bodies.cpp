@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/laws/law.h"
+
 namespace neve::sim::checks::self_test {
 
 namespace {
@@ -38,6 +40,18 @@ Material without_stiffness() {
   Material m;
   m.youngs_modulus = 0;
   return m;
+}
+
+std::vector<Material> one_of_each_law() {
+  std::vector<Material> materials;
+  for (const laws::Law& law : laws::every()) materials.emplace_back().model = law.model;
+  return materials;
+}
+
+Material elastic_material() {
+  const std::vector<Material> all = one_of_each_law();
+  return *std::find_if(all.begin(), all.end(),
+                       [](const Material& m) { return !laws::of(m).is_plastic; });
 }
 
 SolverSettings settings_of(const SelfTestCase& test) {

@@ -15,6 +15,10 @@ inline constexpr double density = 400;
 
 /// Feels no strain: only what happens to v, C and F then shows.
 Material without_stiffness();
+/// With the defaults of everything else, in the order of the list.
+std::vector<Material> one_of_each_law();
+/// Of the first law that never yields.
+Material elastic_material();
 /// Without gravity, and with a FLIP ratio that acts per step.
 SolverSettings settings_of(const SelfTestCase& test);
 

@@ -223,8 +223,7 @@ void contact_that_lasts(const SelfTestCase& test, self_test::Measure& measure) {
   constexpr int steps = 60;
   SolverSettings settings = settings_with(test, ContactAt::particles);
   settings.gravity = {0, -9.81, 0};
-  Material elastic;
-  elastic.model = Model::corotated;
+  Material elastic = self_test::elastic_material();
   elastic.youngs_modulus = 1e5;
   shapes::Collider floor;
   floor.shape.form = shapes::Plane{{0, height, 0}, {0, 1, 0}};

@@ -5,6 +5,7 @@
 #include "sim/checks/self_test_bodies.h"
 #include "sim/checks/self_test_tests.h"
 #include "sim/health/diagnostics.h"
+#include "sim/laws/law.h"
 
 namespace neve::sim::checks::self_test {
 
@@ -13,15 +14,15 @@ namespace neve::sim::checks::self_test {
 void solve(const SelfTestCase& test, self_test::Measure& measure) {
   constexpr double dt = 4e-3, beta = 0.75, epsilon = 1e-5;
   self_test::Numbers number(10);
-  std::vector<Material> materials(2, Material{});
-  materials[1].model = Model::neo_hookean;
+  std::vector<Material> materials = self_test::one_of_each_law();
+  std::erase_if(materials, [](const Material& m) { return !laws::of(m).has_derivative; });
   ParticleArrays p = self_test::small_ball();
   p.x.resize(60), p.v.resize(60), p.m.resize(60), p.V0.resize(60);
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     p.v[q] = number.vector();
     p.F_E.push_back(Mat3d::Identity() + 0.05 * number.matrix());
     p.J_P.push_back(1 + 0.05 * number());
-    p.material.push_back(static_cast<int>(q % 2));
+    p.material.push_back(static_cast<int>(q % materials.size()));
   }
   SolverSettings settings = self_test::settings_of(test);
   settings.beta = beta;
@@ -33,7 +34,7 @@ void solve(const SelfTestCase& test, self_test::Measure& measure) {
   std::vector<Mat3d> stress(p.x.size());
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     const auto P = [&](double by) {
-      return health::first_piola(materials[q % 2],
+      return health::first_piola(materials[q % materials.size()],
                                  (Mat3d::Identity() + by * step.grad_v[q]) * p.F_E[q], p.J_P[q]);
     };
     stress[q] = p.V0[q] / (2 * epsilon) * (P(epsilon) - P(-epsilon)) * p.F_E[q].transpose();

@@ -114,9 +114,7 @@ void affine_field(const SelfTestCase& test, self_test::Measure& measure) {
 void stress(const SelfTestCase& test, self_test::Measure& measure) {
   constexpr double dt = 1e-4;
   const Mat3d Q = rotation_from_vector({0.5, -0.8, 0.3});
-  for (const Model model : {Model::snow, Model::neo_hookean}) {
-    Material material = Material{};
-    material.model = model;
+  for (const Material& material : self_test::one_of_each_law()) {
     self_test::Numbers number(4);
     ParticleArrays p = self_test::isolated_particles(13);
     p.F_E[0] = Q;
@@ -143,14 +141,13 @@ void stress(const SelfTestCase& test, self_test::Measure& measure) {
 void force(const SelfTestCase& test, self_test::Measure& measure) {
   constexpr double dt = 1e-5, epsilon = 1e-5;
   self_test::Numbers number(5);
-  std::vector<Material> materials(2, Material{});
-  materials[1].model = Model::neo_hookean;
+  const std::vector<Material> materials = self_test::one_of_each_law();
   ParticleArrays p = self_test::small_ball();
   p.x.resize(60), p.v.resize(60), p.m.resize(60), p.V0.resize(60);
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     p.F_E.push_back(Mat3d::Identity() + 0.1 * number.matrix());
     p.J_P.push_back(1 + 0.05 * number());
-    p.material.push_back(static_cast<int>(q % 2));
+    p.material.push_back(static_cast<int>(q % materials.size()));
   }
   const Simulation simulation(self_test::settings_of(test), materials, {}, p, 1);
   p = simulation.particles();
@@ -171,7 +168,7 @@ void force(const SelfTestCase& test, self_test::Measure& measure) {
   const auto energy = [&](double by) {
     double sum = 0;
     for (std::size_t q = 0; q < p.x.size(); ++q)
-      sum += p.V0[q] * health::energy_density(materials[q % 2],
+      sum += p.V0[q] * health::energy_density(materials[q % materials.size()],
                                               (Mat3d::Identity() + by * strain[q]) * p.F_E[q],
                                               p.J_P[q]);
     return sum;

@@ -4,17 +4,14 @@
 #include <string>
 
 #include "sim/checks/self_test.h"
+#include "sim/laws/law.h"
 #include "sim/types/math.h"
 
 namespace neve::sim::checks::self_test {
 
-/// Tolerance for rounding, by precision. The states are of order one in their units (weights,
-/// strains, speeds in m/s), sums have at most a few hundred terms, and the errors found are 3e-15
-/// in double and 1e-6 in float: so only mistakes fail, also on other machines.
-struct Tolerance {
-  double real64, single;
-};
-inline constexpr self_test::Tolerance rounding{1e-11, 2e-5};
+using laws::rounding;
+using laws::Tolerance;
+
 /// Differences of energies with a step of 1e-5 are good to 1e-10 in double. In float the forces are
 /// good to 1e-6, and random ones cancel in part.
 inline constexpr self_test::Tolerance differences{1e-6, 2e-4};

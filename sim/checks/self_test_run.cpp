@@ -7,6 +7,7 @@
 #include "sim/checks/self_test_bodies.h"
 #include "sim/checks/self_test_tests.h"
 #include "sim/health/diagnostics.h"
+#include "sim/types/time_step.h"
 
 namespace neve::sim::checks::self_test {
 

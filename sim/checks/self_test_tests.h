@@ -2,6 +2,7 @@
 /// The self-tests one by one; self_test.cpp has the list.
 
 #include "sim/checks/self_test_measure.h"
+#include "sim/laws/law.h"
 
 namespace neve::sim::checks::self_test {
 
@@ -13,9 +14,8 @@ void force(const SelfTestCase& test, self_test::Measure& measure);
 void projection(const SelfTestCase& test, self_test::Measure& measure);
 void hardening(const SelfTestCase& test, self_test::Measure& measure);
 
-// Surfaces of yield: self_test_materials.cpp.
-void cam_clay(const SelfTestCase& test, self_test::Measure& measure);
-void sand(const SelfTestCase& test, self_test::Measure& measure);
+// A law's own claims of a step that makes it yield: self_test_materials.cpp.
+void yield(const laws::Law& law, const SelfTestCase& test, self_test::Measure& measure);
 
 // Colliders: self_test_contact.cpp.
 void contact(const SelfTestCase& test, self_test::Measure& measure);

@@ -8,6 +8,7 @@
 #include "sim/checks/places.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/shock.h"
+#include "sim/laws/law.h"
 #include "sim/staged.h"
 #include "sim/types/number_text.h"
 #include "sim/types/time_step.h"
@@ -114,7 +115,7 @@ class ShockStress {
   }
 
   double operator()(std::size_t q, const Material& m, const Mat3d& tau_of_law) const {
-    if (!is_snow(m.model) && m.model != Model::sand) return 0;
+    if (!laws::of(m).is_plastic) return 0;
     const double largest = health::shock_pressure(share_, m.density, h_, rate_, c_);
     return std::clamp((tau_[q] - tau_of_law).trace() / 3, -largest, 0.0);
   }
@@ -137,8 +138,8 @@ void measure_work(const std::vector<Material>& materials, bool is_float, const P
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     const Material material = p.material_of(q, materials);
     const Mat3d change = step.F_E_trial[q] - p.F_E[q];
-    const health::ElasticResponse now = health::elastic_response(material, p.F_E[q], p.J_P[q]);
-    const health::ElasticResponse trial =
+    const laws::ElasticResponse now = health::elastic_response(material, p.F_E[q], p.J_P[q]);
+    const laws::ElasticResponse trial =
         health::elastic_response(material, step.F_E_trial[q], p.J_P[q]);
     stress_work += p.V0[q] * now.first_piola.cwiseProduct(change).sum();
     trial_work += p.V0[q] * trial.first_piola.cwiseProduct(change).sum();

@@ -35,9 +35,8 @@ bool same_law(const Material& a, const Material& b) {
          a.critical_compression == b.critical_compression &&
          a.critical_stretch == b.critical_stretch && a.min_J_P == b.min_J_P &&
          a.max_J_P == b.max_J_P && a.max_hardening == b.max_hardening &&
-         a.friction_angle == b.friction_angle && a.cohesion == b.cohesion &&
-         a.consolidation_pressure == b.consolidation_pressure &&
-         a.consolidation_hardening == b.consolidation_hardening;
+         a.friction_angle == b.friction_angle &&
+         a.consolidation_pressure == b.consolidation_pressure && a.own == b.own;
 }
 
 /// The collider that continues as `after`, which has number k: the one of its name, of several the
@@ -103,10 +102,10 @@ void recompute_stress(const std::vector<bool>& is_changed, State<Real>& state) {
   std::vector<kernels::Particle<Real>>& records = state.particles.records;
   if (records.empty()) return;
   for (kernels::Particle<Real>& p : records)
-    p.kind = kernels::kind_of<Real>(
-        static_cast<std::uint16_t>(p.material()),
-        model_kind(state.method.materials[static_cast<std::size_t>(p.material())].model),
-        static_cast<unsigned>(p.flags()));
+    p.kind =
+        kernels::kind_of<Real>(static_cast<std::uint16_t>(p.material()),
+                               state.method.materials[static_cast<std::size_t>(p.material())].model,
+                               static_cast<unsigned>(p.flags()));
   // The sweep writes whole records, of materials that stayed perhaps with another last bit.
   std::vector<kernels::Particle<Real>> kept = records;
   const kernels::BlockReport<Real> report = state.refresh(0, records.size());

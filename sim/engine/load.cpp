@@ -79,7 +79,7 @@ kernels::Particle<Real> loaded_record(const ParticleArrays& in, std::size_t q,
   if (!(p.m > Real(0)) || !(p.V0 >= Real(0)))
     throw std::invalid_argument("the mass or volume of a particle is not positive");
   const Model model = method.materials[static_cast<std::size_t>(material)].model;
-  p.kind = kernels::kind_of<Real>(static_cast<std::uint16_t>(material), model_kind(model),
+  p.kind = kernels::kind_of<Real>(static_cast<std::uint16_t>(material), model,
                                   p.V0 == Real(0) ? unsigned(kernels::needs_volume) : 0u);
   store_matrix(in.F_E.empty() ? Mat3d(Mat3d::Identity()) : in.F_E[q], p.F_E);
   store_matrix(in.C.empty() ? Mat3d(Mat3d::Zero()) : in.C[q], p.C);

@@ -63,7 +63,7 @@ void require_place(const kernels::Particle<Real>& p, const Method<Real>& method,
   if (material >= method.materials.size())
     refuse_number("a particle with material", std::to_string(material),
                   "one of " + std::to_string(method.materials.size()) + " materials");
-  const kernels::ModelKind model = model_kind(method.materials[material].model);
+  const Model model = method.materials[material].model;
   if (p.model() != static_cast<Integer<Real>>(model))
     refuse_number("a particle with model", std::to_string(p.model()),
                   std::to_string(static_cast<int>(model)) + ", as its material has");

@@ -50,7 +50,7 @@ kernels::Particle<Real> born_record(const seeding::Birth& birth, std::uint16_t m
   for (int a = 0; a < 3; ++a) p.v[a] = static_cast<Real>(birth.v[a]);
   p.m = static_cast<Real>(birth.m);
   p.V0 = static_cast<Real>(birth.V0);
-  p.kind = kernels::kind_of<Real>(material, model_kind(method.materials[material].model), 0);
+  p.kind = kernels::kind_of<Real>(material, method.materials[material].model, 0);
   store_matrix(Mat3d(Mat3d::Identity()), p.F_E);
   if (method.fits_affine_velocity()) store_matrix(affine_velocity(spin), p.C);
   p.J_P = static_cast<Real>(birth.J_P);

@@ -7,6 +7,7 @@
 
 #include "sim/base/hash.h"
 #include "sim/health/limits.h"
+#include "sim/laws/law.h"
 
 namespace neve::sim::engine {
 
@@ -174,7 +175,7 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
     s.min_J_P = q == begin ? J_P : std::min(s.min_J_P, J_P);
     s.max_J_P = q == begin ? J_P : std::max(s.max_J_P, J_P);
     if (J_P <= health::packed_J_P) s.packed += m;
-    const bool packs = kernels::is_snow(static_cast<kernels::ModelKind>(p.model()));
+    const bool packs = laws::of(static_cast<Model>(p.model())).is_snow;
     if (packs && m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
   }
   return s;

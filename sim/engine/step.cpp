@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "sim/laws/law.h"
+
 namespace neve::sim::engine {
 
 namespace {
@@ -321,20 +323,20 @@ void StagedDriver<Real>::rest_light_nodes() {
   });
 }
 
-/// Neo-Hookean particles that yield are projected as snow, then take their own stress.
+/// Elastic particles that yield are projected as the paper's snow, then take their own stress.
 template <class Real>
 void StagedDriver<Real>::deform() {
   std::vector<kernels::Particle<Real>>& records = state_.particles.records;
   const Material& material = state_.method.materials[0];
-  const bool yields_apart = material.yields && material.model == Model::neo_hookean;
-  const auto become = [&](kernels::ModelKind model) {
+  const bool yields_apart = material.yields && !laws::of(material).is_plastic;
+  const auto become = [&](Model model) {
     for (kernels::Particle<Real>& p : records)
       p.kind = (p.kind & ~Integer<Real>(0xff0000)) | static_cast<Integer<Real>>(model) << 16;
   };
-  if (yields_apart) become(kernels::ModelKind::snow);
+  if (yields_apart) become(Model{});
   over_particle_blocks(state_.method.sweeps->deformation);
   if (!yields_apart) return;
-  become(kernels::ModelKind::neo_hookean);
+  become(material.model);
   kernels::BlockReport<Real> report;
   state_.method.sweeps->refresh(a_, 0, static_cast<std::uint32_t>(records.size()), false, report);
   for (kernels::BlockReport<Real>& block : state_.grid.reports)

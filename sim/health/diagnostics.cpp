@@ -1,65 +1,18 @@
 #include "sim/health/diagnostics.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "sim/health/cam_clay.h"
 #include "sim/health/limits.h"
-#include "sim/health/sand.h"
-#include "sim/kernels/constitutive.h"
+#include "sim/laws/stretches.h"
 #include "sim/types/number_text.h"
 
 namespace neve::sim::health {
 
 namespace {
-
-struct Principal {
-  Mat3d U, V;
-  Vec3d s;
-};
-
-Principal decompose(const Mat3d& F) {
-  double rows[9];
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b) rows[3 * a + b] = F(a, b);
-  const kernels::SignedSvd<double> svd = kernels::signed_svd(rows);
-  Principal p;
-  for (int a = 0; a < 3; ++a) {
-    for (int b = 0; b < 3; ++b) {
-      p.U(a, b) = svd.U[3 * a + b];
-      p.V(a, b) = svd.V[3 * a + b];
-    }
-    p.s[a] = svd.s[a];
-  }
-  return p;
-}
-
-Lame hardened(const Material& m, double J_P) {
-  Lame l = lame(m.youngs_modulus, m.poisson_ratio);
-  const double factor = hardening_factor(m, J_P);
-  return {l.mu * factor, l.lambda * factor};
-}
-
-/// @param s the stretches of F_E
-double corotated_energy(const Lame& l, const Vec3d& s) {
-  const double J = s.prod();
-  return l.mu * (s.array() - 1).square().sum() + 0.5 * l.lambda * (J - 1) * (J - 1);
-}
-
-Mat3d corotated_piola(const Lame& l, const Mat3d& F_E, const Principal& p) {
-  const double J = p.s.prod();
-  // J F^-T by cross products of columns: also right where F is singular.
-  Mat3d cofactor;
-  cofactor.col(0) = F_E.col(1).cross(F_E.col(2));
-  cofactor.col(1) = F_E.col(2).cross(F_E.col(0));
-  cofactor.col(2) = F_E.col(0).cross(F_E.col(1));
-  return 2 * l.mu * (F_E - p.U * p.V.transpose()) + l.lambda * (J - 1) * cofactor;
-}
 
 /// Degree to which a particle breaks the rule; larger is worse.
 double badness(const std::string& rule, const ParticleArrays& p, std::size_t id,
@@ -110,95 +63,49 @@ std::string what(const Divergence& d, double acoustic_cfl) {
   return text;
 }
 
-/// Whether the energy is one of stretches alone, which one decomposition gives.
-bool takes_stretches(const Material& material) {
-  return material.model == Model::snow || material.model == Model::corotated;
-}
-
 }  // namespace
 
 double hardening_factor(const Material& material, double J_P) {
-  if (!hardens(material.model)) return 1;
-  return std::clamp(std::exp(material.hardening * (1 - J_P)), kernels::min_hardening,
-                    material.max_hardening);
+  return laws::of(material).hardens ? laws::hardening_factor(material, J_P) : 1;
 }
 
 double energy_density(const Material& material, const Mat3d& F_E, double J_P) {
-  if (material.model == Model::cam_clay) return cam_clay::energy_density(material, F_E);
-  if (material.model == Model::sand) return sand::energy_density(material, F_E);
-  const Lame l = hardened(material, J_P);
-  if (material.model == Model::neo_hookean) {
-    const double J = F_E.determinant();
-    if (!(J > 0)) return std::numeric_limits<double>::infinity();
-    const double log_J = std::log(J);
-    return 0.5 * l.mu * (F_E.squaredNorm() - 3) - l.mu * log_J + 0.5 * l.lambda * log_J * log_J;
-  }
-  return corotated_energy(l, decompose(F_E).s);
+  return laws::of(material).energy_density(material, F_E, J_P);
 }
 
 std::array<double, 4> energy_densities(const std::array<const Material*, 4>& materials,
                                        const std::array<Mat3d, 4>& F_E,
                                        const std::array<double, 4>& J_P) {
+  const auto energies = laws::of(*materials[0]).energies;
+  const auto has_same = [&](const Material* m) { return laws::of(*m).energies == energies; };
+  if (energies && std::all_of(materials.begin(), materials.end(), has_same))
+    return energies(materials, F_E, J_P);
   std::array<double, 4> out;
-  if (std::none_of(materials.begin(), materials.end(),
-                   [](const Material* m) { return takes_stretches(*m); })) {
-    for (std::size_t l = 0; l < 4; ++l) out[l] = energy_density(*materials[l], F_E[l], J_P[l]);
-    return out;
-  }
-  Quad<double> rows[9];
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b)
-      for (std::size_t l = 0; l < 4; ++l) rows[3 * a + b][l] = F_E[l](a, b);
-  const kernels::SignedSvd<Quad<double>> svd = kernels::signed_svd_lanes(rows);
-  for (std::size_t l = 0; l < 4; ++l)
-    out[l] = !takes_stretches(*materials[l])
-                 ? energy_density(*materials[l], F_E[l], J_P[l])
-                 : corotated_energy(hardened(*materials[l], J_P[l]),
-                                    Vec3d(svd.s[0][l], svd.s[1][l], svd.s[2][l]));
+  for (std::size_t l = 0; l < 4; ++l) out[l] = energy_density(*materials[l], F_E[l], J_P[l]);
   return out;
 }
 
 Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P) {
-  if (material.model == Model::cam_clay) return cam_clay::first_piola(material, F_E);
-  if (material.model == Model::sand) return sand::first_piola(material, F_E);
-  const Lame l = hardened(material, J_P);
-  if (material.model == Model::neo_hookean) {
-    const Mat3d inverse_transposed = F_E.inverse().transpose();
-    return l.mu * (F_E - inverse_transposed) +
-           l.lambda * std::log(F_E.determinant()) * inverse_transposed;
-  }
-  return corotated_piola(l, F_E, decompose(F_E));
+  return laws::of(material).first_piola(material, F_E, J_P);
 }
 
-ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P) {
-  if (!takes_stretches(material))
-    return {energy_density(material, F_E, J_P), first_piola(material, F_E, J_P)};
-  const Lame l = hardened(material, J_P);
-  const Principal p = decompose(F_E);
-  return {corotated_energy(l, p.s), corotated_piola(l, F_E, p)};
+laws::ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P) {
+  if (const auto both = laws::of(material).response) return both(material, F_E, J_P);
+  return {energy_density(material, F_E, J_P), first_piola(material, F_E, J_P)};
 }
 
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0) {
-  if (material.model == Model::cam_clay)
-    return std::sqrt(cam_clay::wave_modulus(material, F_E) / rho0);
-  if (material.model == Model::sand) return std::sqrt(sand::wave_modulus(material, F_E) / rho0);
-  const Lame l = hardened(material, J_P);
-  const double stretch = F_E.jacobiSvd().singularValues()[0], J = F_E.determinant();
-  return std::sqrt((2 * l.mu * stretch * stretch + l.lambda * J * J) / rho0);
+  return std::sqrt(laws::of(material).wave_modulus(material, F_E, J_P) / rho0);
 }
 
 double consolidation_pressure(const Material& material, double J_P) {
-  return material.model == Model::cam_clay ? cam_clay::p0(material, J_P) : 0;
+  const auto pressure = laws::of(material).consolidation_pressure;
+  return pressure ? pressure(material, J_P) : 0;
 }
 
 double nearness_to_yield(const Material& material, const Mat3d& F_E, double J_P) {
-  if (material.model == Model::cam_clay) return cam_clay::nearness_to_yield(material, F_E, J_P);
-  if (material.model == Model::sand) return sand::nearness_to_yield(material, F_E);
-  if (material.model != Model::snow) return 0;
-  const Vec3d s = decompose(F_E).s;
-  constexpr double least = 1e-9;
-  return std::max((s.maxCoeff() - 1) / std::max(material.critical_stretch, least),
-                  (1 - s.minCoeff()) / std::max(material.critical_compression, least));
+  const auto nearness = laws::of(material).nearness_to_yield;
+  return nearness ? nearness(material, F_E, J_P) : 0;
 }
 
 void find_culprits(const ParticleArrays& particles, const SolverSettings& settings,
@@ -228,7 +135,7 @@ void find_culprits(const ParticleArrays& particles, const SolverSettings& settin
       d.culprits.push_back(particles.id_of(ids[k]));
     const Material material = particles.material_of(worst, materials);
     if (d.F_E.allFinite()) {
-      d.stretches = decompose(d.F_E).s;
+      d.stretches = laws::Stretches(d.F_E).s;
       d.kirchhoff = first_piola(material, d.F_E, d.J_P) * d.F_E.transpose();
       if (particles.V0[worst] > 0)
         d.sound_speed =

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "sim/laws/law.h"
 #include "sim/types/particle_arrays.h"
 #include "sim/types/reports.h"
 #include "sim/types/settings.h"
@@ -12,8 +13,8 @@ namespace neve::sim::health {
 /// e^(xi (1 - J_P)) between the least and the largest factor: how much stiffer than at rest.
 double hardening_factor(const Material& material, double J_P);
 
-/// Elastic energy per initial volume, J/m3 (the paper, equation 1, hardened by equation 2).
-/// @param F_E elastic deformation gradient, any determinant; neo-Hookean needs det F_E > 0
+/// Elastic energy per initial volume, J/m3: that of the law, as the others here.
+/// @param F_E elastic deformation gradient, any determinant that the law bears
 /// @param J_P det of the plastic part, dimensionless
 /// Check: Energy.StressIsItsDerivative
 double energy_density(const Material& material, const Mat3d& F_E, double J_P);
@@ -24,27 +25,20 @@ std::array<double, 4> energy_densities(const std::array<const Material*, 4>& mat
                                        const std::array<double, 4>& J_P);
 
 /// First Piola-Kirchhoff stress dPsi/dF_E, Pa.
-/// Source: technical report of the paper; P = 2 mu (F_E - R_E) + lambda (J_E - 1) J_E F_E^-T.
 Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P);
 
-/// Both at once, for the price of one decomposition.
-struct ElasticResponse {
-  double energy_density;  ///< J/m3
-  Mat3d first_piola;      ///< Pa
-};
-ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P);
+/// Both at once, where the law has a way at the price of one.
+laws::ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P);
 
-/// sqrt((2 mu s_max^2 + lambda J_E^2) e^(xi (1 - J_P)) / rho0), or that of the law: speed of the
-/// fastest elastic wave, as the acoustic limit sees it, m/s. @param rho0 mass / initial volume,
-/// kg/m3
+/// Speed of the fastest elastic wave, as the acoustic limit sees it, m/s.
+/// @param rho0 mass / initial volume, kg/m3
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0);
 
-/// Pressure that packs cam clay, Pa; 0 for other laws.
+/// Pressure that packs a material whose law has such a one, Pa; 0 for others.
 double consolidation_pressure(const Material& material, double J_P);
 
-/// 1 where the material yields, below inside, 0 at rest in the middle: of cam clay on rays from the
-/// middle of its ellipse, of the paper's snow the largest stretch over its threshold, of sand q
-/// over M p; 0 for elastic laws.
+/// 1 where the material yields, below inside, 0 at rest in the middle, as its law measures it; 0
+/// for elastic laws.
 double nearness_to_yield(const Material& material, const Mat3d& F_E, double J_P);
 
 /// Fills in the culprit of the rule that d names, its state, and the sentence for the user.

@@ -75,6 +75,12 @@ NEVE_INLINE V determinant(const V* F) {
 }
 
 template <class V>
+NEVE_INLINE V determinant(const Sym3<V>& a) {
+  const V F[9] = {a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz};
+  return determinant(F);
+}
+
+template <class V>
 NEVE_INLINE V dot3(const V* a, const V* b) {
   return fused(a[0], b[0], fused(a[1], b[1], a[2] * b[2]));
 }

@@ -3,7 +3,6 @@
 /// Hessian takes particles once: gather the gradient of the nodes' displacements, change of stress,
 /// scatter of the forces.
 
-#include "sim/kernels/differential.h"
 #include "sim/kernels/held.h"
 #include "sim/kernels/implicit.h"
 #include "sim/kernels/sweeps.h"
@@ -37,11 +36,16 @@ struct SolveSweepsFor {
     return a.elasticity + elasticity_quads * (group.storage - a.step.order + q);
   }
 
+  template <class Group>
+  NEVE_INLINE static const LawKernels<Real, Set>& law_of(const Group& group) {
+    return LawSet<Set>::kernels(static_cast<int>(group.record[0]->model()), Real());
+  }
+
   static void keep_elasticity(const Args& a, Index begin, Index end) {
     for (Index b = begin; b < end; ++b)
       Base::each_batch(a.step, a.step.blocks[b], [&](const auto& group, int q, const Batch& p) {
-        const auto model = static_cast<ModelKind>(group.record[0]->model());
-        const Elasticity<V> e = elasticity(p, model, a.step.constants.materials);
+        Elasticity<V> e;
+        law_of(group).elasticity(p, a.step.constants.materials, e);
         Quad<Real>* to = elasticity_of(a, group, q);
         const int count = group.count - q;
         const auto put = [&](int word, V x, V y, V z, V w) NEVE_INLINE_BODY {
@@ -97,8 +101,7 @@ struct SolveSweepsFor {
     const Real scale = a.step.constants.inv_h * gradient_scale;
     V G[9], D[9];
     gather_gradient(s, q, count, scale, u, G);
-    const auto model = static_cast<ModelKind>(group.record[0]->model());
-    stress_change(load_elasticity(elasticity_of(a, group, q), count - 1), model, G, D);
+    law_of(group).stress_change(load_elasticity(elasticity_of(a, group, q), count - 1), G, D);
     Quad<Real> column[3][W];
     unrolled<3>([&](auto k) NEVE_INLINE_BODY {
       store_quads(FourWords<V>{{D[k] * scale, D[3 + k] * scale, D[6 + k] * scale, V{}}}, column[k]);

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "sim/kernels/blocks.h"
-#include "sim/kernels/constitutive.h"
 #include "sim/kernels/contact.h"
+#include "sim/kernels/law.h"
 #include "sim/kernels/loads.h"
 #include "sim/kernels/particles.h"
 
@@ -17,9 +17,9 @@ namespace neve::sim::kernels {
 enum TileChannel { channel_momentum = 0, channel_force = 1 };
 inline constexpr int all_channels = 2;
 
-/// Particles that are taken through steps 7 to 10 together, so that materials work on full lanes,
-/// and through steps 1 to 3, so that those of a cell reach its nodes together.
-inline constexpr int gather_group = 64, scatter_group = 32;
+/// Particles that are taken through steps 1 to 3 together, so that those of a cell reach its nodes
+/// together.
+inline constexpr int scatter_group = 32;
 
 /// ASFLIP and AFLIP are one: the second moves by the grid alone.
 enum class TransferKind : int { flip, apic, mls, aflip };

@@ -4,25 +4,9 @@
 #include <cstdint>
 
 #include "sim/base/lanes.h"
+#include "sim/types/model.h"
 
 namespace neve::sim::kernels {
-
-enum class ModelKind : std::uint8_t {
-  snow = 0,
-  corotated = 1,
-  neo_hookean = 2,
-  cam_clay = 3,
-  sand = 4
-};
-
-/// Laws of snow.
-NEVE_INLINE constexpr bool is_snow(ModelKind model) {
-  return model == ModelKind::snow || model == ModelKind::cam_clay;
-}
-/// Laws that return what is turned inside out.
-NEVE_INLINE constexpr bool is_plastic(ModelKind model) {
-  return is_snow(model) || model == ModelKind::sand;
-}
 
 enum ParticleFlag : std::uint8_t {
   needs_volume = 1,  ///< V0 is to be estimated in the next step
@@ -44,7 +28,7 @@ struct Record {
   I cell[3];
   I kind;       ///< material | model << 16 | flags << 24
   R stiffness;  ///< factor on mu and lambda
-  R threshold;  ///< factor on theta_c and theta_s, on p0, or on the friction of sand
+  R threshold;  ///< factor on theta_c and theta_s, or on the strength of other laws
   I id;
   R C[9];  ///< 1/s, affine velocity of all transfers but FLIP, row by row
 
@@ -55,7 +39,7 @@ struct Record {
 
 /// @param material index into the material table
 template <class Real>
-NEVE_INLINE Integer<Real> kind_of(std::uint16_t material, ModelKind model, unsigned flags) {
+NEVE_INLINE Integer<Real> kind_of(std::uint16_t material, Model model, unsigned flags) {
   return static_cast<Integer<Real>>(material | static_cast<unsigned>(model) << 16 | flags << 24);
 }
 
@@ -66,6 +50,9 @@ static_assert(sizeof(Particle<float>) == 160 && sizeof(Particle<double>) == 320)
 /// No bound on a number, in float and in double.
 inline constexpr double no_bound = 3e38;
 
+/// Constants of a material that its law alone knows.
+inline constexpr int own_constants = 6;
+
 /// A row of the material table. By default J_P and hardening have no bounds.
 template <class Real>
 struct MaterialConstants {
@@ -73,7 +60,7 @@ struct MaterialConstants {
   Real xi;
   Real theta_c, theta_s;
   Real min_J_P = 0, max_J_P = Real(no_bound), max_hardening = Real(no_bound);
-  Real M = 1, beta = 0, xi_p0 = 1, alpha0 = 0;  ///< of cam clay
+  Real own[own_constants] = {};  ///< of the law: its file says which
 };
 
 }  // namespace neve::sim::kernels

@@ -36,7 +36,7 @@ struct SprayFor {
 
   static void step(const Args& a, Index begin, Index end, BlockReport<Real>& sum) {
     const StepConstants<Real>& c = a.constants;
-    MaterialUpdate<Real, Set, gather_group / W> update;
+    LawSpace<Real, W> space;
     typename Base::ReportLanes report;
     Flight f;
     for (Index cluster = begin; cluster < end;) {
@@ -46,7 +46,7 @@ struct SprayFor {
       int q = 0;
       for (Index k = first; k < cluster; ++k) q = fly(c, a.spray[k], q, f);
       while (q % W != 0) f.sums.repeat(f.group.count - 1, q++);
-      land(a, f, update, report);
+      land(a, f, space, report);
     }
     sum = report.reduced();
   }
@@ -171,16 +171,15 @@ struct SprayFor {
 
   /// On the grid, batches of a block are filled up with copies of its last particle. They are not
   /// projected, and reports know no better.
-  NEVE_INLINE static void note_copies(const I& has_copies, const Batch& p, const V& wave_modulus,
+  NEVE_INLINE static void note_copies(const I& has_copies, const Batch& p, const FirstLook<V>& look,
                                       typename Base::ReportLanes& report) {
     Batch copies;
-    copies.J_P = has_copies ? p.J_P : all<V>(1);
-    report.note_material(copies, (has_copies ? wave_modulus : V{}) * p.V0 / p.m);
+    copies.J_P = has_copies ? look.J_P : all<V>(1);
+    report.note_material(copies, (has_copies ? look.wave_modulus : V{}) * p.V0 / p.m);
   }
 
   /// Steps 7 to 10.
-  NEVE_INLINE static void land(const Args& a, Flight& f,
-                               MaterialUpdate<Real, Set, gather_group / W>& update,
+  NEVE_INLINE static void land(const Args& a, Flight& f, LawSpace<Real, W>& space,
                                typename Base::ReportLanes& report) {
     const StepConstants<Real>& c = a.constants;
     Gathered<V> gathered[most / W];
@@ -192,10 +191,10 @@ struct SprayFor {
       if constexpr (is_aflip) f.carrier[q / W] = carrier_velocity(p, g, c);
       strain(p.F_E, g.grad_v, c.dt);
     }
-    Base::project(f.group, f.batch, gathered, c, update, report, true,
-                  [&](int k, const Batch& p, const V& wave_modulus) NEVE_INLINE_BODY {
-                    note_copies(load_lanes<I>(f.has_copies + k * W), p, wave_modulus, report);
-                  });
+    FirstLook<V> looks[gather_group / W];
+    Base::project(f.group, f.batch, gathered, c, space, report, true, looks);
+    for (int q = 0; q < f.group.count; q += W)
+      note_copies(load_lanes<I>(f.has_copies + q), f.batch[q / W], looks[q / W], report);
     for (int q = 0; q < f.group.count; q += W) {
       Batch& p = f.batch[q / W];
       const Gathered<V>& g = gathered[q / W];

@@ -305,7 +305,7 @@ struct SweepsFor {
   static void grid_to_particles(const Args& a, Index begin, Index end) {
     const StepConstants<Real>& c = a.constants;
     Quad<Real> v_new[Tile<K>::nodes], change[has_change ? Tile<K>::nodes : 1];
-    MaterialUpdate<Real, Set, gather_group / W> update;
+    LawSpace<Real, W> space;
     Stencils<Real, K, W> s;
     Batch batch[gather_group / W];
     Gathered<V> gathered[gather_group / W];
@@ -332,7 +332,7 @@ struct SweepsFor {
           if constexpr (is_aflip) carrier[q / W] = carrier_velocity(p, g, c);
           strain(p.F_E, g.grad_v, c.dt);
         }
-        project(group, batch, gathered, c, update, report);
+        project(group, batch, gathered, c, space, report);
         for (int q = 0; q < group.count; q += W) {
           Batch& p = batch[q / W];
           const Gathered<V>& g = gathered[q / W];
@@ -458,7 +458,7 @@ struct SweepsFor {
   }
 
   static void deformation(const Args& a, Index begin, Index end) {
-    MaterialUpdate<Real, Set, gather_group / W> update;
+    LawSpace<Real, W> space;
     Batch batch[gather_group / W];
     Gathered<V> gathered[gather_group / W];
     for (Index b = begin; b < end; ++b) {
@@ -477,7 +477,7 @@ struct SweepsFor {
                   p.F_E[k][l];
           });
         }
-        project(group, batch, gathered, a.constants, update, report);
+        project(group, batch, gathered, a.constants, space, report);
         for (int q = 0; q < group.count; q += W) keep(batch[q / W], group, q);
       });
       a.reports[b] = report.reduced();
@@ -575,7 +575,7 @@ struct SweepsFor {
 
   static void refresh(const Args& a, Index begin, Index end, bool is_projected,
                       BlockReport<Real>& sums) {
-    MaterialUpdate<Real, Set, gather_group / W> update;
+    LawSpace<Real, W> space;
     Batch batch[gather_group / W];
     ReportLanes report;
     report.sum = sums;
@@ -590,7 +590,7 @@ struct SweepsFor {
       }
       for (int q = group.count; q % W != 0; ++q) group.record[q] = group.record[group.count - 1];
       for (int q = 0; q < group.count; q += W) load_whole(batch[q / W], group.record + q);
-      project(group, batch, nullptr, a.constants, update, report, is_projected);
+      project(group, batch, nullptr, a.constants, space, report, is_projected);
       for (int q = 0; q < group.count; q += W) {
         Batch& p = batch[q / W];
         keep(p, group, q);
@@ -691,17 +691,16 @@ struct SweepsFor {
   /// Step 7, second half: projection and stress of a group, and what the report wants to know of
   /// them.
   /// @param gathered  of the step, for the viscosity of snow; null: the stress of a state
-  /// @param look      see MaterialUpdate
-  template <class Look>
+  /// @param looks     see LawKernels::update
   NEVE_INLINE static void project(const Group<gather_group>& group, Batch* batch,
                                   const Gathered<V>* gathered, const StepConstants<Real>& c,
-                                  MaterialUpdate<Real, Set, gather_group / W>& update,
-                                  ReportLanes& report, bool is_projected, const Look& look) {
+                                  LawSpace<Real, W>& space, ReportLanes& report,
+                                  bool is_projected = true, FirstLook<V>* looks = nullptr) {
     V wave_modulus[gather_group / W];
     unsigned inverted[gather_group / W];
-    const auto model = static_cast<ModelKind>(group.record[0]->model());
-    update(batch, group.count, model, c.materials, is_projected, wave_modulus, inverted, look);
-    const bool is_viscous = gathered && is_plastic(model) && c.shock_linear > 0;
+    const auto& law = LawSet<Set>::kernels(static_cast<int>(group.record[0]->model()), Real());
+    law.update(batch, group.count, c.materials, is_projected, space, wave_modulus, inverted, looks);
+    const bool is_viscous = gathered && law.is_plastic && c.shock_linear > 0;
     for (int k = 0; k * W < group.count; ++k) {
       Batch& p = batch[k];
       const V sound_squared = wave_modulus[k] * p.V0 / p.m;
@@ -713,18 +712,9 @@ struct SweepsFor {
       if (inverted[k] == 0) continue;
       const auto count = static_cast<std::uint32_t>(__builtin_popcount(inverted[k]));
       report.sum.inverted += count;
-      if (!is_plastic(model)) report.sum.inverted_unprojected += count;
+      if (!law.is_plastic) report.sum.inverted_unprojected += count;
     }
   }
-  NEVE_INLINE static void project(const Group<gather_group>& group, Batch* batch,
-                                  const Gathered<V>* gathered, const StepConstants<Real>& c,
-                                  MaterialUpdate<Real, Set, gather_group / W>& update,
-                                  ReportLanes& report, bool is_projected = true) {
-    project(group, batch, gathered, c, update, report, is_projected, Nothing{});
-  }
-  struct Nothing {
-    NEVE_INLINE void operator()(int, const Batch&, const V&) const {}
-  };
 
   NEVE_INLINE static void write_location(const Args& a, Index storage, const Location<I>& at,
                                          int l) {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/shock.h"
 #include "sim/kernels/simd.h"
+#include "sim/laws/law.h"
 #include "sim/shapes/variation.h"
 
 namespace neve::sim::engine {
@@ -55,18 +55,18 @@ std::vector<kernels::MaterialConstants<Real>> table_of(const std::vector<Materia
 template <class Real>
 kernels::MaterialConstants<Real> constants_of(const Material& m) {
   const Lame rest = lame(m.youngs_modulus, m.poisson_ratio);
-  return {.mu0 = static_cast<Real>(rest.mu),
-          .lambda0 = static_cast<Real>(rest.lambda),
-          .xi = static_cast<Real>(m.hardening),
-          .theta_c = static_cast<Real>(m.critical_compression),
-          .theta_s = static_cast<Real>(m.critical_stretch),
-          .min_J_P = static_cast<Real>(m.min_J_P),
-          .max_J_P = static_cast<Real>(m.max_J_P),
-          .max_hardening = static_cast<Real>(m.max_hardening),
-          .M = static_cast<Real>(health::cam_clay::critical_slope(m.friction_angle)),
-          .beta = static_cast<Real>(m.cohesion),
-          .xi_p0 = static_cast<Real>(m.consolidation_hardening),
-          .alpha0 = static_cast<Real>(health::cam_clay::alpha0(m))};
+  kernels::MaterialConstants<Real> row{.mu0 = static_cast<Real>(rest.mu),
+                                       .lambda0 = static_cast<Real>(rest.lambda),
+                                       .xi = static_cast<Real>(m.hardening),
+                                       .theta_c = static_cast<Real>(m.critical_compression),
+                                       .theta_s = static_cast<Real>(m.critical_stretch),
+                                       .min_J_P = static_cast<Real>(m.min_J_P),
+                                       .max_J_P = static_cast<Real>(m.max_J_P),
+                                       .max_hardening = static_cast<Real>(m.max_hardening)};
+  double own[kernels::own_constants] = {};
+  if (const auto constants = laws::of(m).constants) constants(m, own);
+  for (int k = 0; k < kernels::own_constants; ++k) row.own[k] = static_cast<Real>(own[k]);
+  return row;
 }
 
 template <class Real>
@@ -108,8 +108,9 @@ void Method<Real>::limit_hardening(StateLimits& limits) const {
   // as fast as in snow 6.5 times as stiff.
   constexpr double corner = 6.5;
   for (const Material& material : materials)
-    include_hardening(material, limits,
-                      corner * shapes::max_factor(material.variation.youngs_modulus));
+    if (laws::of(material).hardens)
+      include_hardening(material, limits,
+                        corner * shapes::max_factor(material.variation.youngs_modulus));
 }
 
 template <class Real>

@@ -13,21 +13,6 @@ namespace neve::sim::engine {
 /// Ids are signed words.
 inline constexpr std::uint64_t max_ids = std::uint64_t(1) << 31;
 
-inline kernels::ModelKind model_kind(Model model) {
-  switch (model) {
-    case Model::corotated:
-      return kernels::ModelKind::corotated;
-    case Model::neo_hookean:
-      return kernels::ModelKind::neo_hookean;
-    case Model::cam_clay:
-      return kernels::ModelKind::cam_clay;
-    case Model::sand:
-      return kernels::ModelKind::sand;
-    default:
-      return kernels::ModelKind::snow;
-  }
-}
-
 /// Splits a coordinate in cells into the cell and the offset in it; the offset is below 1 also
 /// after rounding to Real.
 template <class Real>

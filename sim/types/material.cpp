@@ -9,12 +9,17 @@ Lame lame(double youngs_modulus, double poisson_ratio) {
   return {E / (2 * (1 + nu)), E * nu / ((1 + nu) * (1 - 2 * nu))};
 }
 
+double bulk_modulus(const Material& material) {
+  const Lame l = lame(material.youngs_modulus, material.poisson_ratio);
+  return l.lambda + 2.0 / 3 * l.mu;
+}
+
 Material scaled(const Material& material, double stiffness, double threshold) {
   Material out = material;
   out.youngs_modulus *= stiffness;
   out.critical_compression *= threshold;
   out.critical_stretch *= threshold;
-  out.consolidation_pressure *= stiffness;  // alpha0 stays
+  out.consolidation_pressure *= stiffness;  // the same share of the moduli
   out.strength *= threshold;
   return out;
 }

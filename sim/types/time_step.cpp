@@ -39,7 +39,6 @@ double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
 }  // namespace
 
 void include_hardening(const Material& material, StateLimits& limits, double stiffest) {
-  if (!hardens(material.model)) return;
   limits.max_xi = std::max(limits.max_xi, material.hardening);
   limits.max_hardened_speed =
       std::max(limits.max_hardened_speed,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/laws/list.h"
 #include "tests/support/elastic.h"
 #include "tests/support/snow.h"
 #include "tests/support/verification.h"
@@ -102,7 +103,7 @@ double speed_of_rebound(double dt) {
     s.dt = dt;
   }
   Material m;
-  m.model = Model::corotated;
+  m.model = laws::model::corotated;
   Simulation simulation(s, {m}, {plane({0, 0, 0}, {0, 1, 0}, 0.5)},
                         ball_of_snow({0, 0.17, 0}, 0.15, 0.015, {0, -5, 0}), 1);
   double fastest = 0;
@@ -125,7 +126,7 @@ TEST(SlipFloor, SlipFloorKeepsTangentialMomentumAndHoldsOnTo) {
   s.cell_size = 0.03;
   const auto end_of = [&](shapes::Contact contact, double v_y) {
     Material m;
-    m.model = Model::corotated;
+    m.model = laws::model::corotated;
     Simulation simulation(s, {m}, {plane({0, 0.003, 0}, {0, 1, 0}, 0, contact)},
                           ball_of_snow({0, 0.125, 0}, 0.12, 0.015, {2, v_y, 0}), 1);
     simulation.advance_to(0.12);  // about when the one that bounces is highest

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/laws/list.h"
 #include "tests/support/elastic.h"
 #include "tests/support/snow.h"
 #include "tests/support/verification.h"
@@ -57,7 +58,7 @@ TEST(RigidRotation, RigidRotationKeepsShapeAndSpin) {
   s.precision = Precision::real64;
   s.gravity.setZero();
   Material m;
-  m.model = Model::corotated;
+  m.model = laws::model::corotated;
   const double spin = 8, time = 0.8;  // one turn
   ParticleArrays p = box_of_snow({-0.12, -0.12, -0.12}, {0.12, 0.12, 0.12}, 0.02);
   const std::vector<Vec3d> X = p.x;

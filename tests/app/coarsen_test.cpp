@@ -13,7 +13,8 @@
 #include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
-#include "sim/types/threshold_cell.h"
+#include "sim/laws/cam_clay.h"
+#include "sim/laws/threshold_cell.h"
 #include "sim/types/time_step.h"
 
 namespace neve::app {
@@ -111,7 +112,8 @@ TEST(Coarsen, CamClayKeepsItsCrackEnergyByItsCohesion) {
   app::scene::Scene clay = coarse_ball("[material.snow]\nmodel = \"cam_clay\"\n");
   app::scene::coarsen(clay, 4);
   const sim::Material in_cells = sim::in_cells(clay.materials[0], clay.solver);
-  EXPECT_DOUBLE_EQ(in_cells.cohesion, clay.materials[0].cohesion / 2);
+  EXPECT_DOUBLE_EQ(in_cells.own[sim::laws::cam_clay::cohesion],
+                   clay.materials[0].own[sim::laws::cam_clay::cohesion] / 2);
   EXPECT_EQ(in_cells.consolidation_pressure, clay.materials[0].consolidation_pressure);
   EXPECT_EQ(in_cells.critical_stretch, clay.materials[0].critical_stretch);
 }

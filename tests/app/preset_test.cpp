@@ -16,6 +16,8 @@
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
+#include "sim/laws/cam_clay.h"
+#include "sim/laws/list.h"
 
 namespace neve::app {
 namespace {
@@ -57,9 +59,10 @@ TEST(Preset, PresetSetsEveryNumberOfTheSnowAndNothingElse) {
   app::scene::Scene before = preset_scene("");
   sim::Material& m = before.materials[0];
   m.density = m.youngs_modulus = m.hardening = m.consolidation_pressure = 3;
-  m.friction_angle = m.cohesion = m.consolidation_hardening = 2;
+  m.friction_angle = m.own[sim::laws::cam_clay::cohesion] =
+      m.own[sim::laws::cam_clay::consolidation_hardening] = 2;
   m.poisson_ratio = m.critical_compression = m.critical_stretch = 0.123;
-  m.model = sim::Model::corotated;
+  m.model = sim::laws::model::corotated;
   app::scene::Scene after = before;
   app::scene::use_preset(after.materials[0], app::scene::Preset::icy);
   std::vector<std::string> changed;
@@ -153,11 +156,11 @@ TEST(Preset, PresetIsDocumentedWithItsNumbers) {
   }
   for (const auto& name : app::scene::names(app::scene::Preset{})) {
     const sim::Material m = app::scene::snow_of(name.value);
-    EXPECT_EQ(
-        rows[name.text],
-        (std::vector<double>{m.density, m.youngs_modulus, m.poisson_ratio, m.hardening,
-                             m.critical_compression, m.critical_stretch, m.friction_angle,
-                             m.cohesion, m.consolidation_pressure, m.consolidation_hardening}))
+    EXPECT_EQ(rows[name.text],
+              (std::vector<double>{m.density, m.youngs_modulus, m.poisson_ratio, m.hardening,
+                                   m.critical_compression, m.critical_stretch, m.friction_angle,
+                                   m.own[sim::laws::cam_clay::cohesion], m.consolidation_pressure,
+                                   m.own[sim::laws::cam_clay::consolidation_hardening]}))
         << name.text;
   }
 }

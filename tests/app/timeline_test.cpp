@@ -13,6 +13,7 @@
 #include "app/timeline/origin.h"
 #include "app/timeline/timeline.h"
 #include "app/timeline/times.h"
+#include "sim/laws/list.h"
 #include "tests/support/changed_run.h"
 #include "tests/support/temporary_folder.h"
 
@@ -215,7 +216,7 @@ TEST(Timeline, ChangesInsideARetriedFrameWaitForItsEnd) {
   scene::Scene scene = test::changed_scene("solver.on_divergence=retry");
   scene.solver.time_step = sim::TimeStep::fixed;
   scene.solver.dt = 1 / 240.0;
-  scene.materials[0].model = sim::Model::corotated;
+  scene.materials[0].model = sim::laws::model::corotated;
   scene.materials[0].youngs_modulus = 3e6;
   scene.bodies[0].velocity = {0, -6, 0};
   const std::vector<scene::LiveChange> changes{{0, "solver.gravity", "[0, -20, 0]"},
@@ -328,7 +329,7 @@ TEST(Timeline, AMomentAfterADivergenceIsLeft) {
   scene::Scene scene = test::changed_scene();
   scene.solver.time_step = sim::TimeStep::fixed;
   scene.solver.dt = 1 / 240.0;
-  scene.materials[0].model = sim::Model::corotated;
+  scene.materials[0].model = sim::laws::model::corotated;
   scene.bodies[0].velocity = {0, -6, 0};
   Counted run(scene, {{3, "material.snow.youngs_modulus", "3e8"}}, Moments(1u << 30));
   run.timeline.keep();

@@ -5,8 +5,8 @@
 namespace neve::test {
 
 std::vector<Mistake> law_mistakes() {
-  constexpr const char* cam_clay = "sim/kernels/cam_clay.h";
-  constexpr const char* sand = "sim/kernels/sand.h";
+  constexpr const char* cam_clay = "sim/laws/cam_clay.h";
+  constexpr const char* sand = "sim/laws/sand.h";
   return {
       {"cam_clay_factor_squared",
        "cam clay: the deviator scaled by 1/r² instead of 1/r",
@@ -26,7 +26,8 @@ std::vector<Mistake> law_mistakes() {
          "const V third{}, t = before,"}}},
       {"sand_another_cone",
        "sand: the slope q/p of the cone taken for that of its strains",
-       {{sand, "m.cone[l] = row.M * ElementOf<V>(0.81649658092772603 / 3)", "m.cone[l] = row.M"}}},
+       {{sand, "m.cone[l] = row.own[constant_M] * ElementOf<V>(0.81649658092772603 / 3)",
+         "m.cone[l] = row.own[constant_M]"}}},
       {"sand_parts_too_late",
        "sand: grains part by the strain of the step alone",
        {{sand, "const MaskOf<V> is_apart = t >= V{}, slides",

@@ -6,7 +6,9 @@ namespace neve::test {
 
 namespace {
 
-constexpr const char* laws = "sim/kernels/constitutive.h";
+constexpr const char* hardening = "sim/laws/hardening.h";
+constexpr const char* stretches = "sim/laws/stretches.h";
+constexpr const char* snow = "sim/laws/snow.h";
 constexpr const char* load = "sim/engine/load.cpp";
 
 /// The stored stress is symmetric. For a stress that is not, forces are computed from nine numbers
@@ -88,7 +90,7 @@ constexpr const char* keep_tau =
 
 /// tau times a factor in which J = det(F_E F_P).
 Edit stress_times(const std::string& factor) {
-  return {laws, keep_tau,
+  return {hardening, keep_tau,
           "const V J = determinant(F()) * J_P(), by = " + factor +
               ";\n    tau[0] = t.xx * by, tau[1] = t.yy * by, tau[2] = t.zz * by;\n"
               "    tau[3] = t.xy * by, tau[4] = t.xz * by, tau[5] = t.yz * by;"};
@@ -100,7 +102,7 @@ const Edit zero_J_P{load, initial_J_P, "p.J_P = in.J_P.empty() ? Real(0) :"};
 
 /// Exponent of the hardening, times xi.
 std::vector<Edit> hardening_by(const std::string& exponent) {
-  return {{laws, "exponential_lanes(word[word_xi] * (Real(1) - J_P()));",
+  return {{hardening, "exponential_lanes(word[word_xi] * (Real(1) - J_P()));",
            "exponential_lanes(word[word_xi] * (" + exponent + "));"}};
 }
 
@@ -129,10 +131,10 @@ std::vector<Mistake> stress_mistakes() {
       {"stress_not_times_J", "V0 σ instead of J V0 σ", {stress_times("Real(1) / J")}},
       {"J_of_all_of_F",
        "J = det(F_E F_P) in λ (J − 1)",
-       {{laws, "m.set_tau(add_identity(Real(2) * mu * deviation, lambda * (J - one) * J));",
+       {{stretches, "m.set_tau(add_identity(Real(2) * mu * deviation, lambda * (J - one) * J));",
          "m.set_tau(add_identity(Real(2) * mu * deviation,\n"
          "                         lambda * (J * m.J_P() - one) * J * m.J_P()));"},
-        {laws, "pressure = lambda * (J_E - one) * J_E;",
+        {stretches, "pressure = lambda * (J_E - one) * J_E;",
          "pressure = lambda * (J_E * m.J_P() - one) * J_E * m.J_P();"}}},
       {"F_minus_S", "F − S instead of F − R", rotation_replaced("S[3 * i + j]"), {}, added},
       {"R_transposed", "R transposed (V Uᵀ)", rotation_replaced("R[3 * j + i]"), {}, added},
@@ -164,18 +166,17 @@ std::vector<Mistake> plasticity_mistakes() {
        hardening_by("Real(1) - J_P() * determinant(F())")},
       {"F_P_not_updated",
        "F_E clamped, F_P never updated",
-       {{laws, "  m.J_P() = is_cut ? moved : m.J_P();\n", "  (void)is_cut;\n"}}},
+       {{snow, "  m.J_P() = is_cut ? moved : m.J_P();\n", "  (void)is_cut;\n"}}},
       {"signed_cut",
        "J_P of a particle turned inside out changes its sign",
-       {{laws, "cut * (absolute_lanes(s) / clamped)", "cut * (s / clamped)"}}},
+       {{snow, "cut * (absolute_lanes(s) / clamped)", "cut * (s / clamped)"}}},
       {"clamped_to_thresholds",
        "clamp to [θ_s, θ_c] instead of [1 − θ_c, 1 + θ_s]",
-       {{laws, "= Real(1) - k[3] * p.threshold;", "= k[4] * p.threshold;"},
-        {laws, "= Real(1) + k[4] * p.threshold;", "= k[3] * p.threshold;"}}},
+       {{hardening, "= Real(1) - k[3] * p.threshold;", "= k[4] * p.threshold;"},
+        {hardening, "= Real(1) + k[4] * p.threshold;", "= k[3] * p.threshold;"}}},
       {"no_plasticity",
        "no plasticity",
-       {{laws, "is_projected && model == ModelKind::snow;",
-         "is_projected && model == ModelKind::snow && false;"}}},
+       {{stretches, "is_projected && Yield::yields;", "is_projected && Yield::yields && false;"}}},
   };
 }
 

@@ -5,16 +5,16 @@
 namespace neve::test {
 
 std::vector<Mistake> run_mistakes() {
-  constexpr const char* constitutive = "sim/kernels/constitutive.h";
+  constexpr const char* stretches = "sim/laws/stretches.h";
   constexpr const char* sweeps = "sim/kernels/sweeps.h";
   constexpr const char* method = "sim/state/method.cpp";
   return {
       {"sound_without_hardening",
        "sound speed without hardening",
-       {{constitutive, "m.wave_modulus() = Real(2) * mu * row_sum_norm(b) + lambda * J * J;",
+       {{stretches, "m.wave_modulus() = Real(2) * mu * row_sum_norm(b) + lambda * J * J;",
          "m.wave_modulus() = Real(2) * m.word[MaterialLanes<V>::word_mu] * row_sum_norm(b) +\n"
          "                     m.word[MaterialLanes<V>::word_lambda] * J * J;"},
-        {constitutive, "m.wave_modulus() = Real(2) * mu * largest + lambda * J_E * J_E;",
+        {stretches, "m.wave_modulus() = Real(2) * mu * largest + lambda * J_E * J_E;",
          "m.wave_modulus() = Real(2) * m.word[MaterialLanes<V>::word_mu] * largest +\n"
          "                     m.word[MaterialLanes<V>::word_lambda] * J_E * J_E;"}}},
       {"sound_of_the_material",

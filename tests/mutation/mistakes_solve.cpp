@@ -5,7 +5,7 @@
 namespace neve::test {
 
 std::vector<Mistake> solve_mistakes() {
-  constexpr const char* differential = "sim/kernels/differential.h";
+  constexpr const char* stretches = "sim/laws/stretches.h";
   return {
       {"hessian_sign",
        "semi-implicit: sign of the Hessian flipped",
@@ -16,12 +16,13 @@ std::vector<Mistake> solve_mistakes() {
        true},
       {"rotation_held",
        "semi-implicit: δP without δR",
-       {{differential, "    solve_for_spin(e.shape, k, w);\n",
+       {{stretches, "    solve_for_spin(e.shape, k, w);\n",
          "    (void)k;\n    w[0] = w[1] = w[2] = V{};\n"}}},
       {"cofactor_held",
        "semi-implicit: δP without δ(J F⁻ᵀ)",
-       {{differential, "on_transpose = -e.V0_lambda * J * (J - Real(1));", "on_transpose = V{};"},
-        {differential, "e.V0_lambda * J * (Real(2) * J - Real(1)) * trace",
+       {{stretches, "const V on_transpose = -e.V0_lambda * J * (J - Real(1));",
+         "const V on_transpose{};"},
+        {stretches, "e.V0_lambda * J * (Real(2) * J - Real(1)) * trace",
          "e.V0_lambda * J * J * trace"}}},
       {"beta_dt",
        "semi-implicit: β dt instead of β dt²",

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/health/diagnostics.h"
+#include "sim/laws/list.h"
 #include "tests/oracle/vectors.h"
 #include "tests/support/one_particle.h"
 #include "tests/support/stress_change.h"
@@ -19,7 +20,7 @@ const Json& unit() {
   return vectors;
 }
 
-kernels::Particle<double> particle(const Mat3d& F_E, double J_P, kernels::ModelKind model) {
+kernels::Particle<double> particle(const Mat3d& F_E, double J_P, Model model) {
   kernels::Particle<double> p{};
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) p.F_E[3 * a + b] = F_E(a, b);
@@ -146,7 +147,7 @@ TEST(OracleUnit, DecompositionsAgreeAlsoInvertedAndDegenerate) {
   for (const Json& entry : unit()["decomposition"]) {
     SCOPED_TRACE(entry["case"].get<std::string>());
     const Mat3d F = mat3(entry["F"]);
-    const kernels::Particle<double> p = particle(F, 1, kernels::ModelKind::snow);
+    const kernels::Particle<double> p = particle(F, 1, laws::model::snow);
     const kernels::SignedSvd<double> svd = kernels::signed_svd(p.F_E);
     const Mat3d U = rows(svd.U), V = rows(svd.V);
     Vec3d s(svd.s[0], svd.s[1], svd.s[2]);
@@ -172,7 +173,7 @@ TEST(OracleUnit, EnergyAndStressAgree) {
     const Json& m = entry["material"];
     const bool is_neo_hookean = entry["model"] == "neo_hookean";
     Material material;
-    material.model = is_neo_hookean ? Model::neo_hookean : Model::corotated;
+    material.model = is_neo_hookean ? laws::model::neo_hookean : laws::model::corotated;
     material.youngs_modulus = m["E"].get<double>();
     material.poisson_ratio = m["nu"].get<double>();
     material.hardening = m["xi"].get<double>();
@@ -184,8 +185,8 @@ TEST(OracleUnit, EnergyAndStressAgree) {
                 1e-10 * std::max(1.0, entry["psi"].get<double>()));
     EXPECT_LE((health::first_piola(material, F_E, J_P) - mat3(entry["P"])).cwiseAbs().maxCoeff(),
               1e-10 * scale);
-    kernels::Particle<double> p = particle(
-        F_E, J_P, is_neo_hookean ? kernels::ModelKind::neo_hookean : kernels::ModelKind::corotated);
+    kernels::Particle<double> p =
+        particle(F_E, J_P, is_neo_hookean ? laws::model::neo_hookean : laws::model::corotated);
     update_material(p, constants(m));
     EXPECT_LE((tau_of(p) - mat3(entry["kirchhoff"])).cwiseAbs().maxCoeff(), 1e-10 * scale);
     EXPECT_LE((tau_of(p) / J - mat3(entry["cauchy"])).cwiseAbs().maxCoeff(),
@@ -210,8 +211,8 @@ TEST(OracleUnit, EnergyAndStressAgree) {
 TEST(OracleUnit, PlasticProjectionAgreesAlsoInverted) {
   for (const Json& entry : unit()["plasticity"]) {
     const double theta_c = entry["theta_c"].get<double>(), theta_s = entry["theta_s"].get<double>();
-    kernels::Particle<double> p = particle(mat3(entry["FE_trial"]), mat3(entry["FP"]).determinant(),
-                                           kernels::ModelKind::snow);
+    kernels::Particle<double> p =
+        particle(mat3(entry["FE_trial"]), mat3(entry["FP"]).determinant(), laws::model::snow);
     update_material(p, kernels::MaterialConstants<double>{1, 1, 10, theta_c, theta_s});
     RelativeError F_E;
     F_E.add_all(mat3(entry["FE_out"]), rows(p.F_E));
@@ -227,8 +228,7 @@ TEST(OracleUnit, UniaxialCompressionAgrees) {
   for (const Json& entry : unit()["uniaxial"]) {
     const double s = entry["stretch"].get<double>();
     SCOPED_TRACE(s);
-    kernels::Particle<double> p =
-        particle(Vec3d(1, s, 1).asDiagonal(), 1, kernels::ModelKind::snow);
+    kernels::Particle<double> p = particle(Vec3d(1, s, 1).asDiagonal(), 1, laws::model::snow);
     update_material(p, constants(m));
     const Mat3d sigma = tau_of(p) / s;
     EXPECT_NEAR(p.J_P, entry["JP"].get<double>(), 1e-12);

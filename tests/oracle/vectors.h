@@ -15,7 +15,8 @@
 
 #include <Eigen/Geometry>
 
-#include "sim/health/cam_clay.h"
+#include "sim/laws/cam_clay.h"
+#include "sim/laws/list.h"
 #include "sim/simulation.h"
 
 namespace oracle {
@@ -96,24 +97,25 @@ inline bool is_known(const Json& material) {
 
 /// The reference starts from alpha0, we from the pressure that belongs to it.
 inline neve::sim::Material cam_clay_material(const Json& j) {
-  namespace cam_clay = neve::sim::health::cam_clay;
+  namespace cam_clay = neve::sim::laws::cam_clay;
   neve::sim::Material m;
-  m.model = neve::sim::Model::cam_clay;
+  m.model = neve::sim::laws::model::cam_clay;
   m.youngs_modulus = j["E"].get<double>();
   m.poisson_ratio = j["nu"].get<double>();
-  m.friction_angle = cam_clay::friction_angle(j["M"].get<double>());
-  m.cohesion = j["beta"].get<double>();
-  m.consolidation_hardening = j["xi"].get<double>();
-  m.consolidation_pressure = cam_clay::bulk_modulus(m) *
-                             (j["small"].get<double>() +
-                              std::sinh(-m.consolidation_hardening * j["alpha0"].get<double>()));
+  m.friction_angle = neve::sim::laws::friction_angle(j["M"].get<double>());
+  m.own[cam_clay::cohesion] = j["beta"].get<double>();
+  m.own[cam_clay::consolidation_hardening] = j["xi"].get<double>();
+  m.consolidation_pressure =
+      neve::sim::bulk_modulus(m) *
+      (j["small"].get<double>() +
+       std::sinh(-m.own[cam_clay::consolidation_hardening] * j["alpha0"].get<double>()));
   m.min_J_P = 1e-9, m.max_J_P = 1e9;  // the reference bounds nothing
   return m;
 }
 
 inline neve::sim::Material sand_material(const Json& j) {
   neve::sim::Material m;
-  m.model = neve::sim::Model::sand;
+  m.model = neve::sim::laws::model::sand;
   m.youngs_modulus = j["E"].get<double>();
   m.poisson_ratio = j["nu"].get<double>();
   m.friction_angle = j["friction_angle"].get<double>();
@@ -127,26 +129,27 @@ inline neve::sim::Material material(const Json& j) {
   if (j["model"] == "cam_clay") return cam_clay_material(j);
   Material m;
   const bool is_plastic = j["plastic"].get<bool>();
-  m.model = j["model"] == "neo_hookean" ? Model::neo_hookean
-            : is_plastic                ? Model::snow
-                                        : Model::corotated;
+  m.model = j["model"] == "neo_hookean" ? laws::model::neo_hookean
+            : is_plastic                ? laws::model::snow
+                                        : laws::model::corotated;
   m.youngs_modulus = j["E"].get<double>();
   m.poisson_ratio = j["nu"].get<double>();
   m.hardening = j["xi"].get<double>();
   m.critical_compression = j["theta_c"].get<double>();
   m.critical_stretch = j["theta_s"].get<double>();
-  m.yields = m.model == Model::neo_hookean && is_plastic;
+  m.yields = m.model == laws::model::neo_hookean && is_plastic;
   return m;
 }
 
 /// Cam clay and sand, whose history the vectors call alpha.
 inline bool has_alpha(const neve::sim::Material& material) {
-  return material.model == neve::sim::Model::cam_clay || material.model == neve::sim::Model::sand;
+  return material.model == neve::sim::laws::model::cam_clay ||
+         material.model == neve::sim::laws::model::sand;
 }
 /// alpha at J_P = 1.
 inline double alpha_at_rest(const neve::sim::Material& material) {
-  return material.model == neve::sim::Model::cam_clay
-             ? neve::sim::health::cam_clay::alpha0(material)
+  return material.model == neve::sim::laws::model::cam_clay
+             ? neve::sim::laws::cam_clay::alpha0(material)
              : 0;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "sim/checks/watch.h"
+#include "sim/laws/list.h"
 #include "tests/support/snow.h"
 
 namespace {
@@ -22,7 +23,7 @@ struct World {
 
   World() {
     materials[1].name = "stiff";
-    materials[1].model = Model::corotated;
+    materials[1].model = laws::model::corotated;
     shapes::Collider ball;
     ball.name = "ball";
     ball.shape.form = shapes::Sphere{{0.05, 0.02, 0.03}, 0.05};
@@ -142,8 +143,8 @@ TEST(Apply, StressAndLimitsAreThoseOfTheNewMaterialAndTheRestStays) {
 TEST(Apply, AModelIsThatOfTheParticlesFromNowOn) {
   World world;
   Simulation simulation = crushed(world);
-  world.materials[0].model = Model::neo_hookean;
-  world.materials[1].model = Model::snow;
+  world.materials[0].model = laws::model::neo_hookean;
+  world.materials[1].model = laws::model::snow;
   world.apply_to(simulation);
   const ParticleArrays now = simulation.particles();
   const Simulation fresh = world.simulate(now);
@@ -175,7 +176,7 @@ std::vector<Change> changes() {
       {"much softer", [](World& w) { w.materials[0].youngs_modulus *= 1e-3; }},
       {"harder", [](World& w) { w.materials[0].hardening = 20; }},
       {"brittle", [](World& w) { w.materials[0].critical_stretch = 1e-4; }},
-      {"rubber", [](World& w) { w.materials[0].model = Model::neo_hookean; }},
+      {"rubber", [](World& w) { w.materials[0].model = laws::model::neo_hookean; }},
       {"weightless", [](World& w) { w.settings.gravity.setZero(); }},
       {"heavy",
        [](World& w) {
@@ -202,7 +203,7 @@ std::vector<Change> changes() {
       {"everything",
        [](World& w) {
          w.materials[0].youngs_modulus *= 10;
-         w.materials[1].model = Model::snow;
+         w.materials[1].model = laws::model::snow;
          w.settings.gravity = {1, 0, 0};
          w.settings.transfer = Transfer::apic;
          w.settings.kernel = Kernel::quadratic;

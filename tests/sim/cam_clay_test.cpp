@@ -7,8 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
+#include "sim/laws/cam_clay.h"
+#include "sim/laws/list.h"
 #include "sim/state/method.h"
 #include "sim/state/records.h"
 #include "tests/support/one_particle.h"
@@ -19,11 +20,11 @@ namespace {
 using namespace neve;
 using namespace neve::sim;
 using namespace neve::test;
-namespace cam_clay = health::cam_clay;
+namespace cam_clay = laws::cam_clay;
 
 Material clay() {
   Material m;
-  m.model = Model::cam_clay;
+  m.model = laws::model::cam_clay;
   return m;
 }
 
@@ -35,7 +36,7 @@ class Sample {
     engine::store_matrix(Mat3d(Mat3d::Identity()), p_.F_E);
     p_.J_P = static_cast<Real>(J_P);
     p_.m = p_.V0 = p_.stiffness = p_.threshold = 1;
-    p_.kind = kernels::kind_of<Real>(0, kernels::ModelKind::cam_clay, 0);
+    p_.kind = kernels::kind_of<Real>(0, laws::model::cam_clay, 0);
   }
   void set_F(const Mat3d& F_E) { engine::store_matrix(F_E, p_.F_E); }
   /// F_E = (I + L) F_E, and the return.
@@ -92,7 +93,7 @@ void expect_surface(double tolerance) {
     }
     if (r < 1 + 1e-3) continue;
     // On the ellipse of p0 before the step.
-    const double M = cam_clay::critical_slope(m.friction_angle), beta = m.cohesion;
+    const double M = laws::critical_slope(m.friction_angle), beta = m.own[cam_clay::cohesion];
     const double p = sample.p(), q = sample.q();
     const double y = (1 + 2 * beta) * q * q + M * M * (p + beta * before) * (p - before);
     const double size = M * (1 + beta) * before;
@@ -153,16 +154,18 @@ TEST(CamClay, IsotropicCompressionFollowsTheHardeningLaw) {
     volume *= std::pow(1 - 1e-3, 3);
     EXPECT_NEAR(sample.J_E() * sample.J_P(), volume, 1e-12);
     EXPECT_LE(sample.q(), 1e-9 * m.youngs_modulus);
-    const double K = cam_clay::bulk_modulus(m);
+    const double K = bulk_modulus(m);
     EXPECT_NEAR(sample.p(), 0.5 * K * (1 - sample.J_E() * sample.J_E()), 1e-9 * K);
     EXPECT_LE(sample.p(), before * (1 + 1e-12));
   }
   // p0 of what the volume law leaves to F_P, solved for J_P by hand.
-  const double K = cam_clay::bulk_modulus(m), alpha0 = cam_clay::alpha0(m);
+  const double K = bulk_modulus(m), alpha0 = cam_clay::alpha0(m);
   double low = volume, high = 1;
   for (int round = 0; round < 60; ++round) {
     const double J_P = 0.5 * (low + high);
-    const double p0 = K * (1e-5 + std::sinh(-m.consolidation_hardening * (alpha0 + std::log(J_P))));
+    const double p0 =
+        K *
+        (1e-5 + std::sinh(-m.own[cam_clay::consolidation_hardening] * (alpha0 + std::log(J_P))));
     const bool is_too_loose = J_P * std::sqrt(std::max(1 - 2 * p0 / K, 0.0)) > volume;
     (is_too_loose ? high : low) = J_P;
   }
@@ -199,14 +202,14 @@ TEST(CamClay, OedometerKeepsItsAxisAndItsVolume) {
 /// the ellipse and q at its top.
 TEST(CamClay, ShearAtConstantVolumeEndsInTheCriticalState) {
   Material m = clay();
-  m.consolidation_hardening = 5;
+  m.own[cam_clay::consolidation_hardening] = 5;
   for (const double J_P : {1.0, 0.95}) {
     Sample<double> sample(m, J_P);
     Mat3d shear = Mat3d::Zero();
     shear(0, 1) = 5e-4;
     for (int k = 0; k < 60000; ++k) sample.strain(shear);
-    const double p0 = sample.p0(), beta = m.cohesion;
-    const double M = cam_clay::critical_slope(m.friction_angle);
+    const double p0 = sample.p0(), beta = m.own[cam_clay::cohesion];
+    const double M = laws::critical_slope(m.friction_angle);
     EXPECT_NEAR(sample.p(), 0.5 * (1 - beta) * p0, 0.01 * p0);
     EXPECT_NEAR(sample.q(), 0.5 * M * (1 + beta) / std::sqrt(1 + 2 * beta) * p0, 0.01 * p0);
     const double J_P_then = sample.J_P();
@@ -220,13 +223,14 @@ TEST(CamClay, SnowTornByTensionLosesItsStrengthForGood) {
   Sample<double> sample(m);
   sample.strain(0.2 * Mat3d::Identity());
   // At the tip: -beta p0 of the start.
-  EXPECT_NEAR(sample.p(), -m.cohesion * m.consolidation_pressure, 1e-8 * m.youngs_modulus);
+  EXPECT_NEAR(sample.p(), -m.own[cam_clay::cohesion] * m.consolidation_pressure,
+              1e-8 * m.youngs_modulus);
   EXPECT_LE(sample.q(), 1e-9 * m.youngs_modulus);
   EXPECT_GT(sample.J_P(), 1.3);
   // Its alpha is positive now: hardly any strength is left.
-  EXPECT_LE(sample.p0(), 1.01e-5 * cam_clay::bulk_modulus(m));
+  EXPECT_LE(sample.p0(), 1.01e-5 * bulk_modulus(m));
   sample.strain(0.01 * Mat3d::Identity());
-  EXPECT_LE(std::abs(sample.p()), 1.01e-5 * cam_clay::bulk_modulus(m));
+  EXPECT_LE(std::abs(sample.p()), 1.01e-5 * bulk_modulus(m));
 }
 
 TEST(CamClay, FactorsOfAParticleScaleItsStrength) {
@@ -246,7 +250,7 @@ TEST(CamClay, StrengthIsGivenInPascalWhateverTheStiffness) {
     m.youngs_modulus = E;
     EXPECT_NEAR(cam_clay::p0(m, 1), m.consolidation_pressure, 1e-9 * m.consolidation_pressure);
   }
-  EXPECT_NEAR(cam_clay::critical_slope(cam_clay::friction_angle(1.6)), 1.6, 1e-14);
+  EXPECT_NEAR(laws::critical_slope(laws::friction_angle(1.6)), 1.6, 1e-14);
 }
 
 /// The kernels bound b'_min from below, so their sound is never slower than the exact one.
@@ -261,7 +265,7 @@ TEST(CamClay, SoundIsThatOfTheStiffestDirection) {
     p.J_P = p.stiffness = p.threshold = all<Quad<double>>(1);
     const kernels::MaterialConstants<double> table[] = {engine::constants_of<double>(m)};
     Quad<double> modulus;
-    kernels::cam_clay(p, table, true, modulus);
+    cam_clay::InLanes::step(p, table, true, modulus);
     const double exact = cam_clay::wave_modulus(m, F);
     EXPECT_GE(modulus[0], exact * (1 - 1e-12));
     EXPECT_LE(modulus[0], exact * 1.05);

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <set>
 
+#include "sim/laws/list.h"
 #include "tests/support/combinations.h"
 #include "tests/support/simd_levels.h"
 #include "tests/support/snow.h"
@@ -17,13 +18,13 @@ using namespace neve::test;
 
 std::vector<Material> all_materials() {
   std::vector<Material> m(5);
-  m[1].model = Model::corotated;
+  m[1].model = laws::model::corotated;
   m[1].youngs_modulus = 3e4;
-  m[2].model = Model::neo_hookean;
+  m[2].model = laws::model::neo_hookean;
   m[2].youngs_modulus = 5e4;
   m[2].hardening = 0;
-  m[3].model = Model::cam_clay;
-  m[4].model = Model::sand;
+  m[3].model = laws::model::cam_clay;
+  m[4].model = laws::model::sand;
   return m;
 }
 

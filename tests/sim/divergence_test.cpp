@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/laws/list.h"
 #include "tests/support/snow.h"
 
 namespace {
@@ -37,7 +38,7 @@ TEST(Divergence, HealthyImpactsPass) {
 }
 
 TEST(Divergence, HealthyImpactsOfElasticModelsPass) {
-  for (const Model model : {Model::corotated, Model::neo_hookean}) {
+  for (const Model model : {laws::model::corotated, laws::model::neo_hookean}) {
     SolverSettings s;
     s.cell_size = 0.03;
     Material m;
@@ -109,7 +110,7 @@ TEST(Divergence, SlowPressesAreHealthy) {
   s.cell_size = 0.03;
   s.gravity.setZero();
   const shapes::Contact slip = shapes::Contact::slip;
-  for (const Model model : {Model::snow, Model::corotated}) {
+  for (const Model model : {laws::model::snow, laws::model::corotated}) {
     Material m;
     m.model = model;
     std::vector<shapes::Collider> box = {
@@ -148,7 +149,7 @@ TEST(Divergence, AFixedStepTooLongForTheStiffnessIsFound) {
   s.time_step = TimeStep::fixed;
   s.dt = 1e-3;
   Material m;
-  m.model = Model::corotated;
+  m.model = laws::model::corotated;
   m.youngs_modulus = 1e8;
   EXPECT_NE(rule_of(s, m, falling_ball(5)), "");
 }
@@ -191,7 +192,7 @@ TEST(Divergence, ElasticMatterTurnedInsideOutIsFound) {
   SolverSettings s;
   s.cell_size = 0.03;
   Material m;
-  m.model = Model::neo_hookean;
+  m.model = laws::model::neo_hookean;
   ParticleArrays p = falling_ball(0);
   p.F_E.assign(p.x.size(), Mat3d::Identity());
   p.F_E[5](2, 2) = -1;
@@ -208,7 +209,7 @@ TEST(Divergence, EnergyFromNowhereIsFound) {
   s.transfer = Transfer::flip;
   s.flip_ratio = 1;
   Material m;
-  m.model = Model::corotated;
+  m.model = laws::model::corotated;
   m.hardening = 0;
   s.dt = 2.2 * s.cell_size / sound_speed(m);
   ParticleArrays p = ball_of_snow({0, 0.13, 0}, 0.12, 0.015, {0, 0, 0});

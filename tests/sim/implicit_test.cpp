@@ -8,6 +8,7 @@
 #include "sim/checks/self_test_bodies.h"
 #include "sim/health/diagnostics.h"
 #include "sim/kernels/held.h"
+#include "sim/laws/list.h"
 #include "sim/staged.h"
 #include "tests/support/simd_levels.h"
 #include "tests/support/snow.h"
@@ -31,11 +32,11 @@ ParticleArrays strained(std::size_t count) {
 
 std::vector<Material> all_models() {
   std::vector<Material> materials(5);
-  materials[1].model = Model::corotated;
+  materials[1].model = laws::model::corotated;
   materials[1].youngs_modulus = 4e5;
-  materials[2].model = Model::neo_hookean;
-  materials[3].model = Model::cam_clay;
-  materials[4].model = Model::sand;
+  materials[2].model = laws::model::neo_hookean;
+  materials[3].model = laws::model::cam_clay;
+  materials[4].model = laws::model::sand;
   return materials;
 }
 
@@ -248,8 +249,8 @@ TEST(ImplicitSolve, ASolveThatIsCutShortHalvesItsStep) {
 TEST(ImplicitSolve, ImplicitSolveOfCrushedBodiesLeavesNumbers) {
   // H is indefinite: crushed bodies buckle. dt is up to a hundred times the explicit one.
   for (const double crushed : {0.9, 0.5, 0.3})
-    for (const Model model :
-         {Model::snow, Model::corotated, Model::neo_hookean, Model::cam_clay, Model::sand})
+    for (const Model model : {laws::model::snow, laws::model::corotated, laws::model::neo_hookean,
+                              laws::model::cam_clay, laws::model::sand})
       for (const double dt : {1e-3, 8e-3, 5e-2}) {
         const checks::SelfTestCase test{Kernel::cubic, Transfer::flip, Precision::single};
         SolverSettings s = implicit_settings(test, 1);

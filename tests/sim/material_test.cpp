@@ -11,6 +11,8 @@
 #include <random>
 
 #include "sim/health/diagnostics.h"
+#include "sim/laws/law.h"
+#include "sim/laws/list.h"
 #include "sim/state/method.h"
 #include "tests/support/one_particle.h"
 #include "tests/support/simd_levels.h"
@@ -40,7 +42,7 @@ class Random {
 };
 
 template <class Real>
-kernels::Particle<Real> particle(const Mat3d& F_E, double J_P, kernels::ModelKind model) {
+kernels::Particle<Real> particle(const Mat3d& F_E, double J_P, Model model) {
   kernels::Particle<Real> p{};
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) p.F_E[3 * a + b] = static_cast<Real>(F_E(a, b));
@@ -71,12 +73,10 @@ kernels::MaterialConstants<Real> constants(const Material& m) {
   return engine::constants_of<Real>(m);
 }
 
-constexpr Model models[] = {Model::snow, Model::corotated, Model::neo_hookean, Model::cam_clay,
-                            Model::sand};
-
 TEST(Energy, StressIsItsDerivative) {
   Random random(1);
-  for (const Model model : models) {
+  for (const laws::Law& law : laws::every()) {
+    const Model model = law.model;
     Material m;
     m.model = model;
     for (int trial = 0; trial < 50; ++trial) {
@@ -98,8 +98,9 @@ TEST(Energy, StressIsItsDerivative) {
 
 TEST(Stress, StressOfKernelsIsFirstPiolaTimesTransposedF) {
   Random random(2);
-  for (const Model model : models) {
-    if (model == Model::sand) continue;  // yields to any tension: see Sand
+  for (const laws::Law& law : laws::every()) {
+    const Model model = law.model;
+    if (law.is_granular) continue;  // yields to any tension: see Sand
     Material m;
     m.model = model;
     // Thresholds wide open: nothing is projected, so F_E stays what it was.
@@ -111,11 +112,11 @@ TEST(Stress, StressOfKernelsIsFirstPiolaTimesTransposedF) {
       const double J_P = 1 + 0.05 * random();
       const Mat3d expected = health::first_piola(m, F, J_P) * F.transpose();
       const double scale = 2 * m.youngs_modulus;
-      auto p = particle<double>(F, J_P, static_cast<kernels::ModelKind>(static_cast<int>(model)));
+      auto p = particle<double>(F, J_P, model);
       update_material(p, constants<double>(m));
       // Double: F - R cancels, 1e-13 of the moduli. Float: F itself is rounded to 6e-8.
       EXPECT_LE((tau_of(p) - expected).cwiseAbs().maxCoeff(), 1e-12 * scale) << strain;
-      auto q = particle<float>(F, J_P, static_cast<kernels::ModelKind>(static_cast<int>(model)));
+      auto q = particle<float>(F, J_P, model);
       update_material(q, constants<float>(m));
       EXPECT_LE((tau_of(q) - expected).cwiseAbs().maxCoeff(), 2e-6 * scale) << strain;
     }
@@ -124,13 +125,13 @@ TEST(Stress, StressOfKernelsIsFirstPiolaTimesTransposedF) {
 
 TEST(Stress, StressVanishesInRotationAndTurnsWithIt) {
   Random random(3);
-  for (const Model model : models) {
+  for (const laws::Law& law : laws::every()) {
+    const Model model = law.model;
     Material m;
     m.model = model;
-    const auto kind = static_cast<kernels::ModelKind>(static_cast<int>(model));
     const Mat3d Q = random.rotation(), F = Mat3d::Identity() + 0.004 * random.matrix();
-    auto turned = particle<double>(Q, 1, kind), at_rest = particle<double>(F, 1, kind),
-         both = particle<double>(Q * F, 1, kind);
+    auto turned = particle<double>(Q, 1, model), at_rest = particle<double>(F, 1, model),
+         both = particle<double>(Q * F, 1, model);
     for (auto* p : {&turned, &at_rest, &both}) update_material(*p, constants<double>(m));
     EXPECT_LE(tau_of(turned).cwiseAbs().maxCoeff(), 1e-13 * m.youngs_modulus);
     EXPECT_LE((tau_of(both) - Q * tau_of(at_rest) * Q.transpose()).cwiseAbs().maxCoeff(),
@@ -141,9 +142,9 @@ TEST(Stress, StressVanishesInRotationAndTurnsWithIt) {
 /// A stretch along x next to the border between two ways to compute stress, on either side.
 void expect_no_step_at(double border) {
   Material m;
-  m.model = Model::corotated;
+  m.model = laws::model::corotated;
   const auto stress_at = [&](double stretch) {
-    auto p = particle<double>(Vec3d(stretch, 1, 1).asDiagonal(), 1, kernels::ModelKind::corotated);
+    auto p = particle<double>(Vec3d(stretch, 1, 1).asDiagonal(), 1, laws::model::corotated);
     update_material(p, constants<double>(m));
     return tau_of(p);
   };
@@ -156,7 +157,7 @@ void expect_no_step_at(double border) {
 TEST(Stress, StressOfTwoPathsMeetsAtTheirBorders) {
   at_every_simd_level([] {
     for (const double squared : {1 - kernels::series_radius, 1 + kernels::series_radius,
-                                 kernels::eigen_lo, kernels::eigen_hi})
+                                 sim::laws::eigen_lo, sim::laws::eigen_hi})
       expect_no_step_at(std::sqrt(squared));
   });
 }
@@ -167,7 +168,7 @@ TEST(Snow, ProjectionClampsStretchesAndKeepsTheProduct) {
   for (int trial = 0; trial < 200; ++trial) {
     const Mat3d F = random.rotation() * (Mat3d::Identity() + 0.1 * random.matrix());
     const double J_P = 1 + 0.1 * random();
-    auto p = particle<double>(F, J_P, kernels::ModelKind::snow);
+    auto p = particle<double>(F, J_P, laws::model::snow);
     update_material(p, constants<double>(m));
     const Vec3d s = F_of(p).jacobiSvd().singularValues();
     EXPECT_GE(s.minCoeff(), 1 - m.critical_compression - 1e-12);
@@ -181,7 +182,7 @@ TEST(Snow, InsideTheThresholdsNothingChangesABit) {
   const Material m;
   for (int trial = 0; trial < 200; ++trial) {
     const Mat3d F = random.rotation() * (Mat3d::Identity() + 0.002 * random.matrix());
-    auto p = particle<float>(F, 0.97, kernels::ModelKind::snow);
+    auto p = particle<float>(F, 0.97, laws::model::snow);
     const auto before = p;
     update_material(p, constants<float>(m));
     EXPECT_EQ(0, std::memcmp(p.F_E, before.F_E, sizeof p.F_E));
@@ -191,8 +192,8 @@ TEST(Snow, InsideTheThresholdsNothingChangesABit) {
 
 TEST(Snow, HardeningGrowsUnderCompressionOnly) {
   const Material m;
-  auto pressed = particle<double>(Vec3d(1, 0.9, 1).asDiagonal(), 1, kernels::ModelKind::snow);
-  auto pulled = particle<double>(Vec3d(1, 1.1, 1).asDiagonal(), 1, kernels::ModelKind::snow);
+  auto pressed = particle<double>(Vec3d(1, 0.9, 1).asDiagonal(), 1, laws::model::snow);
+  auto pulled = particle<double>(Vec3d(1, 1.1, 1).asDiagonal(), 1, laws::model::snow);
   update_material(pressed, constants<double>(m));
   update_material(pulled, constants<double>(m));
   EXPECT_NEAR(pressed.J_P, 0.9 / 0.975, 1e-12);
@@ -203,7 +204,7 @@ TEST(Snow, HardeningGrowsUnderCompressionOnly) {
 template <class Real>
 void expect_inverted_is_repaired() {
   const Material m;
-  auto p = particle<Real>(Vec3d(1, 1, -0.5).asDiagonal(), 8, kernels::ModelKind::snow);
+  auto p = particle<Real>(Vec3d(1, 1, -0.5).asDiagonal(), 8, laws::model::snow);
   update_material(p, constants<Real>(m));
   EXPECT_NEAR(static_cast<double>(p.J_P), 8 * 0.5 / 0.975, 1e-5);
   EXPECT_NEAR(std::abs(F_of(p).determinant()), 0.975, 1e-5);
@@ -226,7 +227,7 @@ TEST(Snow, PlasticVolumeStaysInItsRange) {
     for (const double size : {0.1, 0.3, 3.0, 20.0})
       for (const double J_P : {0.5, 0.7, 1.0, 2.0}) {
         const Mat3d F = size * random.rotation() * (Mat3d::Identity() + 0.1 * random.matrix());
-        auto held = particle<double>(F, J_P, kernels::ModelKind::snow), free = held;
+        auto held = particle<double>(F, J_P, laws::model::snow), free = held;
         update_material(held, constants<double>(narrow));
         update_material(free, kernels::MaterialConstants<double>{1, 1, 1, 0.025, 0.0075});
         EXPECT_EQ(held.J_P, std::clamp(free.J_P, 0.5, 2.0)) << size << " " << J_P;
@@ -238,7 +239,7 @@ TEST(Snow, PlasticVolumeStaysInItsRange) {
 TEST(Snow, PlasticVolumeThatIsNoNumberStaysNone) {
   for (const double s : {0.99, 0.9, -0.5}) {
     auto p = particle<float>(Vec3d(1, s, 1).asDiagonal(), std::numeric_limits<double>::quiet_NaN(),
-                             kernels::ModelKind::snow);
+                             laws::model::snow);
     update_material(p, constants<float>(Material{}));
     EXPECT_TRUE(std::isnan(p.J_P)) << s;
   }
@@ -246,7 +247,7 @@ TEST(Snow, PlasticVolumeThatIsNoNumberStaysNone) {
 
 template <class Real>
 double stress_at(const Material& m, double J_P) {
-  auto p = particle<Real>(Vec3d(1, 0.99, 1).asDiagonal(), J_P, kernels::ModelKind::snow);
+  auto p = particle<Real>(Vec3d(1, 0.99, 1).asDiagonal(), J_P, laws::model::snow);
   update_material(p, constants<Real>(m));
   return tau_of(p).norm();
 }
@@ -259,10 +260,10 @@ void expect_bounded_hardening() {
   const double at_rest = stress_at<Real>(m, 1);
   EXPECT_NEAR(stress_at<Real>(m, 0.1) / at_rest, 50, 1e-4);
   EXPECT_NEAR(stress_at<Real>(m, 0.99) / at_rest, std::exp(1), 1e-4);
-  EXPECT_NEAR(stress_at<Real>(m, 9) / at_rest / kernels::min_hardening, 1, 1e-4);
+  EXPECT_NEAR(stress_at<Real>(m, 9) / at_rest / laws::min_hardening, 1, 1e-4);
   m.max_hardening = 1e12;
   EXPECT_TRUE(std::isfinite(stress_at<Real>(m, 0.1)));
-  EXPECT_NEAR(health::hardening_factor(m, 9), kernels::min_hardening, 0);
+  EXPECT_NEAR(health::hardening_factor(m, 9), laws::min_hardening, 0);
 }
 
 TEST(Snow, HardeningEndsAtItsBounds) {
@@ -284,7 +285,7 @@ TEST(Decomposition, DecompositionRebuildsAnyMatrixInFloatAndDouble) {
     const double scale = std::max(F.cwiseAbs().maxCoeff(), 1e-300);
     const auto check = [&](auto real, double& worst) {
       using Real = decltype(real);
-      const auto p = particle<Real>(F, 1, kernels::ModelKind::snow);
+      const auto p = particle<Real>(F, 1, laws::model::snow);
       const kernels::SignedSvd<Real> svd = kernels::signed_svd(p.F_E);
       Mat3d U, V;
       for (int a = 0; a < 3; ++a)

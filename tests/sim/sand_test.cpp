@@ -7,8 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "sim/health/cam_clay.h"
 #include "sim/health/diagnostics.h"
+#include "sim/laws/cam_clay.h"
+#include "sim/laws/list.h"
 #include "sim/simulation.h"
 #include "sim/state/method.h"
 #include "sim/state/records.h"
@@ -25,7 +26,7 @@ constexpr double pi = 3.14159265358979323846;
 
 Material dry_sand() {
   Material m;
-  m.model = Model::sand;
+  m.model = laws::model::sand;
   m.density = 1500;
   m.youngs_modulus = 1e6;
   m.poisson_ratio = 0.3;
@@ -39,7 +40,7 @@ kernels::Particle<Real> grain(const Mat3d& F_E, double J_P) {
   engine::store_matrix(F_E, p.F_E);
   p.J_P = static_cast<Real>(J_P);
   p.m = p.V0 = p.stiffness = p.threshold = 1;
-  p.kind = kernels::kind_of<Real>(0, kernels::ModelKind::sand, 0);
+  p.kind = kernels::kind_of<Real>(0, laws::model::sand, 0);
   return p;
 }
 
@@ -62,7 +63,7 @@ void expect_cone(double tolerance) {
     const Mat3d tau = health::first_piola(m, F_new, 1) * F_new.transpose();
     const double pressure = -tau.trace() / 3;
     const double q = std::sqrt(1.5) * (tau + pressure * Mat3d::Identity()).norm();
-    const double M = health::cam_clay::critical_slope(m.friction_angle);
+    const double M = laws::critical_slope(m.friction_angle);
     EXPECT_LE(q, M * pressure + 3 * tolerance * m.youngs_modulus);
   }
 }
@@ -156,7 +157,7 @@ double acceleration_on_a_slope(double degrees) {
 
 /// Sheared on a plane, sand slides beyond tan = M/sqrt(3): 34.7 degrees here.
 TEST(Sand, SlopesSlideBeyondTheFrictionAngleAndAsFastAsFrictionAllows) {
-  const double slope = health::cam_clay::critical_slope(30) / std::sqrt(3.0);
+  const double slope = laws::critical_slope(30) / std::sqrt(3.0);
   const double critical = std::atan(slope) * 180 / pi;
   EXPECT_NEAR(critical, 34.7, 0.05);
   // Below, what the fall onto the floor at the start set in motion comes to rest; beyond, the layer

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "sim/kernels/particles.h"
+#include "sim/laws/list.h"
 #include "sim/simulation.h"
 #include "sim/state/progress.h"
 #include "tests/support/snow.h"
@@ -31,7 +32,7 @@ Simulation simulate(const SolverSettings& settings, const ParticleArrays& partic
   ball.velocity = {0.1, 0.2, 0};
   Material stiff;
   stiff.name = "stiff";
-  stiff.model = Model::corotated;
+  stiff.model = laws::model::corotated;
   return Simulation(settings, {Material{}, stiff}, {plane({0, 0.013, 0}, {0, 1, 0}, 0.5), ball},
                     particles, threads);
 }

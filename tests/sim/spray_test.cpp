@@ -9,6 +9,7 @@
 #include "sim/engine/load.h"
 #include "sim/engine/state_reader.h"
 #include "sim/engine/step.h"
+#include "sim/laws/list.h"
 #include "tests/support/simd_levels.h"
 #include "tests/support/snow.h"
 
@@ -159,10 +160,10 @@ TEST(Spray, SprayAroundCollidersHasTheBitsOfTheGrid) {
 
 TEST(Spray, SprayOfSeveralModelsHasTheBitsOfTheGrid) {
   std::vector<Material> materials(5);
-  materials[1].model = Model::corotated;
-  materials[2].model = Model::neo_hookean;
-  materials[3].model = Model::cam_clay;
-  materials[4].model = Model::sand;
+  materials[1].model = laws::model::corotated;
+  materials[2].model = laws::model::neo_hookean;
+  materials[3].model = laws::model::cam_clay;
+  materials[4].model = laws::model::sand;
   ParticleArrays p = cloud(1200, 60, 5);
   for (std::size_t q = 0; q < p.x.size(); ++q)
     p.material.push_back(static_cast<std::uint16_t>(q % 7 % 5));

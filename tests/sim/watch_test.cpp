@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "sim/checks/places.h"
+#include "sim/laws/list.h"
 #include "tests/support/elastic.h"
 #include "tests/support/snow.h"
 
@@ -122,7 +123,7 @@ TEST(Watch, WatchNamesTheBrokenLawOfAState) {
   EXPECT_TRUE(has(look_at(lost), "particles that are not finite is 1"));
 
   Drop inverted;
-  inverted.materials[0].model = Model::corotated;
+  inverted.materials[0].model = laws::model::corotated;
   inverted.particles.F_E.assign(inverted.particles.x.size(), Mat3d::Identity());
   inverted.particles.F_E[7](0, 0) = -0.5;
   EXPECT_TRUE(has(look_at(inverted), "det F_E is -0.5"));

@@ -23,13 +23,15 @@ inline constexpr Folder folders[] = {
     {"sim/shapes", "sim/base sim/types sim/files"},
     {"sim/seeding", "sim/base sim/types sim/shapes"},
     {"sim/kernels", "sim/base sim/types sim/shapes"},
-    {"sim/kernels/instruction_sets", "sim/base sim/kernels", "neve::sim::kernels"},
-    {"sim/health", "sim/base sim/types sim/kernels"},
-    {"sim/state", "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health",
+    {"sim/laws", "sim/types sim/kernels"},
+    {"sim/kernels/instruction_sets", "sim/base sim/kernels sim/laws", "neve::sim::kernels"},
+    {"sim/health", "sim/base sim/types sim/kernels sim/laws"},
+    {"sim/state", "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/laws sim/health",
      "neve::sim::engine"},
-    {"sim/engine", "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim/state"},
-    {"sim", "sim/base sim/types sim/shapes sim/seeding sim/engine", "neve::sim"},
-    {"sim/checks", "sim/base sim/types sim/shapes sim/seeding sim/health sim"},
+    {"sim/engine",
+     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/laws sim/health sim/state"},
+    {"sim", "sim/base sim/types sim/shapes sim/seeding sim/laws sim/engine", "neve::sim"},
+    {"sim/checks", "sim/base sim/types sim/shapes sim/seeding sim/laws sim/health sim"},
     {"render/image", "sim/base", "neve::render"},
     {"render/frame", "sim/base render/image", "neve::render"},
     {"render/shapes", "sim/base render/frame"},
@@ -50,25 +52,26 @@ inline constexpr Folder folders[] = {
     {"app/scene/toml", "sim/base app/support"},
     {"app/advice", "app/support app/scene/toml"},
     {"app/scene",
-     "sim/base sim/types sim/shapes sim/seeding sim/kernels render/frame app/support "
+     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/laws render/frame app/support "
      "app/scene/toml app/advice"},
     {"app/output", "sim/base sim/types sim sim/checks render/image app/support"},
     {"app/record",
      "sim/base sim/types sim sim/checks render/image app/support app/scene/toml app/scene "
      "app/output sim/shapes"},
     {"app/setup",
-     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/health sim app/support "
+     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/laws sim/health sim app/support "
      "app/scene/toml app/advice app/scene app/output"},
     {"app/options",
      "render/gl app/support app/scene/toml app/advice app/scene app/output app/setup"},
     {"app/forecast",
-     "sim/base sim/types sim/shapes sim/seeding sim/health sim app/support app/scene/toml "
-     "app/scene app/setup"},
+     "sim/base sim/types sim/shapes sim/seeding sim/laws sim/health sim app/support "
+     "app/scene/toml app/scene app/setup"},
     {"app/health",
-     "sim/base sim/types sim/shapes sim/seeding sim/health sim app/support app/scene/toml "
-     "app/scene app/output app/setup app/forecast"},
+     "sim/base sim/types sim/shapes sim/seeding sim/laws sim/health sim app/support "
+     "app/scene/toml app/scene app/output app/setup app/forecast"},
     {"app/picture",
-     "sim/base sim/types sim/shapes sim/health sim render/frame render/shapes render/channels "
+     "sim/base sim/types sim/shapes sim/laws sim/health sim render/frame render/shapes "
+     "render/channels "
      "render app/support app/scene/toml app/scene app/setup app/health"},
     {"app/exports",
      "sim/base sim/types sim/shapes sim render/frame render/surface app/support app/scene/toml "
@@ -84,7 +87,8 @@ inline constexpr Folder folders[] = {
     {"app/compare",
      "sim/base sim/types sim render/image render/frame render/gl render app/support app/scene/toml "
      "app/advice app/scene app/output app/record app/setup app/picture app/timeline app/run"},
-    {"app/predict", "sim/types sim app/support app/scene app/record app/setup app/timeline"},
+    {"app/predict",
+     "sim/types sim/laws sim app/support app/scene app/record app/setup app/timeline"},
     {"app/dump",
      "sim/base sim/types sim/health sim app/support app/scene/toml app/advice app/scene app/record "
      "app/setup app/health app/run"},
@@ -127,7 +131,8 @@ inline constexpr Folder folders[] = {
      "render/image render/frame render app/support app/scene app/output app/record app/setup "
      "app/picture app/run app/view/session app/view/frontend app/view/panels"},
     {"app/bench",
-     "sim/base sim/types sim/kernels sim render/image render/frame render/shapes render/surface "
+     "sim/base sim/types sim/kernels sim/laws sim render/image render/frame render/shapes "
+     "render/surface "
      "render/gl render/cpu render app/support app/scene/toml app/scene app/output app/record "
      "app/setup app/picture app/sweep/plan app/sweep/store app/sweep/jobs app/view"},
     {"app/cli/devices",

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/laws/list.h"
 #include "sim/simulation.h"
 
 namespace neve::test {
@@ -30,7 +31,7 @@ inline std::string name(sim::Precision precision) {
 }
 
 inline sim::Material elastic(double youngs_modulus, double poisson_ratio, double density,
-                             sim::Model model = sim::Model::corotated) {
+                             sim::Model model = sim::laws::model::corotated) {
   sim::Material m;
   m.name = "elastic";
   m.model = model;

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "sim/laws/list.h"
 #include "tests/support/elastic.h"
 
 namespace neve::test {
@@ -64,7 +65,7 @@ inline ParticleArrays forced_step(const sim::SolverSettings& s, const sim::Mater
 /// Largest rms error of the displacement over half a period, in units of A.
 inline double manufactured_error(const ManufacturedCase& c, int cells) {
   constexpr double density = 1000, E = 1e4, nu = 0.3, k = 2 * std::numbers::pi;
-  const sim::Material material = elastic(E, nu, density, sim::Model::neo_hookean);
+  const sim::Material material = elastic(E, nu, density, sim::laws::model::neo_hookean);
   const sim::Lame l = sim::lame(E, nu);
   const double speed = std::sqrt(E / density), omega = std::numbers::pi * speed, A = c.amplitude;
   sim::SolverSettings s;

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/kernels/constitutive.h"
+#include "sim/laws/list.h"
+#include "sim/laws/stretches.h"
 #include "sim/types/math.h"
 
 namespace neve::test {
@@ -86,7 +87,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   using Reference = MaterialReference<Wide>;
   using Vec = typename Reference::Vec;
   constexpr double epsilon = std::numeric_limits<Real>::epsilon() / 2;
-  const auto model = static_cast<sim::kernels::ModelKind>(p.model());
+  const auto model = static_cast<sim::Model>(p.model());
   Reference out{};
   double permanent = 0;
   for (int a = 0; a < 3; ++a)
@@ -108,7 +109,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   Wide cut = 1;
   double cut_bound = 1;
   out.is_untouched = true;
-  if (model == sim::kernels::ModelKind::snow) {
+  if (model == sim::laws::model::snow) {
     const auto margin = static_cast<Wide>(100 * epsilon * std::max(1.0, largest));
     for (int i = 0; i < 3; ++i) {
       c[i] = std::clamp(s[i], lo, hi);
@@ -137,7 +138,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   const Wide xi = static_cast<Wide>(k.xi), most = sizeof(Real) == 4 ? 80 : 700;
   const Wide exponent = std::clamp(xi * (1 - out.J_P), -most, most);
   const Wide factor =
-      std::clamp(std::exp(exponent), static_cast<Wide>(Real(sim::kernels::min_hardening)),
+      std::clamp(std::exp(exponent), static_cast<Wide>(Real(sim::laws::min_hardening)),
                  static_cast<Wide>(k.max_hardening));
   const Wide H = factor * static_cast<Wide>(p.stiffness);
   const Wide mu = H * static_cast<Wide>(k.mu0), lambda = H * static_cast<Wide>(k.lambda0);
@@ -149,7 +150,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   const auto m = static_cast<double>(mu), l = static_cast<double>(lambda);
   const Wide J = c.prod();
   const double J_abs = std::abs(static_cast<double>(J));
-  if (model == sim::kernels::ModelKind::neo_hookean) {
+  if (model == sim::laws::model::neo_hookean) {
     const double J_unit = epsilon * permanent;
     const double J_E = static_cast<double>(out.F_E.determinant());
     const Wide log_J = std::log(std::max(out.F_E.determinant(), Wide(Real(1e-6))));
@@ -168,11 +169,11 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   const double top = static_cast<double>(c.cwiseAbs().maxCoeff());
   const Slopes<Vec> slope(s, c, d, 2 * m * (2 * top + 1), 100 * epsilon * std::max(1.0, largest));
   // Also a stretch inside the thresholds follows an error of F.
-  bool is_any_free = model != sim::kernels::ModelKind::snow;
+  bool is_any_free = model != sim::laws::model::snow;
   for (int i = 0; i < 3; ++i)
     is_any_free |= std::abs(static_cast<double>(c[i] - s[i])) < 100 * epsilon * largest;
   // If the eigenvalues of b are used, F' is F and a correction as large as F.
-  const bool is_correction = largest * largest < 1.01 * sim::kernels::eigen_hi;
+  const bool is_correction = largest * largest < 1.01 * sim::laws::eigen_hi;
   out.stretch_unit = epsilon * (top + (is_any_free || is_correction ? largest : 0));
   out.F_unit = epsilon * (top + std::max(slope.strain, is_any_free ? largest : 0) + slope.turn);
   double J_unit = epsilon * J_abs;

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "sim/kernels/constitutive.h"
+#include "sim/laws/stretches.h"
 #include "sim/types/math.h"
 
 namespace neve::test {
@@ -46,8 +46,7 @@ class NastyParticles {
   sim::kernels::Particle<Real> make(int kind) {
     sim::kernels::Particle<Real> p{};
     const auto material = static_cast<std::uint16_t>(pick(static_cast<int>(materials_.size())));
-    const auto model =
-        static_cast<sim::kernels::ModelKind>(std::max(0, pick(5) - 2));  // mostly snow
+    const auto model = static_cast<sim::Model>(std::max(0, pick(5) - 2));  // mostly snow
     const Real one = 1;
     p.kind = sim::kernels::kind_of<Real>(material, model, 0);
     p.stiffness = pick(2) ? one : static_cast<Real>(between(0.2, 5));
@@ -127,8 +126,8 @@ class NastyParticles {
         return three([this] { return pick(3) ? on_threshold() : 1.0; }).asDiagonal();
       case 6: {
         static constexpr double border[] = {1 - sim::kernels::series_radius,
-                                            1 + sim::kernels::series_radius, sim::kernels::eigen_lo,
-                                            sim::kernels::eigen_hi, 1};
+                                            1 + sim::kernels::series_radius, sim::laws::eigen_lo,
+                                            sim::laws::eigen_hi, 1};
         return stretched(three([this] { return std::sqrt(around(border[pick(5)])); }));
       }
       case 7: {
@@ -156,8 +155,8 @@ class NastyParticles {
         return F;
       }
       case 15:
-        return stretched(three(
-            [this] { return std::sqrt(between(sim::kernels::eigen_lo, sim::kernels::eigen_hi)); }));
+        return stretched(
+            three([this] { return std::sqrt(between(sim::laws::eigen_lo, sim::laws::eigen_hi)); }));
       default: {
         // Equal entries make the first rotations of Jacobi's sweeps as bad as they can be.
         const double off = sign() * power(-6, 0), diagonal = between(0.2, 1.5);

@@ -2,7 +2,7 @@
 /// The lane kernel for the change of stress, asked about one particle.
 
 #include "sim/health/diagnostics.h"
-#include "sim/kernels/differential.h"
+#include "sim/laws/files.h"
 #include "sim/state/method.h"
 #include "sim/state/records.h"
 #include "tests/support/elastic.h"
@@ -15,7 +15,6 @@ Mat3d stress_change_of(const sim::Material& material, const Mat3d& F_E, double J
                        const Mat3d& G) {
   using V = Quad<Real>;
   const sim::kernels::MaterialConstants<Real> table[] = {sim::engine::constants_of<Real>(material)};
-  const sim::kernels::ModelKind model = sim::engine::model_kind(material.model);
   sim::kernels::Record<V, Lanes<Integer<Real>, 4>> p{};
   V G_lanes[9], D[9];
   for (int q = 0; q < 9; ++q)
@@ -26,7 +25,12 @@ Mat3d stress_change_of(const sim::Material& material, const Mat3d& F_E, double J
     }
   p.J_P = all<V>(static_cast<Real>(J_P));
   p.V0 = p.stiffness = p.threshold = all<V>(1);
-  sim::kernels::stress_change(sim::kernels::elasticity(p, model, table), model, G_lanes, D);
+#define NEVE_CHANGE_OF_LAW(name)                                                            \
+  if (material.model == sim::laws::model::name)                                             \
+    sim::laws::name::InLanes::stress_change(sim::laws::name::InLanes::elasticity(p, table), \
+                                            G_lanes, D);
+  NEVE_LAWS(NEVE_CHANGE_OF_LAW)
+#undef NEVE_CHANGE_OF_LAW
   Mat3d out;
   for (int q = 0; q < 9; ++q) out(q / 3, q % 3) = static_cast<double>(D[q][0]);
   return out;

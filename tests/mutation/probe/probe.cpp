@@ -13,6 +13,7 @@
 #include "sim/checks/self_test.h"
 #include "sim/checks/self_test_bodies.h"
 #include "sim/checks/watch.h"
+#include "sim/laws/list.h"
 
 namespace {
 
@@ -70,7 +71,7 @@ Scene spin(Transfer transfer) {
   scene.settings = settings(1e-3, transfer);
   scene.settings.gravity.setZero();
   scene.steps = 600;
-  scene.material.model = Model::corotated;
+  scene.material.model = laws::model::corotated;
   scene.material.youngs_modulus = 2e4;
   checks::self_test::Numbers number(8);
   for (int p = 0; p < count; ++p) {

@@ -3,8 +3,10 @@
 /// Takes the place of sim/kernels/simd.cpp and sim/kernels/instruction_sets/ when it is linked
 /// before the library.
 
+#define NEVE_LANES_ALONE
 #include "sim/kernels/implicit_sweeps.h"
 #include "sim/kernels/sweep_table.h"
+#include "sim/laws/table.h"
 
 namespace neve::sim::kernels {
 
@@ -21,6 +23,15 @@ const Sweeps<double>& KernelSet<BaselineSet>::sweeps(int nodes, TransferKind tra
 }
 template <>
 const Sweeps<float>& KernelSet<BaselineSet>::sweeps(int, TransferKind, float) {
+  __builtin_trap();
+}
+
+template <>
+const LawKernels<double, BaselineSet>& LawSet<BaselineSet>::kernels(int model, double) {
+  return laws::LawTable<double, BaselineSet>::at(model);
+}
+template <>
+const LawKernels<float, BaselineSet>& LawSet<BaselineSet>::kernels(int, float) {
   __builtin_trap();
 }
 

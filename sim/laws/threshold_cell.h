@@ -6,12 +6,11 @@
 #include "sim/types/material.h"
 #include "sim/types/settings.h"
 
-namespace neve::sim {
+namespace neve::sim::laws {
 
-/// By which critical_stretch, or the cohesion of cam clay, is multiplied: sqrt(threshold_cell /
+/// By which critical_stretch, or the tension that a law bears, is multiplied: sqrt(threshold_cell /
 /// cell_size). A crack is a cell wide, and the energy of its strain grows with the square of the
 /// threshold: so its energy per area stays. The crack band of fracture mechanics.
-/// critical_compression is multiplied by the root of it, by measurement: docs/prediction.md.
 double threshold_factor(const SolverSettings& settings);
 
 /// A material, or all, as it is in the cells of the settings.
@@ -19,4 +18,4 @@ Material in_cells(const Material& material, const SolverSettings& settings);
 std::vector<Material> in_cells(const std::vector<Material>& materials,
                                const SolverSettings& settings);
 
-}  // namespace neve::sim
+}  // namespace neve::sim::laws

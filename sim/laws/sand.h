@@ -1,5 +1,5 @@
 #pragma once
-/// Sand in lanes: a cone of friction, and the volume that it gained while it was apart.
+/// Sand: a cone of friction, and the volume that it gained while it was apart.
 ///
 /// With stretches s of F_E = U diag(s) V^T and e = ln s (Hencky):
 ///   psi = mu e.e + lambda/2 (sum e)^2,   tau = U diag(2 mu e + lambda sum e) U^T
@@ -17,10 +17,22 @@
 /// on Graphics 35 (cone); Tampubolon et al. 2017, Multi-species simulation of porous sand and water
 /// mixtures, ACM Transactions on Graphics 36 (volume correction).
 
-#include "sim/kernels/decompose.h"
-#include "sim/kernels/particle_lanes.h"
+#include "sim/laws/differential.h"
+#ifndef NEVE_LANES_ALONE
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
-namespace neve::sim::kernels {
+#include "sim/laws/friction.h"
+#include "sim/laws/law.h"
+#endif
+
+namespace neve::sim::laws::sand {
+
+/// M, the only number of this law in MaterialConstants::own.
+inline constexpr int constant_M = 0;
 
 /// Squares of stretches count as at least this: e = ln s has to end somewhere.
 inline constexpr double min_stretch_squared = 1e-8;
@@ -40,7 +52,8 @@ NEVE_INLINE SandLanes<V> take_sand(const Record<V, I>& p,
   for (int l = 0; l < lane_count<V>; ++l) {
     const MaterialConstants<ElementOf<V>>& row = table[material[l]];
     m.mu[l] = row.mu0, m.lambda[l] = row.lambda0;
-    m.cone[l] = row.M * ElementOf<V>(0.81649658092772603 / 3), m.max_J_P[l] = row.max_J_P;
+    m.cone[l] = row.own[constant_M] * ElementOf<V>(0.81649658092772603 / 3),
+    m.max_J_P[l] = row.max_J_P;
   }
   m.mu *= p.stiffness, m.lambda *= p.stiffness, m.cone *= p.threshold;
   return m;
@@ -88,8 +101,8 @@ NEVE_INLINE Sym3<V> in_axes(const V* U, const V* d) {
 /// @param wave_modulus  out: lambda + 2 mu and the largest compressive tau, Pa
 /// @return lanes with det F_E <= 0 before
 template <class V, class I>
-NEVE_INLINE unsigned sand(Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
-                          bool is_projected, V& wave_modulus) {
+NEVE_INLINE unsigned take_step(Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
+                               bool is_projected, V& wave_modulus) {
   using Real = ElementOf<V>;
   const SandLanes<V> m = take_sand(p, table);
   const MaskOf<V> is_positive = determinant(p.F_E) > V{};
@@ -164,8 +177,8 @@ NEVE_INLINE V logarithmic_slope(const V& a, const V& b) {
 /// dtau_ii = 2 mu G_ii + lambda tr G, dtau_ij = mu ln(l_i/l_j)/(l_i - l_j) (l_j G_ij + l_i G_ji),
 /// D = dtau - tau G^T.
 template <class V>
-NEVE_INLINE void sand_stress_change(const Sym3<V>& shape, const V& V0_mu, const V& V0_lambda,
-                                    const V* G, V* D) {
+NEVE_INLINE void change_in_axes(const Sym3<V>& shape, const V& V0_mu, const V& V0_lambda,
+                                const V* G, V* D) {
   using Real = ElementOf<V>;
   Sym3<V> b = shape;
   SymmetricEigen<V> eigen;
@@ -204,4 +217,112 @@ NEVE_INLINE void sand_stress_change(const Sym3<V>& shape, const V& V0_mu, const 
           fused(U[3 * i], half[j], fused(U[3 * i + 1], half[3 + j], U[3 * i + 2] * half[6 + j]));
 }
 
-}  // namespace neve::sim::kernels
+struct InLanes {
+  static constexpr bool is_plastic = true;
+
+  template <class V, class I>
+  NEVE_INLINE static unsigned step(Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
+                                   bool is_projected, V& wave_modulus) {
+    return take_step(p, table, is_projected, wave_modulus);
+  }
+
+  template <class V, class I>
+  NEVE_INLINE static Elasticity<V> elasticity(const Record<V, I>& p,
+                                              const MaterialConstants<ElementOf<V>>* table) {
+    const SandLanes<V> m = take_sand(p, table);
+    return {left_cauchy_green(p.F_E), p.V0 * m.mu, p.V0 * m.lambda};
+  }
+
+  template <class V>
+  NEVE_INLINE static void stress_change(const Elasticity<V>& e, const V* G, V* D) {
+    change_in_axes(e.shape, e.V0_mu, e.V0_lambda, G, D);
+  }
+};
+
+#ifndef NEVE_LANES_ALONE
+/// Logarithms of the stretches, axes, and the principal Kirchhoff stress.
+struct Hencky {
+  Vec3d e, tau;
+  Mat3d U;
+
+  Hencky(const Material& m, const Mat3d& F_E) {
+    const Eigen::SelfAdjointEigenSolver<Mat3d> eigen(F_E * F_E.transpose());
+    U = eigen.eigenvectors();
+    e = 0.5 * eigen.eigenvalues().array().max(min_stretch_squared).log();
+    const Lame l = lame(m.youngs_modulus, m.poisson_ratio);
+    tau = 2 * l.mu * e + l.lambda * e.sum() * Vec3d::Ones();
+  }
+};
+
+inline double energy_density(const Material& m, const Mat3d& F_E, double = 1) {
+  const Lame l = lame(m.youngs_modulus, m.poisson_ratio);
+  const Vec3d e = Hencky(m, F_E).e;
+  return l.mu * e.squaredNorm() + 0.5 * l.lambda * e.sum() * e.sum();
+}
+
+inline Mat3d first_piola(const Material& m, const Mat3d& F_E, double = 1) {
+  const Hencky h(m, F_E);
+  return h.U * h.tau.asDiagonal() * h.U.transpose() * F_E.inverse().transpose();
+}
+
+inline double wave_modulus(const Material& m, const Mat3d& F_E, double = 1) {
+  const Lame l = lame(m.youngs_modulus, m.poisson_ratio);
+  return l.lambda + 2 * l.mu + std::max(0.0, -Hencky(m, F_E).tau.minCoeff());
+}
+
+/// q over M p: 1 where the sand slides, and without pressure.
+inline double nearness_to_yield(const Material& m, const Mat3d& F_E, double = 1) {
+  const Vec3d tau = Hencky(m, F_E).tau;
+  const double p = -tau.mean(), q = std::sqrt(1.5) * (tau.array() + p).matrix().norm();
+  const double slope = m.strength * critical_slope(m.friction_angle);
+  return p > 0 ? q / (slope * p) : 1;
+}
+
+inline void constants(const Material& m, double (&own)[own_constants]) {
+  own[constant_M] = critical_slope(m.friction_angle);
+}
+
+/// Its surface begins at no stress.
+inline Scale scale(const Material& m) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  return {any, any, 3 * std::max(m.critical_compression, m.critical_stretch)};
+}
+
+/// Grains that are apart bear nothing, those that slide are on the cone, and the volume that they
+/// gained is kept until it is given back.
+inline void test_yield(const Material& m, const YieldStep& step, std::vector<Claim>& claims) {
+  const Mat3d &F = step.F_E, &found = step.F_E_after;
+  if (std::abs(F.determinant()) * step.J_P >= 1) {
+    claims.push_back({"strain of grains that are apart",
+                      (found * found.transpose() - Mat3d::Identity()).cwiseAbs().maxCoeff(),
+                      rounding});
+    return;
+  }
+  claims.push_back({"volume gained by grains that press", step.J_P_after - 1, rounding});
+  const double near = nearness_to_yield(m, found);
+  constexpr Tolerance also_where_little_presses{on_surfaces.single, on_surfaces.single};
+  claims.push_back(
+      {"friction beyond the cone", std::max(near - 1, 0.0), also_where_little_presses});
+  if (F.determinant() > 0 && nearness_to_yield(m, F) > 1.5)
+    claims.push_back({"distance to the cone", near - 1, on_surfaces});
+}
+inline constexpr SelfTest self_test{
+    "bears nothing apart, slides on its cone, gives back the volume it gained", 1.05, test_yield};
+
+inline constexpr Parameter parameters[] = {parameter::friction_angle};
+
+inline constexpr Law law{.kind = "grains that slide and bear no tension",
+                         .is_plastic = InLanes::is_plastic,
+                         .is_granular = true,
+                         .parameters = parameters,
+                         .caption = "sand, {} degrees",
+                         .energy_density = energy_density,
+                         .first_piola = first_piola,
+                         .wave_modulus = wave_modulus,
+                         .nearness_to_yield = nearness_to_yield,
+                         .constants = constants,
+                         .scale = scale,
+                         .self_test = &self_test};
+#endif
+
+}  // namespace neve::sim::laws::sand

@@ -1,5 +1,5 @@
 #pragma once
-/// Cohesive Cam Clay in lanes: snow whose moduli stay and whose yield surface grows.
+/// Cohesive Cam Clay: snow whose moduli stay and whose yield surface grows.
 ///
 /// With b = F_E F_E^T, J = det F_E, b' = J^(-2/3) b and K = lambda + 2/3 mu:
 ///   psi = mu/2 (tr b' - 3) + K/2 ((J^2 - 1)/2 - ln J)
@@ -15,11 +15,25 @@
 ///
 /// The step needs b and no singular values: the return scales dev b', and the mean of b' follows
 /// from det b' = 1. F_E is any F with F F^T = b.
+///
+/// D = a (G b + t G^T - 2/3 tr(G b) I - 2/3 tr G (b - t I)) + K J^2 tr G I - K/2 (J^2 - 1) G^T,
+///   a = mu J^(-2/3), t = tr b/3, at a fixed plastic state.
 
-#include "sim/kernels/decompose.h"
-#include "sim/kernels/particle_lanes.h"
+#include "sim/laws/differential.h"
+#ifndef NEVE_LANES_ALONE
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
-namespace neve::sim::kernels {
+#include "sim/laws/friction.h"
+#include "sim/laws/law.h"
+#endif
+
+namespace neve::sim::laws::cam_clay {
+
+/// Where the numbers of this law are in MaterialConstants::own.
+enum Constant { constant_M, constant_beta, constant_xi, constant_alpha0 };
 
 /// p0/K of snow without strength, so that the ellipse never shrinks to a point.
 inline constexpr double min_strength = 1e-5;
@@ -32,7 +46,7 @@ inline constexpr double crushed_J = 1e-3;
 
 /// Inputs of cam clay for particles in lanes, and what the return finds.
 template <class V>
-struct CamClayLanes {
+struct ClayLanes {
   V mu, K;  ///< Pa
   V p0;     ///< Pa, before the step
   V M, beta;
@@ -75,15 +89,16 @@ NEVE_INLINE V inverse_cube_root(V x) {
 }
 
 template <class V, class I>
-NEVE_INLINE CamClayLanes<V> take_cam_clay(const Record<V, I>& p,
-                                          const MaterialConstants<ElementOf<V>>* table) {
+NEVE_INLINE ClayLanes<V> take_clay(const Record<V, I>& p,
+                                   const MaterialConstants<ElementOf<V>>* table) {
   using Real = ElementOf<V>;
   constexpr int constants = 8;
   V k[constants];
   const I material = p.material();
   const auto numbers = [](const MaterialConstants<Real>& row, Real* out) NEVE_INLINE_BODY {
-    out[0] = row.mu0, out[1] = row.lambda0 + Real(2.0 / 3) * row.mu0, out[2] = row.xi_p0;
-    out[3] = row.alpha0, out[4] = row.M, out[5] = row.beta;
+    out[0] = row.mu0, out[1] = row.lambda0 + Real(2.0 / 3) * row.mu0, out[2] = row.own[constant_xi];
+    out[3] = row.own[constant_alpha0], out[4] = row.own[constant_M];
+    out[5] = row.own[constant_beta];
     out[6] = row.min_J_P, out[7] = row.max_J_P;
   };
   Real number[constants];
@@ -98,7 +113,7 @@ NEVE_INLINE CamClayLanes<V> take_cam_clay(const Record<V, I>& p,
   }
   const V packed = larger_lanes(-(k[3] + logarithm_lanes(p.J_P)), V{});
   const V x = smaller_lanes(k[2] * packed, all<V>(Real(max_consolidation)));
-  CamClayLanes<V> m;
+  ClayLanes<V> m;
   m.mu = p.stiffness * k[0];
   m.K = p.stiffness * k[1];
   m.p0 = p.threshold * m.K * (hyperbolic_sine(x) + Real(min_strength));
@@ -109,15 +124,15 @@ NEVE_INLINE CamClayLanes<V> take_cam_clay(const Record<V, I>& p,
 
 /// What the surface makes of a trial state.
 template <class V>
-struct CamClayReturn {
+struct ClayReturn {
   V k;          ///< factor on the deviator
   V J_squared;  ///< after the step
   MaskOf<V> yields;
 };
 /// @param J_squared, size  of the trial state: det b and |dev b'|^2
 template <class V>
-NEVE_INLINE CamClayReturn<V> cam_clay_return(const CamClayLanes<V>& m, const V& J_squared,
-                                             const V& size) {
+NEVE_INLINE ClayReturn<V> return_to_surface(const ClayLanes<V>& m, const V& J_squared,
+                                            const V& size) {
   using Real = ElementOf<V>;
   const V one = all<V>(1), scale = one / m.K;
   // All pressures over K.
@@ -128,7 +143,7 @@ NEVE_INLINE CamClayReturn<V> cam_clay_return(const CamClayLanes<V>& m, const V& 
   const V r_squared =
       fused(across, across, fused(m.beta, Real(2) * q_squared, q_squared)) / (reach * reach);
   const auto is_packed = p > p0, is_open = p < tip;
-  CamClayReturn<V> out;
+  ClayReturn<V> out;
   out.yields = is_packed | is_open | (r_squared > one);
   out.k = one / square_root_lanes(larger_lanes(r_squared, one));
   const V pulled = fused(-Real(2) * (p - centre), out.k, one - Real(2) * centre);
@@ -193,11 +208,11 @@ NEVE_INLINE void take_stretch(V* F, const Sym3<V>& b_old, const Sym3<V>& b_new, 
 ///                      with b'_min from below
 /// @return lanes with det F_E <= 0 before
 template <class V, class I>
-NEVE_INLINE unsigned cam_clay(Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
-                              bool is_projected, V& wave_modulus) {
+NEVE_INLINE unsigned take_step(Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
+                               bool is_projected, V& wave_modulus) {
   using Real = ElementOf<V>;
   constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-12);
-  const CamClayLanes<V> m = take_cam_clay(p, table);
+  const ClayLanes<V> m = take_clay(p, table);
   const V one = all<V>(1), signed_J = determinant(p.F_E);
   const V J = larger_lanes(absolute_lanes(signed_J), all<V>(tiny)), J_squared = J * J;
   const Sym3<V> b = inverse_cube_root(J_squared) * left_cauchy_green(p.F_E);
@@ -205,8 +220,8 @@ NEVE_INLINE unsigned cam_clay(Record<V, I>& p, const MaterialConstants<ElementOf
   const Sym3<V> d = add_identity(b, -t);
   const V size = fused(d.xx, d.xx, fused(d.yy, d.yy, d.zz * d.zz)) +
                  Real(2) * fused(d.xy, d.xy, fused(d.xz, d.xz, d.yz * d.yz));
-  CamClayReturn<V> found{one, J_squared, MaskOf<V>{}};
-  if (is_projected) found = cam_clay_return(m, J_squared, size);
+  ClayReturn<V> found{one, J_squared, MaskOf<V>{}};
+  if (is_projected) found = return_to_surface(m, J_squared, size);
   const MaskOf<V> is_positive = signed_J > V{};
   const MaskOf<V> is_changed = found.yields | ~is_positive;
   if (is_projected && any_lane(is_changed)) {
@@ -244,4 +259,202 @@ NEVE_INLINE unsigned cam_clay(Record<V, I>& p, const MaterialConstants<ElementOf
   return lane_bits(~is_positive);
 }
 
-}  // namespace neve::sim::kernels
+struct InLanes {
+  static constexpr bool is_plastic = true;
+
+  template <class V, class I>
+  NEVE_INLINE static unsigned step(Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
+                                   bool is_projected, V& wave_modulus) {
+    return take_step(p, table, is_projected, wave_modulus);
+  }
+
+  /// V0_lambda is that of K.
+  template <class V, class I>
+  NEVE_INLINE static Elasticity<V> elasticity(const Record<V, I>& p,
+                                              const MaterialConstants<ElementOf<V>>* table) {
+    const ClayLanes<V> m = take_clay(p, table);
+    return {left_cauchy_green(p.F_E), p.V0 * m.mu, p.V0 * m.K};
+  }
+
+  template <class V>
+  NEVE_INLINE static void stress_change(const Elasticity<V>& e, const V* G, V* D) {
+    using Real = ElementOf<V>;
+    const Sym3<V>& b = e.shape;
+    const V trace = G[0] + G[4] + G[8];
+    times(G, b, D);
+    const V t = (b.xx + b.yy + b.zz) * Real(1.0 / 3), along = D[0] + D[4] + D[8];
+    constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-12) : Real(1e-24);
+    const V J_squared = larger_lanes(determinant(b), all<V>(tiny));
+    const V a = e.V0_mu * inverse_cube_root(J_squared), spread = Real(-2.0 / 3) * trace;
+    const V b_row[9] = {b.xx, b.xy, b.xz, b.xy, b.yy, b.yz, b.xz, b.yz, b.zz};
+    for (int q = 0; q < 9; ++q) D[q] = a * fused(spread, b_row[q], D[q]);
+    const V on_transpose = fused(a, t, Real(-0.5) * e.V0_lambda * (J_squared - Real(1)));
+    const V on_identity =
+        fused(e.V0_lambda * J_squared, trace, -a * fused(spread, t, Real(2.0 / 3) * along));
+    add_volume_change(on_transpose, on_identity, G, D);
+  }
+};
+
+#ifndef NEVE_LANES_ALONE
+/// Places in Material::own.
+enum Own { cohesion, consolidation_hardening };
+
+/// det F_E, of an inverted one that of its mirror image, and the isochoric b.
+struct Strain {
+  double J;
+  Mat3d b;
+
+  explicit Strain(const Mat3d& F_E)
+      : J(std::max(std::abs(F_E.determinant()), 1e-12)),
+        b(std::pow(J, -2.0 / 3) * F_E * F_E.transpose()) {}
+  double mean() const { return b.trace() / 3; }
+  Mat3d deviator() const { return b - mean() * Mat3d::Identity(); }
+};
+
+inline double shear_modulus(const Material& m) {
+  return lame(m.youngs_modulus, m.poisson_ratio).mu;
+}
+
+/// alpha at J_P = 1: where p0 is the consolidation pressure of the start.
+inline double alpha0(const Material& m) {
+  const double share = m.consolidation_pressure / bulk_modulus(m) - min_strength;
+  return -std::asinh(std::max(share, 0.0)) / m.own[consolidation_hardening];
+}
+
+/// Pa: where the snow yields under pressure, packed to J_P.
+inline double p0(const Material& m, double J_P) {
+  const double packed = std::max(-(alpha0(m) + std::log(J_P)), 0.0);
+  const double x = std::min(m.own[consolidation_hardening] * packed, max_consolidation);
+  return m.strength * bulk_modulus(m) * (min_strength + std::sinh(x));
+}
+
+/// r of a state: 1 on the yield surface, below inside, as the return measures it.
+inline double nearness_to_yield(const Material& m, const Mat3d& F_E, double J_P) {
+  const Strain strain(F_E);
+  const double top = p0(m, J_P), beta = m.own[cohesion], M = critical_slope(m.friction_angle);
+  const double p = 0.5 * bulk_modulus(m) * (1 - strain.J * strain.J);
+  const double q = std::sqrt(1.5) * shear_modulus(m) * strain.deviator().norm();
+  const double across = M * (p - 0.5 * (1 - beta) * top);
+  return std::sqrt(across * across + (1 + 2 * beta) * q * q) / (M * 0.5 * (1 + beta) * top);
+}
+
+inline double energy_density(const Material& m, const Mat3d& F_E, double = 1) {
+  const Strain strain(F_E);
+  return 0.5 * shear_modulus(m) * (strain.b.trace() - 3) +
+         0.5 * bulk_modulus(m) * (0.5 * (strain.J * strain.J - 1) - std::log(strain.J));
+}
+
+inline Mat3d first_piola(const Material& m, const Mat3d& F_E, double = 1) {
+  const Strain strain(F_E);
+  const Mat3d tau = shear_modulus(m) * strain.deviator() +
+                    0.5 * bulk_modulus(m) * (strain.J * strain.J - 1) * Mat3d::Identity();
+  return tau * F_E.inverse().transpose();
+}
+
+inline double wave_modulus(const Material& m, const Mat3d& F_E, double = 1) {
+  const Strain strain(F_E);
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Mat3d>(strain.b, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return 0.5 * bulk_modulus(m) * (1 + strain.J * strain.J) +
+         shear_modulus(m) * (5 * strain.mean() - least) / 3;
+}
+
+inline Surface surface(const Material& m, double J_P) {
+  const double K = bulk_modulus(m), top = p0(m, J_P), beta = m.own[cohesion];
+  return {.pressure = std::min(top, 0.5 * K),
+          .tension = beta * top,
+          .deviator =
+              critical_slope(m.friction_angle) * 0.5 * (1 + beta) * top / std::sqrt(1 + 2 * beta),
+          .min_J = std::sqrt(std::max(1 - 2 * top / K, 0.0)),
+          .max_J = std::sqrt(1 + 2 * beta * top / K)};
+}
+
+inline void constants(const Material& m, double (&own)[own_constants]) {
+  own[constant_M] = critical_slope(m.friction_angle);
+  own[constant_beta] = m.own[cohesion];
+  own[constant_xi] = m.own[consolidation_hardening];
+  own[constant_alpha0] = alpha0(m);
+}
+
+inline void refine(Material& m, double factor) {
+  m.own[cohesion] *= factor;
+}
+
+inline Scale scale(const Material& m) {
+  const Surface held = surface(m, 1);
+  return {m.consolidation_pressure, held.deviator, std::max(1 - held.min_J, held.max_J - 1)};
+}
+
+inline double largest_pressure(const Material& m) {
+  return 0.5 * bulk_modulus(m);
+}
+
+inline void concerns(const Material& m, std::vector<Concern>& found) {
+  const double K = bulk_modulus(m);
+  if (m.consolidation_pressure < 0.4 * K) return;
+  found.push_back({"consolidation_pressure",
+                   "{} Pa is more than snow of youngs_modulus {} Pa can bear ({} Pa): it is "
+                   "squeezed like rubber before it packs",
+                   {m.consolidation_pressure, m.youngs_modulus, 0.5 * K},
+                   "a youngs_modulus of {} or more",
+                   10 * m.youngs_modulus * m.consolidation_pressure / K});
+}
+
+/// A trial state inside of the surface stays; one outside ends on it, and keeps its volume and the
+/// directions of its strain.
+inline void test_yield(const Material& m, const YieldStep& step, std::vector<Claim>& claims) {
+  const Mat3d &F = step.F_E, &found = step.F_E_after;
+  const Mat3d before = Strain(F).deviator(), after = Strain(found).deviator();
+  const double size = before.squaredNorm();
+  const double along = size > 0 ? std::max(before.cwiseProduct(after).sum() / size, 0.0) : 0;
+  claims.push_back({"strain in other directions", (after - along * before).norm(), rounding});
+  const double near = nearness_to_yield(m, F, step.J_P);
+  if (F.determinant() > 0 && near < 0.99)
+    claims.push_back({"F_E within the surface", (found - F).cwiseAbs().maxCoeff(), rounding});
+  else if (near > 1.01)
+    claims.push_back(
+        {"distance to the surface", nearness_to_yield(m, found, step.J_P) - 1, on_surfaces});
+}
+inline constexpr SelfTest self_test{"ends on its surface, keeps volume and directions", 0.95,
+                                    test_yield};
+
+inline constexpr Parameter parameters[] = {
+    parameter::friction_angle,
+    {.key = "cohesion",
+     .own = cohesion,
+     .own_default = 0.4,
+     .bounds = {0, 10},
+     .help = "cam_clay: tension that snow bears, as a share of its consolidation pressure."},
+    {.key = "consolidation_pressure",
+     .member = &Material::consolidation_pressure,
+     .unit = Unit::pascal,
+     .bounds = {1e-3, 1e12},
+     .help = "cam_clay: pressure that the snow of the start bears before it packs."},
+    {.key = "consolidation_hardening",
+     .own = consolidation_hardening,
+     .own_default = 1,
+     .bounds = {1e-3, 1e3},
+     .help = "cam_clay: rate at which snow that packs gains consolidation pressure."}};
+
+inline constexpr Law law{.kind = "snow whose strength grows and whose stiffness stays",
+                         .is_snow = true,
+                         .is_plastic = InLanes::is_plastic,
+                         .is_benched = true,
+                         .parameters = parameters,
+                         .rate = &parameters[3],
+                         .caption = "cam clay, {} degrees, cohesion {}, p0 {} Pa, hardening {}",
+                         .energy_density = energy_density,
+                         .first_piola = first_piola,
+                         .wave_modulus = wave_modulus,
+                         .nearness_to_yield = nearness_to_yield,
+                         .consolidation_pressure = p0,
+                         .constants = constants,
+                         .refine = refine,
+                         .scale = scale,
+                         .surface = surface,
+                         .largest_pressure = largest_pressure,
+                         .concerns = concerns,
+                         .self_test = &self_test};
+#endif
+
+}  // namespace neve::sim::laws::cam_clay

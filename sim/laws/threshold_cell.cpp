@@ -1,8 +1,10 @@
-#include "sim/types/threshold_cell.h"
+#include "sim/laws/threshold_cell.h"
 
 #include <cmath>
 
-namespace neve::sim {
+#include "sim/laws/law.h"
+
+namespace neve::sim::laws {
 
 double threshold_factor(const SolverSettings& settings) {
   return settings.threshold_cell > 0 ? std::sqrt(settings.threshold_cell / settings.cell_size) : 1;
@@ -10,12 +12,7 @@ double threshold_factor(const SolverSettings& settings) {
 
 Material in_cells(const Material& material, const SolverSettings& settings) {
   Material out = material;
-  const double factor = threshold_factor(settings);
-  if (material.model == Model::snow) {
-    out.critical_stretch *= factor;
-    out.critical_compression *= std::sqrt(factor);
-  }
-  if (material.model == Model::cam_clay) out.cohesion *= factor;
+  if (const auto refine = of(material).refine) refine(out, threshold_factor(settings));
   return out;
 }
 
@@ -26,4 +23,4 @@ std::vector<Material> in_cells(const std::vector<Material>& materials,
   return all;
 }
 
-}  // namespace neve::sim
+}  // namespace neve::sim::laws
