@@ -118,6 +118,8 @@ std::string wishes_table(const std::vector<const Wish*>& wishes) {
       name.clear();
     }
   }
+  text +=
+      "\nneve card --preset wet draws what a kind of snow bears and does, and has it as numbers.\n";
   return text;
 }
 

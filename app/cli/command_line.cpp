@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/card/card_options.h"
 #include "app/cli/commands.h"
 #include "app/cli/describe.h"
 #include "app/cli/manual.h"
@@ -154,6 +155,7 @@ Entry program() {
   made.parts = {entry(describe_new, run_new),
                 entry<run::RenderOptions>(run::describe, run_render),
                 entry(describe_check, run_check),
+                entry<card::CardOptions>(card::describe, card::run),
                 entry(describe_dump, run_dump),
                 entry(describe_export, run_export),
                 entry(describe_strip, run_strip_command),

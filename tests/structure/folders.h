@@ -89,6 +89,11 @@ inline constexpr Folder folders[] = {
      "app/advice app/scene app/output app/record app/setup app/picture app/timeline app/run"},
     {"app/predict",
      "sim/types sim/laws sim app/support app/scene app/record app/setup app/timeline"},
+    {"app/card",
+     "sim/base sim/types sim/kernels sim/laws sim/health sim render/image render/frame render/gl "
+     "render app/support app/advice app/scene app/output app/record app/setup app/options "
+     "app/picture "
+     "app/timeline app/run"},
     {"app/dump",
      "sim/base sim/types sim/health sim app/support app/scene/toml app/advice app/scene app/record "
      "app/setup app/health app/run"},
@@ -142,7 +147,8 @@ inline constexpr Folder folders[] = {
      "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render/overlay render "
      "app/support app/scene/toml app/advice app/scene app/output app/record app/setup app/options "
      "app/forecast "
-     "app/health app/picture app/exports app/timeline app/run app/predict app/compare app/dump "
+     "app/health app/picture app/exports app/timeline app/run app/predict app/card app/compare "
+     "app/dump "
      "app/sweep/read "
      "app/sweep/plan app/sweep/store app/sweep/jobs app/sweep/sheet app/pick/search app/pick "
      "app/view/picker app/view app/bench app/cli/devices"},

@@ -1,0 +1,114 @@
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <iostream>
+
+#include "app/card/card_options.h"
+#include "app/card/card_picture.h"
+#include "app/card/subjects.h"
+#include "app/output/atomic_file.h"
+#include "app/record/picture_files.h"
+#include "app/record/picture_record.h"
+#include "app/scene/read.h"
+#include "app/support/errors.h"
+#include "app/support/interrupt.h"
+#include "app/support/out_folder.h"
+#include "app/support/progress.h"
+#include "app/support/text.h"
+#include "app/support/version.h"
+#include "render/gl/context.h"
+#include "render/image/image.h"
+#include "sim/base/thread_pool.h"
+#include "sim/kernels/simd.h"
+
+namespace neve::app::card {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "wet", "wet_powder"
+std::string folder_name(const std::vector<Source>& sources) {
+  std::vector<std::string> names;
+  for (const Source& source : sources)
+    if (names.empty() || names.back() != source.name) names.push_back(source.name);
+  return joined(names, "_").substr(0, 100);
+}
+
+std::string words_of(const Card& card) {
+  std::string text = card.subject.title + "\n";
+  for (const Experiment& e : card.experiments) {
+    std::string name = info_of(e.kind).name;
+    name.resize(8, ' ');
+    text += "  " + name + joined(e.words, ", ") +
+            (e.failure.empty() ? "" : (e.words.empty() ? "" : ", ") + e.failure) + "\n";
+  }
+  return text;
+}
+
+/// The scene of the first card, as every picture has one, and the numbers of all.
+render::PngText texts_of(const std::vector<Source>& sources, const Json& json) {
+  const timeline::Origin& origin = sources.front().origin;
+  record::PictureRecord record;
+  record.scene = scene::write_scene(origin.scene);
+  record.overrides = origin.overrides;
+  record.coarsening = origin.coarsening;
+  record.seed = origin.scene.seed;
+  record.version = version;
+  record.build = build_text(sim::kernels::name(sim::kernels::chosen_simd_level()));
+  record.view = origin.scene.views.front().name;
+  record.frame = scene::number_of(origin.scene, 0);
+  record.quality = "preview";
+  record.files = record::hash_files(origin.scene);
+  render::PngText text = record::to_png_text(record);
+  text["neve:card"] = to_text(json, -1);
+  return text;
+}
+
+Json json_of(const std::vector<Card>& cards) {
+  Json json;
+  json["version"] = version;
+  json["cards"] = Json::array();
+  for (const Card& card : cards) json["cards"].push_back(to_json(card));
+  return json;
+}
+
+}  // namespace
+
+int run(const CardOptions& options) {
+  const std::vector<Source> sources = sources_of(options);
+  std::vector<Subject> subjects;
+  for (const Source& source : sources) subjects.push_back(source.subject);
+  const fs::path picture = options.out.empty() ? out_folder() / folder_name(sources) / "card.png"
+                                               : fs::path(options.out);
+  const fs::path numbers = fs::path(picture).replace_extension(".json");
+  catch_interrupts();
+  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  // A missing backend is found before the experiments.
+  const auto context = render::gl::open_context(options.backend);
+  std::atomic<int> done = 0;
+  const std::string all = std::to_string(subjects.size() * std::size(kinds));
+  const std::vector<Card> cards = make_cards(subjects, options.threads, [&] {
+    progress.line(std::to_string(++done) + "/" + all + " experiments");
+  });
+  progress.clear();
+  ThreadPool pool(options.threads);
+  render::Renderer renderer(*context, {}, &pool);
+  const Json json = json_of(cards);
+  const std::vector<std::uint8_t> png =
+      render::encode_png(draw_cards(cards, renderer), texts_of(sources, json));
+  if (picture.has_parent_path()) output::make_folder(picture.parent_path());
+  output::write_file(picture, png);
+  output::write_file(numbers, to_text(json) + "\n");
+  if (options.is_json) {
+    std::cout << to_text(json) << "\n";
+  } else if (options.verbosity != Verbosity::quiet) {
+    for (const Card& card : cards) std::cout << words_of(card);
+  }
+  std::cout.flush();
+  progress.note(picture.string() + " and " + numbers.filename().string());
+  return exit_ok;
+}
+
+}  // namespace neve::app::card

@@ -1,0 +1,187 @@
+/// Press, tear and shear: what is measured between the plates.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/card/first_yield.h"
+#include "app/card/plates.h"
+#include "app/support/text.h"
+
+namespace neve::app::card {
+
+namespace {
+
+/// Strains of the middle half, and what goes with them.
+struct Slope {
+  std::vector<double> strain, stress;
+
+  void add(double e, double s) { strain.push_back(e), stress.push_back(s); }
+  /// Stress per strain over the strains up to the largest, by least squares through the origin.
+  double value(double largest) const {
+    double product = 0, square = 0;
+    for (std::size_t k = 0; k < strain.size() && strain[k] <= largest; ++k)
+      if (strain[k] > 0.1 * largest) {
+        product += strain[k] * stress[k];
+        square += strain[k] * strain[k];
+      }
+    return square > 0 ? product / square : 0;
+  }
+};
+
+/// Strains up to which a law that does not yield is as good as linear.
+constexpr double linear = 0.006;
+/// A law that yields at a smaller strain has no elastic part that could be measured.
+constexpr double no_elasticity = 1e-3;
+constexpr double yields_below = 0.97;  // of the stress that it would have without
+
+/// Strains whose slope is the modulus.
+double linear_up_to(const std::optional<double>& yield) {
+  return std::min(linear, yield ? 0.6 * *yield : linear);
+}
+
+std::string percent_text(double share) {
+  return rough_text(100 * share) + " %";
+}
+
+/// "modulus 154 kPa (law: 156 kPa)"
+std::string modulus_words(const Measure& modulus) {
+  return "modulus " + pressure_text(modulus.value) +
+         (modulus.formula ? " (law: " + pressure_text(*modulus.formula) + ")" : "");
+}
+
+double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const auto next = std::upper_bound(x.begin(), x.end(), at) - x.begin();
+  if (next == 0 || next == static_cast<std::ptrdiff_t>(x.size())) return NAN;
+  const auto k = static_cast<std::size_t>(next);
+  return y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]);
+}
+
+}  // namespace
+
+Experiment press(const Subject& subject) {
+  constexpr double deepest = 0.3;
+  const sim::Material& m = subject.material;
+  Experiment e;
+  e.kind = Kind::press;
+  Plates plates(subject, {{slow_seconds(m), {0, -deepest * Plates::height, 0}}}, e);
+  const std::optional<double> yield = first_yield(
+      m, [](double strain) { return stretched(-strain); }, deepest);
+  Slope slope;
+  double yields_at = 0;
+  PlateSample sample;
+  while (plates.next(sample)) {
+    const double strain = -sample.strain.y(), stress = -sample.stress.y();
+    e.x.push_back(-sample.moved.y() / Plates::height);
+    e.y.push_back(stress);
+    slope.add(strain, stress);
+    const double elastic = -elastic_stress(m, stretched(-strain))(1, 1);
+    if (yields_at == 0 && yield && strain > 0.3 * *yield && stress < yields_below * elastic)
+      yields_at = strain;
+    if (stress > 0.5 * m.youngs_modulus) break;  // stone
+  }
+  plates.show();
+  const sim::Lame lame = sim::lame(m.youngs_modulus, m.poisson_ratio);
+  // What yields at once has another slope.
+  const bool is_elastic_at_first = !yield || *yield > no_elasticity;
+  e.measures.push_back(
+      {"modulus", slope.value(linear_up_to(yield)),
+       is_elastic_at_first ? std::optional(lame.lambda + 2 * lame.mu) : std::nullopt});
+  if (yield && is_elastic_at_first && yields_at > 0)
+    e.measures.push_back({"yield_strain", yields_at, yield});
+  for (const auto& [name, at] :
+       {std::pair{"stress_at_10_percent", 0.1}, {"stress_at_20_percent", 0.2}})
+    if (const double stress = interpolated(e.x, e.y, at); std::isfinite(stress))
+      e.measures.push_back({name, stress});
+  if (const auto stress = e.value("stress_at_20_percent"))
+    e.words.push_back("bears " + pressure_text(*stress) + " at 20 %");
+  else if (!e.y.empty())
+    e.words.push_back("bears " + pressure_text(e.y.back()) + " at " + percent_text(e.x.back()));
+  e.words.push_back(modulus_words(e.measures.front()));
+  if (e.value("yield_strain")) e.words.push_back("yields at " + percent_text(yields_at));
+  return e;
+}
+
+Experiment tear(const Subject& subject) {
+  constexpr double longest = 0.08;
+  const sim::Material& m = subject.material;
+  Experiment e;
+  e.kind = Kind::tear;
+  Plates plates(subject, {{slow_seconds(m), {0, longest * Plates::height, 0}}}, e);
+  const std::optional<double> yield = first_yield(m, stretched, longest);
+  double strength = 0, strain_there = 0, work = 0, last = 0;
+  PlateSample sample;
+  while (plates.next(sample)) {
+    const double stress = sample.stress.y(), moved = sample.moved.y();
+    e.x.push_back(moved / Plates::height);
+    e.y.push_back(stress);
+    work += stress * (moved - last);
+    last = moved;
+    if (stress > strength) {
+      strength = stress;
+      strain_there = sample.strain.y();
+    }
+  }
+  plates.show();
+  const auto formula = [&](double value) { return yield ? std::optional(value) : std::nullopt; };
+  e.measures = {
+      {"strength", strength, formula(elastic_stress(m, stretched(yield.value_or(0)))(1, 1))},
+      {"stretch_at_strength", strain_there, yield},
+      {"work", work}};
+  const bool has_strength = strength > 1e-5 * m.youngs_modulus;
+  const bool tears = !e.y.empty() && e.y.back() < 0.5 * strength;
+  e.words.push_back(!has_strength
+                        ? "bears no tension"
+                        : (tears ? "tears at " : "bears at least ") + pressure_text(strength));
+  if (has_strength && tears) {
+    e.words.push_back("stretched by " + percent_text(strain_there));
+    e.words.push_back("work " + rough_text(work) + " J/m\u00b2");
+  }
+  return e;
+}
+
+Experiment shear(const Subject& subject) {
+  constexpr double furthest = 0.4, normal_stress = 500;
+  const sim::Material& m = subject.material;
+  const sim::Lame lame = sim::lame(m.youngs_modulus, m.poisson_ratio);
+  const double pressed = std::min(0.05, normal_stress / (lame.lambda + 2 * lame.mu));
+  const double slow = slow_seconds(m);
+  Experiment e;
+  e.kind = Kind::shear;
+  Plates plates(
+      subject,
+      {{0.25 * slow, {0, -pressed * Plates::height, 0}}, {slow, {furthest * Plates::height, 0, 0}}},
+      e);
+  const auto sheared = [&](double strain) {
+    sim::Mat3d F = stretched(-pressed);
+    F(0, 1) += strain;
+    return F;
+  };
+  const std::optional<double> yield = first_yield(m, sheared, furthest);
+  Slope slope;
+  double strength = 0, shear_sum = 0, normal_sum = 0;
+  PlateSample sample;
+  for (int k = 1; plates.next(sample); ++k) {
+    if (k <= Plates::samples) continue;
+    const double stress = sample.stress.x();
+    e.x.push_back(sample.moved.x() / Plates::height);
+    e.y.push_back(stress);
+    slope.add(sample.strain.x(), stress);
+    strength = std::max(strength, stress);
+    if (k <= 2 * Plates::samples * 7 / 8) continue;
+    shear_sum += stress;
+    normal_sum -= sample.stress.y();
+  }
+  plates.show();
+  e.measures = {{"strength", strength}};
+  if (!yield || *yield > no_elasticity)
+    e.measures.push_back({"modulus", slope.value(linear_up_to(yield)), lame.mu});
+  if (shear_sum > 0 && normal_sum > 0) e.measures.push_back({"friction", shear_sum / normal_sum});
+  e.words.push_back("bears " + pressure_text(strength));
+  if (e.value("modulus")) e.words.push_back(modulus_words(e.measures[1]));
+  if (const auto friction = e.value("friction"))
+    e.words.push_back("friction " + rough_text(*friction) + " at last");
+  return e;
+}
+
+}  // namespace neve::app::card

@@ -1,0 +1,115 @@
+#include "app/card/subjects.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "app/advice/suggest.h"
+#include "app/scene/names.h"
+#include "app/scene/override.h"
+#include "app/scene/read.h"
+#include "app/support/errors.h"
+
+namespace neve::app::card {
+
+namespace {
+
+/// More of them are no card, but a sweep.
+constexpr std::size_t max_materials = 8;
+
+/// Those that bodies and emitters have; all of a scene without them.
+std::vector<std::string> used_materials(const scene::Scene& scene) {
+  const auto is_used = [&](const std::string& name) {
+    const auto has_it = [&](const auto& item) { return item.material == name; };
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), has_it) ||
+           std::any_of(scene.emitters.begin(), scene.emitters.end(), has_it);
+  };
+  std::vector<std::string> all, used;
+  for (const sim::Material& material : scene.materials) {
+    all.push_back(material.name);
+    if (is_used(material.name)) used.push_back(material.name);
+  }
+  return used.empty() ? all : used;
+}
+
+void add_sources(const timeline::Origin& origin, const std::string& title,
+                 const CardOptions& options, std::vector<Source>& sources) {
+  const std::vector<std::string> used = used_materials(origin.scene);
+  for (const sim::Material& material : origin.scene.materials) {
+    const auto is_in = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), material.name) != names.end();
+    };
+    if (!is_in(options.materials.empty() ? used : options.materials)) continue;
+    const bool is_alone = used.size() == 1 && options.materials.empty();
+    sources.push_back({{is_alone ? title : title + ": " + material.name, material,
+                        origin.scene.solver, origin.scene.seed},
+                       title,
+                       origin});
+  }
+}
+
+/// A ball of the preset, with the law of scenes that name none.
+timeline::Origin origin_of(scene::Preset preset, const CardOptions& options) {
+  const std::string name = scene::name(preset);
+  timeline::Origin origin;
+  origin.scene_file = name;
+  origin.overrides = options.overrides;
+  origin.scene =
+      scene::read_scene_text("[material.snow]\npreset = \"" + name +
+                                 "\"\n[[body]]\nname = \"ball\"\nshape = { sphere = { "
+                                 "center = [0, 0.15, 0], radius = 0.15 } }\n",
+                             "preset " + name, {}, scene::parse_overrides(options.overrides));
+  origin.frames = {0, scene::last_frame(origin.scene)};
+  return origin;
+}
+
+/// Where a scene is named.
+void refuse_preset(const std::string& named) {
+  std::error_code error;
+  if (scene::value_named<scene::Preset>(named) && !std::filesystem::exists(named, error))
+    throw UsageError(named, "is a preset, and no scene", "give it as --preset " + named);
+}
+
+void check_names(const CardOptions& options, const std::vector<timeline::Origin>& origins) {
+  std::vector<std::string> names;
+  for (const timeline::Origin& origin : origins)
+    for (const sim::Material& material : origin.scene.materials)
+      if (std::find(names.begin(), names.end(), material.name) == names.end())
+        names.push_back(material.name);
+  for (const std::string& name : options.materials)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError("--material", "there is no material \"" + name + "\"",
+                       advice::suggest_one_of(name, {"material", names}));
+}
+
+}  // namespace
+
+std::vector<Source> sources_of(const CardOptions& options) {
+  timeline::Edits edits{options.overrides};
+  edits.agreement = options.is_agreed ? timeline::Agreement::given : timeline::Agreement::asked;
+  edits.is_start_only = true;
+  std::vector<timeline::Origin> origins;
+  std::vector<std::string> titles;
+  const bool is_default = options.scenes.empty() && options.presets.empty();
+  for (const std::string& named : is_default ? std::vector<std::string>{""} : options.scenes) {
+    refuse_preset(named);
+    origins.push_back(timeline::Origin::of(named, edits));
+    titles.push_back(origins.back().name());
+  }
+  for (const scene::Preset preset : options.presets) {
+    titles.emplace_back(scene::name(preset));
+    origins.push_back(origin_of(preset, options));
+  }
+  check_names(options, origins);
+  std::vector<Source> sources;
+  for (std::size_t k = 0; k < origins.size(); ++k)
+    add_sources(origins[k], titles[k], options, sources);
+  if (sources.size() > max_materials)
+    throw UsageError("",
+                     "a picture has at most " + std::to_string(max_materials) + " cards, not " +
+                         std::to_string(sources.size()),
+                     "--material chooses some");
+  return sources;
+}
+
+}  // namespace neve::app::card

@@ -1,0 +1,101 @@
+/// Press, tear and shear of a card against formulas.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/card/plates.h"
+#include "tests/card/subject.h"
+
+namespace {
+
+using namespace neve::test;
+using namespace neve::app::card;
+using neve::app::scene::Preset;
+using neve::sim::Lame;
+using neve::sim::lame;
+using neve::sim::Material;
+
+double value(const Experiment& e, const char* name) {
+  EXPECT_EQ(e.failure, "");
+  EXPECT_TRUE(e.value(name)) << name;
+  return e.value(name).value_or(NAN);
+}
+
+Lame lame_of(const Material& m) {
+  return lame(m.youngs_modulus, m.poisson_ratio);
+}
+
+Material elastic(double poisson_ratio) {
+  Material m;
+  m.model = neve::sim::laws::model::corotated;
+  m.hardening = 0;
+  m.poisson_ratio = poisson_ratio;
+  return m;
+}
+
+/// The slope is taken up to strains of 0.6 %, where the stress of a stretch 1 - e is about
+/// (1 + e/2) times the line, and waves of the plate come on top.
+TEST(CardPress, ThePressHasTheModulusOfConfinedCompression) {
+  for (const Material& m :
+       {elastic(0.2), elastic(0.4), preset_snow(Preset::wet), preset_snow(Preset::icy),
+        preset_snow(Preset::packed, neve::sim::laws::model::cam_clay)}) {
+    const Lame l = lame_of(m);
+    EXPECT_NEAR(value(press(subject_of(m)), "modulus") / (l.lambda + 2 * l.mu), 1, 0.025);
+  }
+}
+
+/// Known when the stress has fallen behind that of the law without yielding by 3 %: after theta_c,
+/// by what it takes to fall so far, and by a sample of the plate, each at most 0.07 of it.
+TEST(CardPress, SnowYieldsAtItsCriticalCompression) {
+  for (const Preset preset : {Preset::paper, Preset::powder, Preset::wet}) {
+    const Material m = preset_snow(preset);
+    EXPECT_NEAR(value(press(subject_of(m)), "yield_strain") / m.critical_compression, 1.07, 0.08);
+  }
+}
+
+TEST(CardPress, HarderSnowBearsMore) {
+  Material soft = preset_snow(Preset::paper), hard = soft;
+  soft.hardening = 5;
+  EXPECT_GT(value(press(subject_of(hard)), "stress_at_20_percent"),
+            1.5 * value(press(subject_of(soft)), "stress_at_20_percent"));
+}
+
+/// With stretch s on one axis alone, the law of the paper bears 2 mu (s - 1) + lambda (s - 1) s,
+/// per area as it is: the sides stay. Waves of the plate are a per cent of it; a crack begins
+/// anywhere, so the part that is watched may be a sample further.
+TEST(CardTear, SnowTearsAtItsCriticalStretch) {
+  for (const Preset preset : {Preset::paper, Preset::powder, Preset::icy}) {
+    const Material m = preset_snow(preset);
+    const Lame l = lame_of(m);
+    const double e = m.critical_stretch, strength = 2 * l.mu * e + l.lambda * e;
+    const Experiment torn = tear(subject_of(m));
+    EXPECT_NEAR(value(torn, "strength") / strength, 1, 0.05);
+    EXPECT_NEAR(value(torn, "stretch_at_strength") / e, 1.02, 0.08);
+    EXPECT_LT(torn.y.back(), 0.2 * strength) << "it is torn";
+  }
+}
+
+TEST(CardTear, SandBearsNoTensionAndElasticLawsDoNotTear) {
+  EXPECT_LT(value(tear(subject_of(dry_sand(30))), "strength"), 1e-3);
+  const Experiment stretched = tear(subject_of(elastic(0.2)));
+  EXPECT_EQ(std::max_element(stretched.y.begin(), stretched.y.end()), stretched.y.end() - 1);
+}
+
+/// Below 0.6 % of shear strain the law is linear to 1e-4; the rest is waves and the plate's start.
+TEST(CardShear, TheShearHasTheShearModulus) {
+  for (const Material& m : {elastic(0.2), elastic(0.4), preset_snow(Preset::wet),
+                            preset_snow(Preset::packed, neve::sim::laws::model::cam_clay)})
+    EXPECT_NEAR(value(shear(subject_of(m)), "modulus") / lame_of(m).mu, 1, 0.025);
+}
+
+/// Between the plates sand flows at constant volume. Its lowest and highest layers are held, and
+/// samples of the last eighth of the way scatter by a per cent.
+TEST(CardShear, ShearedSandHasTheFrictionOfItsAngle) {
+  for (const double angle : {20.0, 30.0, 40.0})
+    EXPECT_NEAR(value(shear(subject_of(dry_sand(angle))), "friction") / critical_slope(angle), 1,
+                0.05);
+}
+
+}  // namespace
