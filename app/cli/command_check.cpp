@@ -177,15 +177,12 @@ void write_open_edges(const run::RenderOptions& options, const scene::Scene& sce
   output::write_file(options.open_edges, render::encode_png(renderer.draw(*frame)));
 }
 
-/// Says what it costs, then runs the copies.
 predict::Prediction predicted(const run::RenderJob& job, const health::Check& check,
                               const run::RenderOptions& options) {
   setup::check_limits(job.scene, check.plan, job.coarsening);
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
-  const double seconds = predict::share_of_work() * check.seconds().expected;
-  progress.note(predict::cost_text() + (seconds > 0 ? ", about " + seconds_text(seconds) : ""));
-  return predict::judge(predict::run_copies(job.scene, job.frames.last, options.threads, progress),
-                        job.scene);
+  return predict::make_prediction(job.scene, job.frames.last, check.seconds().expected,
+                                  options.threads, progress);
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ void print_picture(const record::PictureRecord& record, const std::string& pictu
     out << "changed     " << scene::text_of(change) << "\n";
   if (record.coarsening > 1)
     out << "coarsened   " << scene::coarsening_text(record.coarsening) << "\n";
+  for (const std::string& line : record.prediction) out << "predicted   " << line << "\n";
   for (const auto& [path, hash] : record.files)
     out << "file        " << path << " (" << hash << ")\n";
   out << "\n" << record.scene;
@@ -69,6 +70,13 @@ void print_changes(const Json& run, std::ostream& out) {
   } catch (const std::runtime_error& error) {
     out << "changed     " << error.what() << "\n";
   }
+}
+
+void print_prediction(const Json& run, std::ostream& out) {
+  const Json prediction = run.value("prediction", Json());
+  const Json lines = prediction.is_object() ? prediction.value("text", Json()) : Json();
+  for (const Json& line : lines)
+    if (line.is_string()) out << "predicted   " << line.get<std::string>() << "\n";
 }
 
 /// A run that was killed had no time to say so.
@@ -114,6 +122,7 @@ void print_run(const Json& run, const fs::path& folder, std::ostream& out) {
       << "status      " << text("status") << life_of(text("status"), folder) << "\n"
       << "backend     " << text("backend") << ", " << text("gl_renderer") << "\n";
   print_changes(run, out);
+  print_prediction(run, out);
   if (!run.contains("frames") || !run["frames"].is_array()) return;
   const Json& frames = run["frames"];
   out << "frames      " << frames.size() << "\n";

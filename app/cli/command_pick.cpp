@@ -63,6 +63,11 @@ Answer ask(const pick::Game& game, const sweep::jobs::SweepProgress& runs,
   }
 }
 
+/// The sheet of --refine.
+std::string pair_sheet(const pick::Game& game) {
+  return (game.folder() / "picked_pair.cdb" / "sheet.png").string();
+}
+
 void print_pick(const pick::Game& game, const pick::PickOptions& options,
                 const std::vector<scene::Override>& values) {
   const std::string scene = (game.folder() / "picked.toml").string();
@@ -74,6 +79,7 @@ void print_pick(const pick::Game& game, const pick::PickOptions& options,
                           {"rounds", game.answered()},
                           {"scene", scene},
                           {"sweep", (game.folder() / "picked_sweep.toml").string()},
+                          {"pair", options.refines ? Json(pair_sheet(game)) : Json()},
                           {"clicks", (game.folder() / "clicks.txt").string()},
                           {"values", chosen},
                           {"learned", game.lesson().lines}})
@@ -85,6 +91,7 @@ void print_pick(const pick::Game& game, const pick::PickOptions& options,
   for (const scene::Override& value : values)
     std::cout << "  " << value.address << " = " << value.value << "\n";
   for (const std::string& line : game.lesson().lines) std::cout << line << "\n";
+  if (options.refines) std::cout << "coarse and at full resolution: " << pair_sheet(game) << "\n";
   std::cout << "next:\n  neve render " << options::shell_path(scene) << "\n  neve sweep "
             << options::shell_path((game.folder() / "picked_sweep.toml").string()) << "\n";
 }
@@ -231,8 +238,9 @@ int run_pick(const PickCommand& command) {
     std::cerr << "nothing was chosen; the same command continues from here\n";
     return exit_ok;
   }
+  const int code = options.refines ? run_sweep(game.begin_refinement()) : exit_ok;
   print_pick(game, options, *values);
-  return exit_ok;
+  return code;
 }
 
 }  // namespace neve::app::cli

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "app/cli/commands.h"
+#include "app/health/check.h"
 #include "app/health/findings.h"
 #include "app/health/mesh_findings.h"
 #include "app/output/atomic_file.h"
@@ -14,6 +15,7 @@
 #include "app/output/read_picture.h"
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
+#include "app/predict/predict.h"
 #include "app/record/picture_record.h"
 #include "app/run/fork.h"
 #include "app/run/lut.h"
@@ -77,6 +79,7 @@ void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json
     const scene::PictureSize size = setup::size_of(job.scene, view);
     std::cout << "view       " << view.name << ", " << size.width << "x" << size.height << "\n";
   }
+  if (job.options.predicts) std::cout << "prediction " << predict::cost_text() << "\n";
   if (!job.passes.empty()) std::cout << "passes     " << joined(job.passes, ", ") << "\n";
   for (const scene::Mosaic& mosaic : job.scene.mosaics) {
     const scene::PictureSize size = setup::size_of(job.scene, mosaic);
@@ -200,6 +203,24 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
   }
 }
 
+/// The run at full resolution, by copies of it; that of the run which is resumed, if it has one.
+void predict_full(const run::RenderOptions& options, run::RenderJob& job, Progress& progress) {
+  const scene::Scene& full = *job.finer;
+  const int last = scene::number_of(full, job.frames.last);
+  const Json before = options.resume ? record::read_run_json(job.folder) : Json();
+  const Json known = record::is_untouched(before) ? before.value("prediction", Json()) : Json();
+  if (known.is_object() && known.value("frame", Json()) == last) {
+    job.prediction_record = known;
+  } else {
+    const setup::Plan plan = setup::make_plan(full, job.frames, job.quality, options.threads);
+    const double seconds = health::examine(full, plan, options.threads).seconds().expected;
+    job.prediction_record = predict::to_json(
+        predict::make_prediction(full, job.frames.last, seconds, options.threads, progress));
+  }
+  job.prediction = job.prediction_record.at("text").get<std::vector<std::string>>();
+  for (const std::string& line : job.prediction) progress.note(line);
+}
+
 /// "validation: 19 checks at 12 steps, all held", or which did not.
 std::string text_of_laws(const sim::checks::Watch& laws) {
   std::string broken;
@@ -270,6 +291,9 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
 int run_render(const run::RenderOptions& options) {
   run::RenderJob job = run::make_job(options);
   refuse_origin(options, job);
+  if (options.predicts && job.picture)
+    throw UsageError("--predict", options.scene + " is a picture, one moment of a run",
+                     "name its scene file");
   const double channel_bytes =
       job.passes.empty() ? 0 : run::bytes_of_pixel(run::pass_list(job.passes));
   const setup::Plan plan =
@@ -304,6 +328,7 @@ int run_render(const run::RenderOptions& options) {
 
   const auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(job.scene));
   warn_about_start(job, *seeded, progress);
+  if (options.predicts) predict_full(options, job, progress);
   setup::resolve(job.scene, seeded->planned);
   reading.reset();
   timeline::Timeline timeline = timeline::open(job, seeded, options.threads, progress);

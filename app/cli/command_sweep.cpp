@@ -36,6 +36,7 @@
 #include "app/sweep/sheet/collect.h"
 #include "app/sweep/sheet/report.h"
 #include "app/sweep/store/prepare.h"
+#include "app/sweep/store/refine.h"
 #include "app/sweep/store/store.h"
 
 namespace neve::app::cli {
@@ -52,6 +53,12 @@ std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options, int last)
       return index % options.shard->count != options.shard->index - 1;
     });
   return indices;
+}
+
+/// The chosen runs, and the copies of their points.
+std::vector<int> wanted_runs(const sweep::plan::SweepOptions& options,
+                             const sweep::store::Manifest& manifest) {
+  return manifest.with_variants(chosen_runs(options, manifest.runs.back().index));
 }
 
 sweep::store::Retry retry_of(const std::string& states) {
@@ -71,8 +78,8 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
   std::string text;
   int count = 0;
   const sweep::store::Retry retry = retry_of(options.retry_failed);
-  const std::vector<int> chosen = chosen_runs(options, manifest.runs.back().index);
-  for (const sweep::Run* run : sweep::jobs::start_order(manifest, chosen, true)) {
+  for (const sweep::Run* run :
+       sweep::jobs::start_order(manifest, wanted_runs(options, manifest), true)) {
     const sweep::store::RunState state =
         sweep::store::read_status(sweep::store::runs_folder(folder) / run->folder).state;
     if (sweep::store::is_finished(state) && !retry.contains(state)) continue;
@@ -94,7 +101,7 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
 sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
                                    const std::filesystem::path& folder,
                                    const sweep::store::Manifest& manifest, Progress& progress) {
-  const std::vector<int> indices = chosen_runs(options, manifest.runs.back().index);
+  const std::vector<int> indices = wanted_runs(options, manifest);
   if (options.engine == "slurm") {
     const sweep::jobs::SlurmOptions slurm{this_program(), options.backend, options.jobs,
                                           std::max(1, options.threads), options.sbatch};
@@ -243,47 +250,143 @@ void choose_runs(const sweep::plan::SweepOptions& options, sweep::plan::SweepPla
   });
 }
 
-/// Places in the plan of the chosen runs that are not finished, of equal ones the first.
-std::vector<std::size_t> unfinished_runs(const sweep::plan::SweepOptions& options,
-                                         const std::filesystem::path& folder,
-                                         const sweep::store::Manifest& manifest) {
+/// Numbers of the chosen runs that are not finished, and of their copies; of equal ones the first.
+std::vector<int> unfinished_runs(const sweep::plan::SweepOptions& options,
+                                 const std::filesystem::path& folder,
+                                 const sweep::store::Manifest& manifest) {
   const sweep::store::Retry retry = retry_of(options.retry_failed);
-  const std::vector<int> chosen = chosen_runs(options, manifest.runs.back().index);
-  std::vector<std::size_t> places;
-  for (const sweep::Run* run : sweep::jobs::start_order(manifest, chosen, false)) {
+  std::vector<int> indices;
+  for (const sweep::Run* run :
+       sweep::jobs::start_order(manifest, wanted_runs(options, manifest), false)) {
     const sweep::store::RunState state =
         sweep::store::read_status(sweep::store::runs_folder(folder) / run->folder).state;
-    if (!sweep::store::is_finished(state) || retry.contains(state))
-      places.push_back(static_cast<std::size_t>(run->index));
+    if (!sweep::store::is_finished(state) || retry.contains(state)) indices.push_back(run->index);
   }
-  std::sort(places.begin(), places.end());
-  return places;
+  std::sort(indices.begin(), indices.end());
+  return indices;
 }
 
 /// Says how long the sweep will take, and gives the manifest the cost of each run, by which runs
 /// start and share the cores. @return s; 0: nothing is left to do, or it is not known
 double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan::SweepPlan& plan,
                     int cores, sweep::store::Manifest& manifest, Progress& progress) {
-  const std::vector<std::size_t> runs = unfinished_runs(options, plan.folder, manifest);
-  if (runs.empty() || options.engine != "local") return 0;
-  const sweep::plan::StudyForecast forecast =
-      sweep::plan::foresee_study(plan, runs, sweep::plan::small_effort(plan, runs, cores), cores);
+  const std::vector<int> left = unfinished_runs(options, plan.folder, manifest);
+  if (left.empty() || options.engine != "local") return 0;
+  // Copies cost as the run of their point, in proportion to their cells and steps.
+  std::set<std::size_t> runs;
+  for (const int index : left) {
+    const auto place = static_cast<std::size_t>(index);
+    runs.insert(place < plan.runs.size() ? place : plan.variants[place - plan.runs.size()].of);
+  }
+  const std::vector<std::size_t> places(runs.begin(), runs.end());
+  const sweep::plan::StudyForecast forecast = sweep::plan::foresee_study(
+      plan, places, sweep::plan::small_effort(plan, places, cores), cores);
   double cost = 0, seconds = 0;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     manifest.runs[k].work = forecast.cost(k);
     cost += forecast.cost(k);
     seconds += forecast.seconds(k).expected;
   }
+  for (sweep::store::Variant& variant : manifest.variants)
+    variant.run.work =
+        forecast.cost(variant.of) * sweep::plan::work_ratio(plan, variant.coarsening);
   if (forecast.seconds_per_work > 0) manifest.seconds_per_work = seconds / cost;
   sweep::store::write_manifest(plan.folder, manifest);
-  if (forecast.seconds_per_work > 0)
-    progress.note(sweep::plan::forecast_text(plan, runs, forecast, cores, options.budget));
-  return forecast.seconds_of_all(runs, cores).expected;
+  double of_copies = 0;
+  int copies = 0;
+  for (const int index : left) {
+    const auto place = static_cast<std::size_t>(index);
+    if (place < plan.runs.size()) continue;
+    const sweep::plan::PlannedVariant& variant = plan.variants[place - plan.runs.size()];
+    of_copies +=
+        forecast.seconds(variant.of).expected * sweep::plan::work_ratio(plan, variant.coarsening);
+    ++copies;
+  }
+  std::erase_if(runs, [&](std::size_t run) {
+    return !std::binary_search(left.begin(), left.end(), static_cast<int>(run));
+  });
+  const std::vector<std::size_t> own(runs.begin(), runs.end());
+  if (forecast.seconds_per_work > 0 && !own.empty())
+    progress.note(sweep::plan::forecast_text(plan, own, forecast, cores, options.budget));
+  if (copies > 0)
+    progress.note(fmt::format(
+        "the prediction runs {} further {}{}", copies, copies == 1 ? "copy" : "copies",
+        of_copies > 0 ? ": about " + duration_text(of_copies / cores) + " more on these cores"
+                      : ""));
+  if (options.refine > 0 && forecast.seconds_per_work > 0) {
+    const auto count = static_cast<std::size_t>(options.refine) * plan.sweep.runs_per_point();
+    const double share =
+        std::min(1.0, static_cast<double>(count) / static_cast<double>(plan.runs.size()));
+    const double all = seconds * sweep::plan::work_ratio(plan, 1) / plan.sweep.runs_per_point();
+    progress.note(fmt::format("then {} {} at full resolution, about {} if they cost as most",
+                              options.refine, options.refine == 1 ? "point" : "points",
+                              duration_text(all * share / cores)));
+  }
+  return forecast.seconds_of_all(own, cores).expected + of_copies / cores;
+}
+
+/// First runs of the points that are to be made at full resolution.
+std::vector<std::size_t> points_to_refine(const sweep::plan::SweepOptions& options,
+                                          const sweep::plan::SweepPlan& plan,
+                                          const sweep::store::Manifest& manifest) {
+  const auto seeds = static_cast<std::size_t>(manifest.seeds);
+  std::vector<std::size_t> points;
+  const auto add = [&](std::size_t run) {
+    const std::size_t first = run - run % seeds;
+    if (std::find(points.begin(), points.end(), first) == points.end()) points.push_back(first);
+  };
+  if (!options.refine_runs.empty())
+    for (const int run :
+         sweep::plan::parse_selection(options.refine_runs, plan.runs.back().run.index))
+      add(static_cast<std::size_t>(run));
+  if (options.refine > 0)
+    for (const std::size_t run :
+         sweep::store::points_to_refine(manifest, sweep::store::read_results(plan.folder, manifest),
+                                        sweep::store::predictions_of(plan.folder, manifest),
+                                        static_cast<std::size_t>(options.refine),
+                                        sweep::store::Best::parse("--best", options.best)))
+      add(run);
+  return points;
+}
+
+/// Makes the undecided and the best points at full resolution, beside the runs that have ended.
+sweep::jobs::JobsResult refine(const sweep::plan::SweepOptions& options, int cores,
+                               const sweep::jobs::JobsResult& coarse, sweep::plan::SweepPlan& plan,
+                               sweep::store::Manifest& manifest, Progress& progress) {
+  const std::vector<std::size_t> points = points_to_refine(options, plan, manifest);
+  if (points.empty()) return coarse;
+  sweep::plan::add_full_runs(options, points, plan);
+  sweep::plan::share_camera_and_ranges(plan, cores);
+  sweep::store::Manifest with_full = sweep::store::prepare_sweep(plan);
+  std::vector<std::string> names;
+  double seconds = 0;
+  for (std::size_t k = 0; k < with_full.runs.size(); ++k)
+    with_full.runs[k].work = manifest.runs[k].work;
+  with_full.seconds_per_work = manifest.seconds_per_work;
+  for (sweep::store::Variant& variant : with_full.variants) {
+    variant.run.work =
+        with_full.runs[variant.of].work * sweep::plan::work_ratio(plan, variant.coarsening);
+    if (!variant.is_full()) continue;
+    names.push_back(std::to_string(variant.of));
+    seconds += variant.run.work * with_full.seconds_per_work;
+  }
+  sweep::store::write_manifest(plan.folder, with_full);
+  manifest = with_full;
+  progress.note(fmt::format("at full resolution: {} {}{}", names.size() == 1 ? "run" : "runs",
+                            joined(names, ", "),
+                            seconds > 0 ? ", about " + duration_text(seconds / cores) : ""));
+  sweep::plan::SweepOptions rest = options;
+  if (rest.budget > 0) rest.budget = std::max(1.0, options.budget - coarse.seconds);
+  sweep::jobs::JobsResult result = run_engine(rest, plan.folder, manifest, progress);
+  result.seconds += coarse.seconds;
+  result.started += coarse.started;
+  return result;
 }
 
 }  // namespace
 
 int run_sweep(const sweep::plan::SweepOptions& options) {
+  sweep::store::Best::parse("--best", options.best);
   retry_of(options.retry_failed);  // a wrong word is refused before anything is planned
   sweep::plan::SweepPlan plan = sweep::plan::plan_sweep(options);
   const int cores = core_count(options.threads);
@@ -326,7 +429,10 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
     emit_commands(options, plan.folder, manifest, progress);
     return exit_ok;
   }
-  const sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
+  sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
+  const bool has_ended = !result.failure && !result.is_interrupted && result.elsewhere == 0;
+  if (has_ended && (options.refine > 0 || !options.refine_runs.empty()))
+    result = refine(options, cores, result, plan, manifest, progress);
   if (result.failure) fail_by_machine(*result.failure, plan.folder);
   sweep::sheet::collect_sweep(plan.folder, movie, options.has_review, options.backend, cores,
                               progress);
@@ -353,9 +459,9 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   if (options.is_beginning && !manifest.beginning)
     throw UsageError("--beginning", "this sweep has no fork", "give --index N for one of them");
   const int index = options.index.value_or(0);
-  if (index >= static_cast<int>(manifest.runs.size()))
+  if (!manifest.run_of(index))
     throw UsageError("--index", fmt::format("there is no run {}", index),
-                     fmt::format("expected a number from 0 to {}", manifest.runs.size() - 1));
+                     fmt::format("expected a number from 0 to {}", manifest.last_index()));
   sweep::jobs::LocalOptions engine;
   engine.cores = core_count(options.threads);
   engine.jobs = 1;

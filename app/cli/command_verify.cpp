@@ -62,7 +62,10 @@ Findings verify_sweep_folder(const fs::path& folder) {
   const sweep::store::Manifest manifest = sweep::store::read_manifest(folder);
   Findings findings;
   std::size_t left = 0;
-  for (const sweep::Run& item : manifest.runs) {
+  for (int index = 0; index <= manifest.last_index(); ++index) {
+    const sweep::Run* run = manifest.run_of(index);
+    if (!run) continue;
+    const sweep::Run& item = *run;
     const fs::path place = fs::path("runs") / item.folder;
     const sweep::store::RunStatus status = sweep::store::read_status(folder / place);
     if (status.key != item.key || !sweep::store::is_finished(status.state)) ++left;
@@ -86,7 +89,8 @@ Findings verify_sweep_folder(const fs::path& folder) {
          record::verify_run(sweep::store::beginning_folder(folder)).flaws)
       findings.flaws.push_back({"beginning/" + flaw.file, flaw.what});
   if (left > 0)
-    findings.unfinished = fmt::format("{} of {} runs are not finished", left, manifest.runs.size());
+    findings.unfinished =
+        fmt::format("{} of {} runs are not finished", left, manifest.last_index() + 1);
   findings.status = left > 0 ? "unfinished" : "ok";
   return findings;
 }

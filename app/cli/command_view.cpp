@@ -6,6 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/devices/place.h"
+#include "app/predict/live.h"
 #include "app/record/picture_record.h"
 #include "app/run/render_job.h"
 #include "app/scene/read.h"
@@ -68,6 +69,28 @@ std::optional<view::session::Opened> look_at(view::session::Opened opened,
   return std::move(viewer.state().dropped);
 }
 
+/// Chooses cells and steps with which simulated time keeps up with the clock, and says which.
+void take_live_choice(view::ViewOptions& options) {
+  const bool is_quiet = options.run.verbosity == Verbosity::quiet;
+  run::RenderOptions start = options.run;
+  start.is_start_only = true;
+  const run::RenderJob job = run::make_job(start);
+  if (!job.run.empty())
+    throw UsageError("--live", options.run.scene + " is the folder of a run: it keeps its cells",
+                     "name its scene file");
+  if (!is_quiet)
+    std::cerr << "neve: live: looks for cells that keep up with the clock" << std::endl;
+  const predict::LiveChoice choice =
+      predict::choose_live(job.scene, job.frames.last,
+                           scene::addresses_of(scene::parse_overrides(options.run.overrides)),
+                           predict::measured_pace(options.run.threads));
+  if (!is_quiet) std::cerr << "neve: live: " << choice.sentence() << std::endl;
+  if (choice.coarsening > 1) options.run.coarsening = choice.coarsening;
+  if (choice.fast)
+    options.run.overrides.insert(options.run.overrides.end(), choice.fast->overrides.begin(),
+                                 choice.fast->overrides.end());
+}
+
 }  // namespace
 
 int run_view(const view::ViewOptions& given) {
@@ -83,6 +106,7 @@ int run_view(const view::ViewOptions& given) {
     options.run.overrides.insert(options.run.overrides.end(), look.overrides.begin(),
                                  look.overrides.end());
   }
+  if (options.is_live) take_live_choice(options);
   const std::string file = options.run.scene.empty() ? default_scene().string() : options.run.scene;
   // A scene that cannot be read is told before a window opens.
   std::optional<NothingToKeep> reading(std::in_place);

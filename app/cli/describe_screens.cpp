@@ -70,6 +70,11 @@ void describe_view(Command& visit, view::ViewOptions& o) {
   describe_place(visit, o.screen);
   visit("--view", o.run.views, options::text("NAME", "smoke"), "View to show first").once();
   visit("--run", o.is_running, "Start simulating at once");
+  visit(
+      "--live", o.is_live,
+      "Choose cells and steps, as --coarsen and --fast do, with which simulated time keeps up with "
+      "the clock on this machine, and say which; a look of some seconds")
+      .excludes({"--coarsen", "--fast"}, "--live chooses both");
   visit("--size", o.run.size, options::size(), "Size of the window, or initial size of the page");
   visit("--out", o.run.out, options::folder(),
         "Folder for pictures, scenes and sweeps instead of out/<scene name>-view");
@@ -122,6 +127,10 @@ void describe_pick(Command& visit, PickCommand& o) {
   visit("--size", runs.size, options::size(), "Size of a tile; default: 480 pixels wide");
   visit("--coarsen", runs.coarsening, options::coarsening(),
         "Make cells N times as large in all tiles; the picked scene keeps its cell_size");
+  visit("--refine", o.pick.refines,
+        "With --coarsen N: at the end make the pick at full resolution as well, and show both "
+        "beside each other in "
+        "DIR/picked_pair.cdb/sheet.png");
   visit("--out", runs.out, options::folder("round.html"),
         "Output folder instead of out/<name of the scene>.pick");
   options::describe_threads(visit, runs.threads, "Number of cores; 0: all");
@@ -130,6 +139,11 @@ void describe_pick(Command& visit, PickCommand& o) {
   visit("--json", runs.is_json, options::json_help);
   options::describe_verbosity(visit, runs.verbosity, nullptr,
                               "Print only errors, warnings and questions");
+  visit.check([&o] {
+    if (o.pick.refines && !(o.pick.runs.coarsening.value_or(1) > 1))
+      throw UsageError("--refine", "makes the pick at full resolution, as all tiles are already",
+                       "add --coarsen 2 for the tiles, or remove --refine");
+  });
 }
 
 }  // namespace neve::app::cli

@@ -332,7 +332,7 @@ Hypothesis shock(const Case& c) {
                   rough_text(speed), rough_text(mach), rough_text(c.d.J_P)),
       fmt::format("stay below {} m/s, or make the snow stiffer: {} = {}",
                   rough_text(c.start_sound()), c.at("youngs_modulus"),
-                  rough_text(stiffness_that_holds(c.material, c.d.J_P, speed))),
+                  rough_text(stiffness_that_holds(c.material, c.scene.solver, c.d.J_P, speed))),
       c.at("youngs_modulus")};
 }
 
@@ -348,7 +348,7 @@ Hypothesis too_soft(const Case& c) {
   const sim::Material usual;
   const std::string stiffer =
       fmt::format("{} = {}", c.at("youngs_modulus"),
-                  rough_text(stiffness_that_holds(c.material, c.d.J_P, speed)));
+                  rough_text(stiffness_that_holds(c.material, c.scene.solver, c.d.J_P, speed)));
   return Diagnosis{
       Cause::too_soft,
       fmt::format("snow of youngs_modulus = {}{} is too soft for its impact at {} m/s: it was "

@@ -11,10 +11,13 @@
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
 #include "sim/laws/law.h"
+#include "sim/laws/threshold_cell.h"
 
 namespace neve::app::health {
 
-double stiffness_that_holds(const sim::Material& material, double J_P, double speed) {
+double stiffness_that_holds(const sim::Material& written, const sim::SolverSettings& settings,
+                            double J_P, double speed) {
+  const sim::Material material = sim::laws::in_cells(written, settings);
   constexpr double kept = 0.25, focus = 3, min_threshold = 0.005;
   if (const auto largest_pressure = sim::laws::of(material).largest_pressure) {
     const double shock = focus * material.density * speed * speed / (1 - kept);
@@ -80,7 +83,7 @@ std::optional<std::string> softness_warning(const scene::Scene& scene,
       "snow was packed to J_P = {}, {} kg/m3, and yielded without hardening further: it is too "
       "soft for its impact at {} m/s; try material.{}.youngs_modulus = {}",
       rough_text(J_P), rough_text(snow.density / J_P), rough_text(speed), snow.name,
-      rough_text(stiffness_that_holds(snow, J_P, speed)));
+      rough_text(stiffness_that_holds(snow, scene.solver, J_P, speed)));
 }
 
 }  // namespace neve::app::health

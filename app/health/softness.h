@@ -15,8 +15,10 @@ namespace neve::app::health {
 ///   - as much as when it was packed to J_P;
 ///   - three times the pressure rho v^2 / (1 - J) behind a plane shock that stops snow of the given
 ///     speed: edges, and nodes held by a collider, focus it.
+/// Thresholds are those in the cells of the settings.
 /// Check: Softness.ImpactHoldsWithTheStiffnessThatIsAdvised
-double stiffness_that_holds(const sim::Material& material, double J_P, double speed);
+double stiffness_that_holds(const sim::Material& material, const sim::SolverSettings& settings,
+                            double J_P, double speed);
 
 /// m/s, of the fastest body that hits something, or collider.
 double load_speed(const scene::Scene& scene);

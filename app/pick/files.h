@@ -32,4 +32,9 @@ std::string picked_scene(const SearchScene& scene, const search::Point& place);
 std::string picked_sweep(const SearchScene& scene, const std::string& scene_name,
                          const search::Point& place, const std::vector<std::size_t>& order);
 
+/// A sweep file with two runs of the pick: as coarse as the tiles were, and at full resolution.
+/// @param scene_name  file of picked_scene, in the same folder @param picked  its scene
+std::string picked_pair(const std::string& scene_name, const scene::Scene& picked,
+                        double coarsening);
+
 }  // namespace neve::app::pick

@@ -6,6 +6,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/pick/page.h"
+#include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/sweep/read/read_sweep.h"
@@ -144,6 +145,22 @@ std::optional<std::vector<scene::Override>> Game::write_pick() const {
   output::write_file(folder_ / "learned.txt", fmt::format("{}\n", fmt::join(lesson().lines, "\n")));
   output::write_file(folder_ / "map.svg", map_svg(map()));
   return settings(place);
+}
+
+sweep::plan::SweepOptions Game::begin_refinement() const {
+  const fs::path file = folder_ / "picked_pair.toml";
+  output::write_file(
+      file, picked_pair("picked.toml", scene::read_scene_file((folder_ / "picked.toml").string()),
+                        *options_.runs.coarsening));
+  sweep::plan::SweepOptions runs = options_.runs;
+  runs.file = file.string();
+  runs.axes.clear();
+  runs.overrides.clear();
+  runs.coarsening.reset();
+  runs.seeds = 0;
+  runs.out = (folder_ / "picked_pair.cdb").string();
+  runs.is_json = false;
+  return runs;
 }
 
 /// Says which search the clicks are of.

@@ -65,6 +65,8 @@ class Game {
   }
   /// Writes scene, sweep, words and map of the pick. @return its values; empty without a choice
   std::optional<std::vector<scene::Override>> write_pick() const;
+  /// Of a written pick: the sweep that makes it as coarse as its tiles, and at full resolution.
+  sweep::plan::SweepOptions begin_refinement() const;
 
  private:
   int dimension() const { return static_cast<int>(scene_.axes.size()); }

@@ -13,6 +13,7 @@ struct PickOptions {
   int rounds = 8;
   std::uint64_t seed = 1;
   std::string clicks;        ///< a list of clicks to replay; "": a person is asked
+  bool refines = false;      ///< the pick is made at full resolution, too
   bool is_terminal = false;  ///< asked in the terminal, though there is a screen
 };
 

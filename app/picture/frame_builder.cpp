@@ -21,7 +21,6 @@
 #include "app/scene/coarsen.h"
 #include "app/scene/flat.h"
 #include "app/scene/override.h"
-#include "app/scene/toml/value.h"
 #include "app/setup/camera_path.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
@@ -349,20 +348,6 @@ std::vector<std::string> FrameBuilder::slate() const {
   return lines;
 }
 
-namespace {
-
-/// With what --coarsen set, which neve view and sweeps do not list; a value that is listed twice is
-/// shown once.
-std::vector<std::string> with_thresholds(std::vector<std::string> overrides,
-                                         const scene::Scene& scene, double coarsening) {
-  const double meant = scene.solver.threshold_cell;
-  if (coarsening > 1 && meant > 0)
-    overrides.push_back("solver.threshold_cell=" + scene::toml::number_text(meant));
-  return overrides;
-}
-
-}  // namespace
-
 std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   std::vector<std::string> lines;
   if (!scene_.title.empty()) lines.push_back(scene_.title);
@@ -375,8 +360,8 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
                        : "") +
                   (snapshot.advance.steps > 0 ? "   " + steps_text(snapshot.advance) : ""));
   if (snapshot.warnings.rules_ignored > 0) lines.push_back(ignored_rule_text(snapshot.warnings));
-  std::vector<std::string> different =
-      override_lines(with_thresholds(options_.overrides, scene_, options_.coarsening));
+  lines.insert(lines.end(), options_.prediction.begin(), options_.prediction.end());
+  std::vector<std::string> different = override_lines(options_.overrides);
   for (std::string& line : change_lines(snapshot.changes)) different.push_back(std::move(line));
   const std::size_t shown = std::min(different.size(), max_override_lines);
   lines.insert(lines.end(), different.begin(),

@@ -20,8 +20,9 @@ namespace neve::app::picture {
 /// Inputs of a picture besides the scene.
 struct PictureOptions {
   setup::Quality quality = setup::Quality::preview;
-  std::vector<std::string> overrides = {};  ///< "material.snow.hardening=5", for the caption
-  double coarsening = 1;                    ///< factor of --coarsen, for the caption
+  std::vector<std::string> overrides = {};   ///< "material.snow.hardening=5", for the caption
+  double coarsening = 1;                     ///< factor of --coarsen, for the caption
+  std::vector<std::string> prediction = {};  ///< lines of --predict, for the caption
 };
 
 class FrameBuilder {
@@ -46,7 +47,7 @@ class FrameBuilder {
                                const health::Diagnosis& diagnosis,
                                std::optional<render::Points> points = std::nullopt) const;
 
-  /// Title, frame and time, particles and steps, and overrides; one line each.
+  /// Title, frame and time, particles and steps, prediction and overrides; one line each.
   std::vector<std::string> caption(const Snapshot& snapshot) const;
 
   /// Frames, cells, materials and overrides, for the first picture of a film; one line each.

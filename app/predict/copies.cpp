@@ -12,6 +12,7 @@
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/timeline/timeline.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::predict {
 
@@ -57,6 +58,20 @@ const QuantityInfo& info_of(Quantity quantity) {
   return infos[static_cast<int>(quantity)];
 }
 
+std::string why_not(const scene::Scene& scene) {
+  const bool has_snow =
+      std::any_of(scene.materials.begin(), scene.materials.end(),
+                  [](const sim::Material& m) { return sim::laws::of(m).is_snow; });
+  return has_snow ? "" : "no material of the scene breaks";
+}
+
+scene::Scene copy_of(const scene::Scene& scene, double coarsening, std::uint64_t seed) {
+  scene::Scene copy = scene;
+  copy.seed = seed;
+  scene::coarsen(copy, coarsening);
+  return copy;
+}
+
 double share_of_work() {
   double share = 0;
   for (const CopyPlan& plan : copy_plans) share += plan.seeds / std::pow(plan.coarsening, 4);
@@ -82,11 +97,8 @@ std::vector<Copy> run_copies(const scene::Scene& scene, int last, int threads, P
       Copy copy;
       copy.coarsening = plan.coarsening;
       copy.seed = scene.seed + static_cast<std::uint64_t>(k);
-      scene::Scene coarse = scene;
-      coarse.seed = copy.seed;
       try {
-        scene::coarsen(coarse, plan.coarsening);
-        run(coarse, last, threads, progress, copy);
+        run(copy_of(scene, copy.coarsening, copy.seed), last, threads, progress, copy);
       } catch (const UsageError& error) {
         copy.failure = error.what();
       }

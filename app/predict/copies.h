@@ -38,6 +38,12 @@ struct CopyPlan {
 };
 inline constexpr CopyPlan copy_plans[] = {{1.5, 1}, {2, 2}};
 
+/// Why copies cannot tell of a scene, known before they run; "" if they can.
+std::string why_not(const scene::Scene& scene);
+
+/// The scene of a copy. @throws UsageError where its cells are too large for a body
+scene::Scene copy_of(const scene::Scene& scene, double coarsening, std::uint64_t seed);
+
 /// @return work of the copies over that of the run, as far as it follows from cells and steps
 double share_of_work();
 

@@ -8,8 +8,6 @@
 
 #include "app/record/metrics.h"
 #include "app/support/text.h"
-#include "sim/laws/law.h"
-#include "sim/types/material.h"
 
 namespace neve::app::predict {
 
@@ -50,16 +48,13 @@ Estimate estimate(Quantity quantity, const std::vector<Copy>& copies) {
 }
 
 /// Nothing where copies can speak.
-std::string silence(const std::vector<Copy>& copies, const scene::Scene& scene) {
+std::string silence(const std::vector<Copy>& copies) {
   for (const Copy& copy : copies) {
     if (!copy.failure.empty())
       return fmt::format("the copy with --coarsen {} and seed {} has no end: {}",
                          rough_text(copy.coarsening), copy.seed, copy.failure);
     if (!copy.has_broken) return "there is no snow at the start";
   }
-  if (std::none_of(scene.materials.begin(), scene.materials.end(),
-                   [](const sim::Material& m) { return sim::laws::of(m).is_snow; }))
-    return "no material of the scene breaks";
   return "";
 }
 
@@ -90,6 +85,7 @@ void decide(Prediction& prediction) {
   }
 }
 
+/// With the digits that the size of the estimate asks for.
 std::string number_text(double value, const Estimate& estimate) {
   const double size = std::max(std::abs(estimate.expected), 1e-9);
   const int digits = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 4);
@@ -112,9 +108,14 @@ const char* name(Verdict verdict) {
   return "";
 }
 
-Prediction judge(std::vector<Copy> copies, const scene::Scene& scene) {
+Prediction silent(std::string reason) {
   Prediction prediction;
-  prediction.reason = silence(copies, scene);
+  prediction.reason = std::move(reason);
+  return prediction;
+}
+
+Prediction judge(std::vector<Copy> copies) {
+  Prediction prediction = silent(silence(copies));
   prediction.copies = std::move(copies);
   if (!prediction.reason.empty()) return prediction;
   for (int k = 0; k < quantity_count; ++k)
@@ -123,20 +124,51 @@ Prediction judge(std::vector<Copy> copies, const scene::Scene& scene) {
   return prediction;
 }
 
+Prediction make_prediction(const scene::Scene& scene, int last, double seconds, int threads,
+                           Progress& progress) {
+  Prediction prediction = silent(why_not(scene));
+  if (prediction.reason.empty()) {
+    const double share = seconds * share_of_work();
+    progress.note(cost_text() + (seconds > 0 ? ", about " + duration_text(share) : ""));
+    prediction = judge(run_copies(scene, last, threads, progress));
+  }
+  prediction.frame = scene::number_of(scene, last);
+  return prediction;
+}
+
+namespace {
+
+/// "0.408 m (0.353 to 0.463)"
+std::string value_text(const Estimate& e) {
+  const std::string unit = info_of(e.quantity).unit;
+  return fmt::format("{}{} ({} to {})", number_text(e.expected, e), unit.empty() ? "" : " " + unit,
+                     number_text(e.low, e), number_text(e.high, e));
+}
+
+}  // namespace
+
+std::string text_of(const Estimate& estimate) {
+  return info_of(estimate.quantity).title + (" " + value_text(estimate));
+}
+
+std::vector<std::string> caption_of(const Prediction& prediction) {
+  std::vector<std::string> lines{fmt::format("at full resolution, frame {}: {} ({})",
+                                             prediction.frame, name(prediction.verdict),
+                                             prediction.reason)};
+  for (const Estimate& e : prediction.estimates) lines.push_back("  " + text_of(e));
+  return lines;
+}
+
 std::string text_of(const Prediction& prediction) {
   std::string text = fmt::format("at full   {}: {}\n", name(prediction.verdict), prediction.reason);
-  for (const Estimate& e : prediction.estimates) {
-    const QuantityInfo& info = info_of(e.quantity);
-    const std::string unit = *info.unit ? std::string(" ") + info.unit : "";
-    text +=
-        fmt::format("           {:14} {}{} ({} to {})\n", info.title, number_text(e.expected, e),
-                    unit, number_text(e.low, e), number_text(e.high, e));
-  }
+  for (const Estimate& e : prediction.estimates)
+    text += fmt::format("           {:14} {}\n", info_of(e.quantity).title, value_text(e));
   return text;
 }
 
 Json to_json(const Prediction& prediction) {
   Json json;
+  json["frame"] = prediction.frame;
   json["verdict"] = name(prediction.verdict);
   json["reason"] = prediction.reason;
   json["estimates"] = Json::object();
@@ -153,6 +185,7 @@ Json to_json(const Prediction& prediction) {
         one[info_of(static_cast<Quantity>(k)).name] = copy.values[k];
     json["copies"].push_back(one);
   }
+  json["text"] = caption_of(prediction);
   return json;
 }
 

@@ -22,15 +22,30 @@ struct Estimate {
 struct Prediction {
   std::vector<Copy> copies;
   std::vector<Estimate> estimates;  ///< none where copies cannot say
+  int frame = 0;                    ///< number of the one that is predicted
+  bool is_run = false;              ///< no prediction: the run at full resolution was made
   Verdict verdict = Verdict::cannot_say;
   std::string reason;  ///< of the verdict, a sentence
 };
 
-/// @param copies  as run_copies() makes them
-Prediction judge(std::vector<Copy> copies, const scene::Scene& scene);
+/// @param copies  the finest first, as run_copies() makes them; at least two
+Prediction judge(std::vector<Copy> copies);
+/// Nothing is said, for a reason.
+Prediction silent(std::string reason);
 
+/// Says what the copies of a scene cost, runs them, and judges.
+/// @param last     frame, counted from 0
+/// @param seconds  of the run itself, by a forecast; 0: not known
+Prediction make_prediction(const scene::Scene& scene, int last, double seconds, int threads,
+                           Progress& progress);
+
+/// "spread 0.408 m (0.353 to 0.463)"
+std::string text_of(const Estimate& estimate);
+/// "at full resolution, frame 24: breaks (in all 3 copies)", and a line for each estimate.
+std::vector<std::string> caption_of(const Prediction& prediction);
 /// Of `neve check --predict`.
 std::string text_of(const Prediction& prediction);
+/// @return with the lines of the caption as `text`
 Json to_json(const Prediction& prediction);
 
 }  // namespace neve::app::predict

@@ -84,6 +84,19 @@ class TextReader {
     return words;
   }
 
+  /// Lines of a caption.
+  std::vector<std::string> lines(const char* key) const {
+    constexpr std::size_t max_lines = 20, max_length = 500;
+    std::vector<std::string> lines;
+    for (const Json& item : json(key)) {
+      if (!item.is_string() || item.get<std::string>().size() > max_length ||
+          lines.size() == max_lines)
+        fail(std::string("its text ") + key + " is not a list of short lines");
+      lines.push_back(item.get<std::string>());
+    }
+    return lines;
+  }
+
   StripRecord strip(const char* key) const {
     const Json found = json(key);
     try {
@@ -134,6 +147,7 @@ Json to_json(const PictureRecord& record) {
   json["scene"] = record.scene;
   json["overrides"] = record.overrides;
   json["coarsen"] = record.coarsening;
+  if (!record.prediction.empty()) json["prediction"] = record.prediction;
   json["changes"] = scene::to_json(record.changes);
   json["seed"] = record.seed;
   json["version"] = record.version;
@@ -173,6 +187,7 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   if (text.contains("neve:coarsen")) record.coarsening = reader.number<double>("neve:coarsen");
   if (!(record.coarsening >= 1 && record.coarsening <= largest_coarsening))
     reader.fail("its coarsening is not from 1 to a million");
+  if (text.contains("neve:prediction")) record.prediction = reader.lines("neve:prediction");
   record.seed = reader.number<std::uint64_t>("neve:seed");
   record.version = reader.text("neve:version");
   if (text.contains("neve:build")) record.build = reader.text("neve:build");

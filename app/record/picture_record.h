@@ -26,6 +26,7 @@ struct PictureRecord {
   std::vector<std::string> overrides;
   std::vector<scene::LiveChange> changes;  ///< made while the simulation ran, up to this picture
   double coarsening = 1;                   ///< factor of --coarsen
+  std::vector<std::string> prediction;     ///< of --predict, lines of the caption; none without
   std::uint64_t seed = 0;
   std::string version;
   std::string build;       ///< see build_text(); empty in pictures of earlier versions

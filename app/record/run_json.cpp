@@ -250,6 +250,7 @@ Json to_json(const RunRecord& run) {
   json["overrides"] = run.overrides;
   json["changes"] = scene::to_json(run.changes);
   json["coarsen"] = run.coarsening;
+  if (!run.prediction.is_null()) json["prediction"] = run.prediction;
   if (!run.forked.is_null()) json["forked"] = run.forked;
   json["views"] = run.views;
   if (!run.passes.empty()) {

@@ -60,7 +60,8 @@ struct RunRecord {
   std::vector<std::string> overrides;
   std::vector<scene::LiveChange> changes;  ///< made while it ran
   double coarsening = 1;                   ///< factor of --coarsen
-  Json forked;                             ///< where it left another run; null: nowhere
+  Json prediction;  ///< of --predict, for full resolution, as predict::to_json; null without
+  Json forked;      ///< where it left another run; null: nowhere
   std::vector<std::string> views;
   std::vector<std::string> passes;           ///< of --passes
   std::vector<std::string> views_of_passes;  ///< views that have them: all but mosaics

@@ -72,6 +72,7 @@ void take_picture(const record::PictureRecord& picture, RenderJob& job) {
   job.folder = out_folder() / name;
   job.quality = setup::quality_named(picture.quality);
   job.passes = picture.passes;
+  job.prediction = picture.prediction;
   job.shutter = picture.shutter;
   job.plate = picture.plate;
   job.lut = picture.lut;
@@ -155,6 +156,7 @@ record::PictureRecord picture_record(const RenderJob& job, const std::string& sc
   picture.overrides = job.overrides;
   picture.changes = job.changes;
   picture.coarsening = job.coarsening;
+  picture.prediction = job.prediction;
   picture.seed = job.scene.seed;
   picture.version = version;
   picture.quality = setup::name(job.quality);
@@ -175,6 +177,7 @@ record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simula
   record.overrides = job.overrides;
   record.changes = job.changes;
   record.coarsening = job.coarsening;
+  record.prediction = job.prediction_record;
   record.threads = simulation.threads();
   record.simd = simulation.simd();
   return record;

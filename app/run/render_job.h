@@ -31,6 +31,8 @@ struct RenderJob : timeline::Origin {
   double shutter = 0;                     ///< degrees of motion blur; 0: none
   std::vector<std::string> passes{};      ///< of --passes, see passes.h; none: only PNGs
   std::vector<std::string> warnings{};    ///< of the start, for run.json
+  std::vector<std::string> prediction{};  ///< of --predict or of the picture, for captions
+  Json prediction_record{};               ///< the same for run.json; null without
   std::optional<Fork> fork{};
 
   bool has_movies() const { return options.has_movies && options.movie.is_made; }

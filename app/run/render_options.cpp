@@ -98,6 +98,10 @@ void describe_scene(options::Command& visit, RenderOptions& o, const char* help)
 void describe(options::Command& visit, RenderOptions& o) {
   visit.about("render", "Simulate a scene and draw its frames");
   describe_scene(visit, o);
+  visit("--predict", o.predicts,
+        "With --coarsen N: run coarse copies to the last frame first, and say in captions and "
+        "run.json what the run at full resolution will do there: breaks, holds or undecided, and "
+        "its size with intervals; costs about a third of that run");
   visit("--frames", o.frames, options::frames(), "Frames to draw: A-B, or N for all up to N");
   visit("--from", o.from, options::time(),
         "Fork the run of SCENE (a scene, a picture or the folder of a run) at a time: --set "
@@ -129,6 +133,9 @@ void describe(options::Command& visit, RenderOptions& o) {
   options::describe_verbosity(visit, o.verbosity, "Print more about each frame");
   visit.check([&o] {
     std::error_code error;
+    if (o.predicts && !(o.coarsening.value_or(1) > 1))
+      throw UsageError("--predict", "predicts the full run from a coarse copy, and this is none",
+                       "add --coarsen 2, or see neve check --predict");
     if (o.from && !o.scene.empty() && !std::filesystem::exists(o.scene, error))
       throw UsageError("--from", "no file or folder " + o.scene,
                        "expected a scene, the folder of a run, or a picture made by neve");

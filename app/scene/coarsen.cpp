@@ -71,27 +71,23 @@ bool has_thresholds(const Scene& scene) {
                      [](const sim::Material& m) { return sim::laws::of(m).is_snow; });
 }
 
-bool lacks_threshold_cell(const Scene& scene) {
-  return scene.solver.threshold_cell == 0 && has_thresholds(scene);
-}
-
 }  // namespace
 
-void coarsen(Scene& scene, double factor) {
+std::vector<std::string> coarsen(Scene& scene, double factor) {
   if (!(factor >= 1) || !std::isfinite(factor))
     throw UsageError("--coarsen", "cannot use " + toml::number_text(factor),
                      "expected a number of at least 1, as in --coarsen 2");
-  if (factor == 1) return;
+  if (factor == 1) return {};
   refuse_empty_bodies(scene, factor);
-  if (lacks_threshold_cell(scene)) scene.solver.threshold_cell = scene.solver.cell_size;
+  std::vector<std::string> set;
+  if (scene.solver.threshold_cell == 0 && has_thresholds(scene)) {
+    scene.solver.threshold_cell = scene.solver.cell_size;
+    set.push_back("solver.threshold_cell=" + toml::number_text(scene.solver.cell_size));
+  }
   scale_settings(scene, factor);
   RangeCheck check{factor};
   describe(check, scene.solver);
-}
-
-std::vector<std::string> coarsening_overrides(const Scene& scene) {
-  if (!lacks_threshold_cell(scene)) return {};
-  return {"solver.threshold_cell=" + toml::number_text(scene.solver.cell_size)};
+  return set;
 }
 
 void refine_settings(Scene& scene, double factor) {

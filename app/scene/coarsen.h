@@ -15,13 +15,10 @@ namespace neve::app::scene {
 /// Thresholds of snow stay those of the finer cells: threshold_cell becomes cell_size as it was,
 /// where the scene does not name one.
 /// @param factor 1 changes nothing
+/// @return what it sets beside lengths and times, as --set would: "solver.threshold_cell=0.02"
 /// @throws UsageError when it is not a finite number of at least 1, takes a parameter out of its
 ///         range, or leaves a body without a particle
-void coarsen(Scene& scene, double factor);
-
-/// What --coarsen sets beside lengths and times, as --set would: "solver.threshold_cell=0.02". None
-/// where the scene has a threshold_cell, or no snow with thresholds.
-std::vector<std::string> coarsening_overrides(const Scene& scene);
+std::vector<std::string> coarsen(Scene& scene, double factor);
 
 /// The scene with the numbers that its file and --set take, for panels and messages: coarsen with
 /// the same factor gives it back, within rounding.

@@ -8,6 +8,7 @@
 #include "app/support/round_number.h"
 #include "sim/health/diagnostics.h"
 #include "sim/laws/law.h"
+#include "sim/laws/threshold_cell.h"
 #include "sim/shapes/height_samples.h"
 #include "sim/shapes/placed_points.h"
 #include "sim/types/time_step.h"
@@ -83,9 +84,11 @@ double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   return std::sqrt(start * start + 2 * g * fall);
 }
 
-double largest(const std::vector<sim::Material>& materials, double (*of)(const sim::Material&)) {
+/// Over all materials, as they are in the cells of the scene.
+double largest(const scene::Scene& scene, double (*of)(const sim::Material&)) {
   double value = 0;
-  for (const sim::Material& material : materials) value = std::max(value, of(material));
+  for (const sim::Material& material : sim::laws::in_cells(scene.materials, scene.solver))
+    value = std::max(value, of(material));
   return value;
 }
 
@@ -103,7 +106,7 @@ double elastic_reach(const sim::Material& m) {
 /// Pressure of snow at impact, rho v^2: below the elastic limit, and well above its own weight.
 double stagnation_pressure(const scene::Scene& scene) {
   const double speed = setup::impact_speed(scene);
-  const double density = largest(scene.materials, [](const sim::Material& m) { return m.density; });
+  const double density = largest(scene, [](const sim::Material& m) { return m.density; });
   return speed > 0 ? density * speed * speed : std::numeric_limits<double>::infinity();
 }
 
@@ -166,21 +169,21 @@ scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
     case scene::ColorBy::density:
       return density_range(scene);
     case scene::ColorBy::J_E: {
-      const double reach = std::clamp(round_up(largest(scene.materials, elastic_reach)), 0.01, 0.8);
+      const double reach = std::clamp(round_up(largest(scene, elastic_reach)), 0.01, 0.8);
       return {1 - reach, 1 + reach};
     }
     case scene::ColorBy::J_P:
       return {0.8, 1.2};  // about 1, so that diverging maps have their middle there
     case scene::ColorBy::pressure: {
-      const double yield = hardened * largest(scene.materials, yield_pressure);
+      const double yield = hardened * largest(scene, yield_pressure);
       const double pressure = round_up(std::min(yield, stagnation_pressure(scene)));
       return {-pressure, pressure};
     }
     case scene::ColorBy::von_mises:
-      return {0, round_up(std::min(hardened * largest(scene.materials, yield_shear),
-                                   stagnation_pressure(scene)))};
+      return {0, round_up(
+                     std::min(hardened * largest(scene, yield_shear), stagnation_pressure(scene)))};
     case scene::ColorBy::p0: {
-      const double p0 = hardened * largest(scene.materials, [](const sim::Material& m) {
+      const double p0 = hardened * largest(scene, [](const sim::Material& m) {
                           return sim::health::consolidation_pressure(m, 1);
                         });
       return {0, p0 > 0 ? round_up(p0) : 1};

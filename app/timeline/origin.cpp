@@ -42,10 +42,9 @@ void read_scene(const Edits& edits, const Read& read, Origin& origin) {
     origin.scene = read(changes);
   }
   if (!edits.coarsening) return;
-  if (*edits.coarsening > 1)
-    for (std::string& change : scene::coarsening_overrides(origin.scene))
-      origin.overrides.push_back(std::move(change));
-  scene::coarsen(origin.scene, *edits.coarsening);
+  origin.finer = origin.scene;
+  for (std::string& change : scene::coarsen(origin.scene, *edits.coarsening))
+    origin.overrides.push_back(std::move(change));
   origin.coarsening *= *edits.coarsening;
 }
 

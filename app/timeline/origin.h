@@ -36,6 +36,7 @@ struct Origin {
   std::optional<forecast::FastLook> fast;  ///< of Edits::is_fast; overrides has its settings
   std::vector<scene::LiveChange> changes;  ///< made while the run ran
   double coarsening = 1;                   ///< done to the scene, a picture's included
+  std::optional<scene::Scene> finer;       ///< the scene before --coarsen of the edits
   setup::FrameRange frames;                ///< that it shows, counted from 0: of a picture one
   std::optional<record::PictureRecord> picture;  ///< the origin is this picture
   std::filesystem::path run;                     ///< the origin is the run in this folder

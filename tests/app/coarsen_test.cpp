@@ -8,8 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "app/health/expected.h"
+#include "app/health/softness.h"
 #include "app/record/picture_record.h"
+#include "app/scene/names.h"
 #include "app/scene/read.h"
+#include "app/setup/auto_ranges.h"
 #include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
@@ -93,25 +97,56 @@ TEST(Coarsen, CoarseningKeepsTheDampingPerSecond) {
 
 TEST(Coarsen, ThresholdsOfSnowAreThoseOfTheCellsThatTheSceneHad) {
   app::scene::Scene scene = coarse_ball();
-  EXPECT_EQ(app::scene::coarsening_overrides(scene),
-            std::vector<std::string>{"solver.threshold_cell=0.02"});
-  app::scene::coarsen(scene, 4);
+  EXPECT_EQ(app::scene::coarsen(scene, 4), std::vector<std::string>{"solver.threshold_cell=0.02"});
   EXPECT_EQ(scene.solver.threshold_cell, 0.02);
   EXPECT_EQ(scene.materials[0].critical_stretch, 0.0075) << "the number that the scene has";
-  const sim::Material in_cells = sim::in_cells(scene.materials[0], scene.solver);
+  const sim::Material in_cells = sim::laws::in_cells(scene.materials[0], scene.solver);
   EXPECT_DOUBLE_EQ(in_cells.critical_stretch, 0.0075 / 2);
   EXPECT_DOUBLE_EQ(in_cells.critical_compression, 0.025 / std::sqrt(2));
   EXPECT_EQ(app::scene::coarsened_words(scene, 4),
             ", coarsened 4x, thresholds for cells of 0.02 m");
-  app::scene::coarsen(scene, 2);
+  EXPECT_TRUE(app::scene::coarsen(scene, 2).empty());
   EXPECT_EQ(scene.solver.threshold_cell, 0.02) << "a copy of a copy is a copy";
-  EXPECT_TRUE(app::scene::coarsening_overrides(scene).empty());
+}
+
+/// One place has the factors: who asks for what a scene with threshold_cell does gets what the
+/// scene with the scaled numbers does.
+TEST(Coarsen, EveryoneSeesThresholdsAsTheyAreInTheCells) {
+  const app::scene::Scene scene = app::scene::read_scene_text(
+      "[solver]\ncell_size = 0.02\nthreshold_cell = 0.0002\n"
+      "[[body]]\nshape = { sphere = { center = [0, 0.05, 0], radius = 0.05 } }\n"
+      "velocity = [0, -4, 0]\n[[collider]]\nshape = { plane = { normal = [0, 1, 0] } }\n",
+      "ball.toml");
+  app::scene::Scene scaled = scene;
+  scaled.materials = sim::laws::in_cells(scene.materials, scene.solver);
+  scaled.solver.threshold_cell = 0;
+  ASSERT_NE(scaled.materials[0].critical_stretch, scene.materials[0].critical_stretch);
+  const app::setup::SeededScene seeded = app::setup::seed_scene(scene);
+  sim::Simulation simulation = app::setup::make_simulation(scene, seeded.particles, 1),
+                  same = app::setup::make_simulation(scaled, seeded.particles, 1);
+  for (sim::Simulation* each : {&simulation, &same}) each->advance_to(0.01);  // into the floor
+  EXPECT_EQ(simulation.state_hash(), same.state_hash());
+  for (const auto color :
+       {app::scene::ColorBy::J_E, app::scene::ColorBy::von_mises, app::scene::ColorBy::pressure})
+    EXPECT_EQ(app::setup::automatic_range(scene, color, 100).max,
+              app::setup::automatic_range(scaled, color, 100).max)
+        << app::scene::name(color);
+  const sim::ParticleArrays state = simulation.particles();
+  EXPECT_EQ(app::health::Expected(scene, state, 1e-4).stretch().range.max,
+            app::health::Expected(scaled, state, 1e-4).stretch().range.max);
+  const double advised =
+      app::health::stiffness_that_holds(scene.materials[0], scene.solver, 0.25, 600);
+  EXPECT_EQ(advised,
+            app::health::stiffness_that_holds(scaled.materials[0], scaled.solver, 0.25, 600));
+  EXPECT_NE(advised,
+            app::health::stiffness_that_holds(scene.materials[0], scaled.solver, 0.25, 600))
+      << "the advice depends on the threshold";
 }
 
 TEST(Coarsen, CamClayKeepsItsCrackEnergyByItsCohesion) {
   app::scene::Scene clay = coarse_ball("[material.snow]\nmodel = \"cam_clay\"\n");
   app::scene::coarsen(clay, 4);
-  const sim::Material in_cells = sim::in_cells(clay.materials[0], clay.solver);
+  const sim::Material in_cells = sim::laws::in_cells(clay.materials[0], clay.solver);
   EXPECT_DOUBLE_EQ(in_cells.own[sim::laws::cam_clay::cohesion],
                    clay.materials[0].own[sim::laws::cam_clay::cohesion] / 2);
   EXPECT_EQ(in_cells.consolidation_pressure, clay.materials[0].consolidation_pressure);
@@ -119,7 +154,7 @@ TEST(Coarsen, CamClayKeepsItsCrackEnergyByItsCohesion) {
 }
 
 TEST(Coarsen, ThresholdsAreLeftAloneWhereCellsAreNotCoarsenedOrThereAreNone) {
-  EXPECT_EQ(sim::in_cells(coarse_ball().materials[0], coarse_ball().solver).critical_stretch,
+  EXPECT_EQ(sim::laws::in_cells(coarse_ball().materials[0], coarse_ball().solver).critical_stretch,
             0.0075);
   app::scene::Scene chosen = coarse_ball("threshold_cell = 0.03\n");
   app::scene::coarsen(chosen, 2);
@@ -135,7 +170,7 @@ TEST(Coarsen, FinerCellsAreToughByTheSameRule) {
       "[solver]\ncell_size = 0.01\nthreshold_cell = 0.04\n"
       "[[body]]\nshape = { sphere = { center = [0, 0.3, 0], radius = 0.15 } }\n",
       "fine.toml");
-  EXPECT_DOUBLE_EQ(sim::in_cells(fine.materials[0], fine.solver).critical_stretch, 0.015);
+  EXPECT_DOUBLE_EQ(sim::laws::in_cells(fine.materials[0], fine.solver).critical_stretch, 0.015);
   EXPECT_THROW(app::scene::read_scene_text(
                    "[solver]\ncell_size = 0.01\nthreshold_cell = 100000\n"
                    "[[body]]\nshape = { sphere = { center = [0, 0.3, 0], radius = 0.15 } }\n",

@@ -78,7 +78,8 @@ TEST(Softness, ImpactHoldsWithTheStiffnessThatIsAdvised) {
         << diagnosis.evidence;
     EXPECT_EQ(diagnosis.address, "material.snow.youngs_modulus");
     const double speed = health::load_speed(scene);
-    impact.youngs_modulus = health::stiffness_that_holds(scene.materials[0], d.J_P, speed);
+    impact.youngs_modulus =
+        health::stiffness_that_holds(scene.materials[0], scene.solver, d.J_P, speed);
     EXPECT_NE(diagnosis.remedy.find(
                   fmt::format("material.snow.youngs_modulus = {:.3g}", impact.youngs_modulus)),
               std::string::npos)
@@ -102,7 +103,7 @@ TEST(Softness, CrushedSnowRunsOnAndTheRunSaysSo) {
     const std::vector<std::string> warnings = run::step_warnings(scene, crushed);
     ASSERT_EQ(warnings.size(), 1u);
     impact.youngs_modulus = health::stiffness_that_holds(
-        scene.materials[0], crushed.warnings().least_J_P, health::load_speed(scene));
+        scene.materials[0], scene.solver, crushed.warnings().least_J_P, health::load_speed(scene));
     const std::string advice =
         fmt::format("try material.snow.youngs_modulus = {:.3g}", impact.youngs_modulus);
     EXPECT_NE(warnings[0].find(advice), std::string::npos) << warnings[0];

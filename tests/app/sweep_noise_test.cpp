@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/support/errors.h"
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/plan/order.h"
 #include "app/sweep/sheet/data_csv.h"
@@ -12,6 +13,7 @@
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/seals.h"
 #include "app/sweep/store/points.h"
+#include "app/sweep/store/refine.h"
 #include "app/sweep/store/statistics.h"
 #include "tests/support/cinema.h"
 
@@ -168,7 +170,7 @@ Study study_of_seeds() {
 
 TEST(Noise, ATileSaysHowOftenTheSnowBreaksAndWhichTilesAreTooCloseToCall) {
   const Study study = study_of_seeds();
-  const sheet::Seals seals = sheet::seals_of(study.manifest, study.results);
+  const sheet::Seals seals = sheet::seals_of(study.manifest, study.results, {});
   ASSERT_EQ(seals.of_points.size(), 3u);
   EXPECT_EQ(seals.of_points[0].outcome, "holds in 4 of 4");
   EXPECT_EQ(seals.of_points[1].outcome, "breaks in 1 of 4: not here");
@@ -184,6 +186,91 @@ TEST(Noise, ATileSaysHowOftenTheSnowBreaksAndWhichTilesAreTooCloseToCall) {
   const std::vector<Point> points = points_of(study.manifest, study.results);
   EXPECT_FALSE(is_noise(study.manifest, points, 0));
   EXPECT_TRUE(is_noise(study.manifest, points, 1));
+}
+
+/// Copies of two resolutions of snow that breaks.
+predict::Prediction prediction_of(double spread) {
+  std::vector<predict::Copy> copies(3);
+  for (predict::Copy& copy : copies) {
+    copy.coarsening = &copy == copies.data() ? 1.5 : 2;
+    copy.has_broken = true;
+    copy.whole = 0.5;
+    std::fill(std::begin(copy.values), std::end(copy.values), 1);
+    copy.values[static_cast<int>(predict::Quantity::spread)] = spread;
+  }
+  return predict::judge(copies);
+}
+
+TEST(Noise, ATileSaysWhatIsPredictedAndWhichIntervalsOverlap) {
+  Study study = study_of_seeds();
+  const std::vector<predict::Prediction> predictions{prediction_of(0.5), prediction_of(0.52),
+                                                     predict::silent("a copy diverged")};
+  const sheet::Seals seals = sheet::seals_of(study.manifest, study.results, predictions);
+  ASSERT_EQ(seals.of_points.size(), 3u);
+  EXPECT_EQ(seals.of_points[1].outcome,
+            "expected at full resolution: breaks; coarse: breaks in 1 of 4");
+  EXPECT_FALSE(seals.of_points[1].is_undecided) << "what counts is the prediction";
+  EXPECT_TRUE(seals.of_points[2].is_undecided);
+  EXPECT_EQ(seals.of_points[2].value, "") << "where copies cannot say there is no number";
+  EXPECT_TRUE(seals.is_noise) << "0.5 and 0.52 m with 7 % each";
+  EXPECT_EQ(seals.key[0], "all tiles are too close to call");
+  const sheet::Seals apart = sheet::seals_of(study.manifest, study.results,
+                                             {predictions[0], prediction_of(0.6), predictions[2]});
+  EXPECT_EQ(apart.of_points[0].groups, std::vector<int>{1});
+  EXPECT_EQ(apart.of_points[1].groups, std::vector<int>{0});
+  EXPECT_EQ(prediction_line(predictions),
+            "at full resolution, by coarse copies of 3 points: breaks 2, cannot say 1");
+}
+
+TEST(Refine, OpenPointsComeFirstThenTheBestByAMetric) {
+  const Study study =
+      study_of_seeds();  // spreads of about 0.5, 0.5 and 0.9 m; one of four breaks in the second
+  const auto chosen = [&](std::size_t count, const std::string& best,
+                          const std::vector<predict::Prediction>& predictions) {
+    return points_to_refine(study.manifest, study.results, predictions, count,
+                            Best::parse("--best", best));
+  };
+  using Runs = std::vector<std::size_t>;
+  EXPECT_EQ(chosen(1, "spread", {}), Runs{4}) << "its seeds disagree";
+  EXPECT_EQ(chosen(2, "spread", {}), (Runs{4, 8}));
+  EXPECT_EQ(chosen(2, "spread:least", {}), (Runs{4, 0}));
+  EXPECT_EQ(chosen(9, "spread", {}).size(), 3u) << "there are no more";
+  predict::Prediction open = prediction_of(0.5);
+  open.verdict = predict::Verdict::undecided;
+  EXPECT_EQ(chosen(2, "spread", {open, prediction_of(0.5), prediction_of(0.9)}), (Runs{0, 8}))
+      << "predictions say more than seeds";
+  EXPECT_THROW(Best::parse("--best", "beauty"), UsageError);
+  EXPECT_EQ(Best::parse("--best", "height:least").text(), "height:least");
+}
+
+TEST(Refine, RankCorrelationIsSpearmans) {
+  EXPECT_FALSE(rank_correlation({1, 2}, {1, 2})) << "two points are always in line";
+  EXPECT_FALSE(rank_correlation({1, 1, 1}, {1, 2, 3}));
+  EXPECT_NEAR(*rank_correlation({1, 2, 30}, {0.1, 5, 6}), 1, rounding);
+  EXPECT_NEAR(*rank_correlation({1, 2, 3}, {3, 2, 1}), -1, rounding);
+  // 1 - 6 sum d^2 / (n (n^2 - 1)) with d = 0, 1, 1, 0, 0.
+  EXPECT_NEAR(*rank_correlation({1, 2, 3, 4, 5}, {1, 3, 2, 4, 5}), 0.9, rounding);
+}
+
+TEST(Noise, TablesHavePredictionsWithTheirIntervalsInEachRunOfAPoint) {
+  const Study study = study_of_seeds();
+  const std::vector<predict::Prediction> predictions{prediction_of(0.5), prediction_of(0.6),
+                                                     predict::silent("a copy diverged")};
+  for (const std::string& csv : {sheet::data_csv(study.manifest, study.results, predictions),
+                                 sheet::points_csv(study.manifest, study.results, predictions)}) {
+    const std::vector<neve::test::CsvRow> rows = neve::test::parse_csv(csv);
+    const auto cell = [&](std::size_t row, const std::string& name) {
+      const auto found = std::find(rows[0].begin(), rows[0].end(), name);
+      return found == rows[0].end() ? "no such column"
+                                    : rows[row][static_cast<std::size_t>(found - rows[0].begin())];
+    };
+    EXPECT_EQ(cell(1, "full_by"), "copies");
+    EXPECT_EQ(cell(1, "full_verdict"), "breaks");
+    EXPECT_EQ(cell(1, "full_spread"), "0.5");
+    EXPECT_EQ(cell(1, "full_spread_high"), "0.535");
+    EXPECT_EQ(cell(rows.size() - 1, "full_verdict"), "cannot say");
+    EXPECT_EQ(cell(rows.size() - 1, "full_spread"), "");
+  }
 }
 
 TEST(Noise, ASweepSaysInWordsWhatItsSeedsTell) {

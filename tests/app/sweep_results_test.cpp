@@ -342,9 +342,9 @@ TEST(RunText, ARunIsNamedWithItsFolderIfTheNumbersDiffer) {
 TEST(DataCsv, TablesForComparisonHaveNoTimes) {
   const app::sweep::store::Manifest m = manifest_of({2});
   std::vector<app::sweep::store::RunResult> results = results_of(m);
-  const std::string without = app::sweep::sheet::data_csv(m, results, false);
+  const std::string without = app::sweep::sheet::data_csv(m, results, {}, false);
   results[0].metrics.back() = 1e6;
-  EXPECT_EQ(app::sweep::sheet::data_csv(m, results, false), without);
+  EXPECT_EQ(app::sweep::sheet::data_csv(m, results, {}, false), without);
   EXPECT_NE(app::sweep::sheet::data_csv(m, results), without);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 
+#include "app/support/errors.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/faulty_cli.h"
 
@@ -50,6 +51,22 @@ TEST_F(PickCli, ReplayedClicksGiveTheSamePickToTheBit) {
   // Both can be used as they are.
   EXPECT_EQ(neve({"render", "a/picked.toml", "--dry-run"}).exit_code, 0);
   EXPECT_EQ(neve({"sweep", "a/picked_sweep.toml", "--dry-run"}).exit_code, 0);
+}
+
+TEST_F(PickCli, ThePickIsShownCoarseAndAtFullResolution) {
+  const auto made = pick("5\n", "a", {"--coarsen", "1.5", "--refine"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_EQ(app::parse_json(std::string_view(made.output))["pair"], "a/picked_pair.cdb/sheet.png");
+  const app::Json manifest = json_of("a/picked_pair.cdb/manifest.json");
+  ASSERT_EQ(manifest.at("runs").size(), 2u);
+  EXPECT_EQ(manifest.at("runs")[0].at("label"), "coarsened 1.5x");
+  neve({"render", "a/picked.toml", "--frames", "2", "--size", "64x36", "--out", "full",
+        "--no-movie"});
+  neve({"render", "a/picked.toml", "--frames", "2", "--size", "64x36", "--out", "coarse",
+        "--coarsen", "1.5", "--no-movie"});
+  EXPECT_EQ(hashes("a/picked_pair.cdb/runs/0000"), hashes("coarse")) << "as the tiles were";
+  EXPECT_EQ(hashes("a/picked_pair.cdb/runs/0001"), hashes("full"));
+  EXPECT_EQ(pick("5\n", "b", {"--refine"}).exit_code, app::exit_usage);
 }
 
 TEST_F(PickCli, ThePickIsTheTileThatWasClickedLast) {

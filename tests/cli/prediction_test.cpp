@@ -1,7 +1,13 @@
 /// What coarse copies say of the full run.
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+
 #include "app/predict/predict.h"
 #include "app/scene/read.h"
+#include "app/support/errors.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -52,29 +58,29 @@ app::scene::Scene ball(const std::string& model = "snow") {
 TEST(Predict, VerdictsAreThoseOfAllCopiesOrNone) {
   using app::predict::judge;
   using app::predict::Verdict;
-  EXPECT_EQ(judge(copies_of({0.6, 0.7, 0.8}, 2), ball()).verdict, Verdict::breaks);
-  EXPECT_EQ(judge(copies_of({1, 1, 1}, 0.9), ball()).verdict, Verdict::holds);
-  EXPECT_EQ(judge(copies_of({0.6, 1, 0.8}, 2), ball()).verdict, Verdict::undecided);
-  EXPECT_EQ(judge(copies_of({0.988, 0.9, 0.9}, 2), ball()).verdict, Verdict::undecided)
+  EXPECT_EQ(judge(copies_of({0.6, 0.7, 0.8}, 2)).verdict, Verdict::breaks);
+  EXPECT_EQ(judge(copies_of({1, 1, 1}, 0.9)).verdict, Verdict::holds);
+  EXPECT_EQ(judge(copies_of({0.6, 1, 0.8}, 2)).verdict, Verdict::undecided);
+  EXPECT_EQ(judge(copies_of({0.988, 0.9, 0.9}, 2)).verdict, Verdict::undecided)
       << "the finest is at the edge";
-  EXPECT_EQ(judge(copies_of({1, 1, 1}, 1.5), ball()).verdict, Verdict::undecided)
+  EXPECT_EQ(judge(copies_of({1, 1, 1}, 1.5)).verdict, Verdict::undecided)
       << "snow that loosens may lose dust";
 }
 
 TEST(Predict, CopiesThatCannotSayGiveNoNumbers) {
   using app::predict::Verdict;
+  EXPECT_EQ(app::predict::why_not(ball("neo_hookean")), "no material of the scene breaks");
+  EXPECT_EQ(app::predict::why_not(ball()), "");
   std::vector<app::predict::Copy> copies = copies_of({1, 1, 1}, 1);
-  const app::predict::Prediction elastic = app::predict::judge(copies, ball("neo_hookean"));
-  EXPECT_EQ(elastic.verdict, Verdict::cannot_say);
-  EXPECT_TRUE(elastic.estimates.empty());
   copies[1].failure = "it diverged";
-  const app::predict::Prediction diverged = app::predict::judge(copies, ball());
+  const app::predict::Prediction diverged = app::predict::judge(copies);
   EXPECT_EQ(diverged.verdict, Verdict::cannot_say);
+  EXPECT_TRUE(diverged.estimates.empty());
   EXPECT_TRUE(contains(diverged.reason, "--coarsen 2")) << diverged.reason;
 }
 
 TEST(Predict, IntervalsHoldHalfOfTheDifferenceOfTheCopies) {
-  const app::predict::Prediction made = app::predict::judge(copies_of({1, 1, 1}, 1), ball());
+  const app::predict::Prediction made = app::predict::judge(copies_of({1, 1, 1}, 1));
   const app::predict::Estimate& spread = made.estimates.front();
   EXPECT_DOUBLE_EQ(spread.expected, 0.55);  // 0.5 and half of 0.1
   EXPECT_LT(spread.low, 0.55 - 0.05 - 0.01);
@@ -119,6 +125,107 @@ TEST_F(Prediction, CheckSaysWhatCopiesCostAndWhatTheyForesee) {
   }
   EXPECT_FALSE(
       app::parse_json(neve({"check", "scene.toml", "--json"}).output).contains("prediction"));
+}
+
+TEST_F(Prediction, PicturesAndRunJsonSayWhatTheFullRunDoes) {
+  const std::vector<std::string> words{"render", "scene.toml", "--coarsen", "1.5", "--predict",
+                                       "--size", "64x40",      "--out",     "run", "--no-movie"};
+  const auto made = neve(words);
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_TRUE(contains(made.errors, "runs 3 coarse copies")) << "the cost is said before";
+  const app::Json prediction = json_of("run/run.json").at("prediction");
+  EXPECT_EQ(prediction.at("copies").size(), 3u);
+  const app::Json check =
+      app::parse_json(neve({"check", "scene.toml", "--predict", "--json"}).output).at("prediction");
+  EXPECT_EQ(prediction.at("estimates"), check.at("estimates"))
+      << "that of the scene, not of copies";
+  const app::Json info = app::parse_json(neve({"info", "run/particles/0002.png", "--json"}).output);
+  EXPECT_EQ(info.at("prediction"), prediction.at("text"));
+  EXPECT_TRUE(contains(prediction.at("text")[0], "at full resolution, frame "));
+  EXPECT_EQ(neve({"render", "run/particles/0002.png", "--out", "again"}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / "again/particles/0002.png"),
+            read_text(folder / "run/particles/0002.png"))
+      << "made again, it has the same caption";
+  std::vector<std::string> resumed = words;
+  resumed.push_back("--resume");
+  const auto again = neve(resumed);
+  EXPECT_FALSE(contains(again.errors, "coarse copies")) << "a run that is resumed knows it";
+  EXPECT_EQ(json_of("run/run.json").at("prediction"), prediction);
+}
+
+TEST_F(Prediction, OnlyCoarseRunsOfScenesArePredicted) {
+  const auto without = neve({"render", "scene.toml", "--predict"});
+  EXPECT_EQ(without.exit_code, app::exit_usage);
+  EXPECT_TRUE(contains(without.errors, "--coarsen 2")) << without.errors;
+  EXPECT_EQ(neve({"sweep", "scene.toml", "-p", "seed=1,2", "--predict"}).exit_code,
+            app::exit_usage);
+  const auto forked = neve({"sweep", "scene.toml", "-p", "solver.gravity=[0,-9,0],[0,-8,0]",
+                            "--predict", "--coarsen", "2", "--fork", "0.05"});
+  EXPECT_EQ(forked.exit_code, app::exit_usage);
+  EXPECT_TRUE(contains(forked.errors, "from the start")) << forked.errors;
+}
+
+TEST_F(Prediction, ASweepRunsTheCopiesOfItsPointsAmongItsRuns) {
+  const auto made =
+      neve({"sweep", "scene.toml", "-p", "body.ball.velocity=[0,-1,0],[0,-6,0]", "--coarsen", "2",
+            "--seeds", "2", "--predict", "--size", "96x54", "--out", "study", "--movie", "none"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_TRUE(contains(made.errors, "the prediction runs 2 further copies")) << made.errors;
+  const app::Json manifest = json_of("study/manifest.json");
+  ASSERT_EQ(manifest.at("variants").size(), 6u);
+  std::set<std::string> folders;
+  for (const app::Json& run : manifest.at("runs")) folders.insert(run.at("folder"));
+  for (const app::Json& variant : manifest.at("variants")) {
+    EXPECT_EQ(folders.contains(variant.at("run").at("folder")), variant.at("coarsen") == 2)
+        << "both seeds at --coarsen 2 are runs of the sweep";
+  }
+  EXPECT_TRUE(contains(manifest.at("coarsened"), "coarsened 2x"));
+  const std::string csv = read_text(folder / "study/data.csv");
+  EXPECT_TRUE(contains(csv, ",full_verdict,full_spread,full_spread_low,")) << csv;
+  EXPECT_TRUE(contains(read_text(folder / "study/report.html"), "\"full_spread\""));
+  const auto check =
+      neve({"check", "scene.toml", "--set", "body.ball.velocity=[0,-6,0]", "--predict", "--json"});
+  const app::Json full = app::parse_json(check.output).at("prediction");
+  EXPECT_TRUE(contains(
+      csv,
+      "," + full.at("verdict").get<std::string>() + "," +
+          fmt::format("{:.9g}", full.at("estimates").at("spread").at("expected").get<double>())))
+      << "the same as of neve check\n"
+      << csv << check.output;
+  EXPECT_EQ(neve({"verify", "study"}).exit_code, 0);
+}
+
+TEST_F(Prediction, ASweepMakesItsBestPointsAtFullResolutionInTheSameFolder) {
+  std::vector<std::string> words{
+      "sweep",     "scene.toml", "-p",      "body.ball.velocity=[0,-1,0],[0,-3,0],[0,-6,0]",
+      "--coarsen", "1.5",        "--size",  "96x54",
+      "--out",     "study",      "--movie", "none"};
+  std::vector<std::string> refined = words;
+  refined.insert(refined.end(), {"--refine", "1", "--refine-runs", "0", "--best", "max_speed"});
+  const auto made = neve(refined);
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_TRUE(contains(made.errors, "at full resolution: runs 0, 2")) << made.errors;
+  EXPECT_TRUE(contains(made.errors, "by runs of 2 points: ")) << made.errors;
+  const app::Json manifest = json_of("study/manifest.json");
+  ASSERT_EQ(manifest.at("variants").size(), 2u);
+  const std::string of_best = manifest.at("variants")[1].at("run").at("folder");
+  neve({"render", "scene.toml", "--set", "body.ball.velocity=[0,-6,0]", "--size", "96x54", "--out",
+        "alone", "--no-movie"});
+  EXPECT_EQ(hashes("study/runs/" + of_best), hashes("alone")) << "the same as of neve render";
+  EXPECT_TRUE(
+      contains(read_text(this->folder / "study/report.html"), "runs/" + of_best + "/particles/"))
+      << "the page shows its pictures";
+  std::replace(refined.begin(), refined.end(), std::string("0"), std::string("0-1"));
+  const auto more = neve(refined);
+  EXPECT_TRUE(contains(more.errors, "rank correlation of coarse and full: ")) << more.errors;
+  const app::Json result = app::parse_json(neve([&] {
+                                             std::vector<std::string> json = refined;
+                                             json.push_back("--json");
+                                             return json;
+                                           }())
+                                               .output);
+  EXPECT_EQ(result.at("started"), 0) << "what has been made is kept";
+  EXPECT_EQ(result.at("ok"), 6);
 }
 
 TEST_F(Prediction, TheFullRunBreaksAsItsCopiesDo) {

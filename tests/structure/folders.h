@@ -88,7 +88,8 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim render/image render/frame render/gl render app/support app/scene/toml "
      "app/advice app/scene app/output app/record app/setup app/picture app/timeline app/run"},
     {"app/predict",
-     "sim/types sim/laws sim app/support app/scene app/record app/setup app/timeline"},
+     "sim/types sim/laws sim app/support app/scene app/record app/setup app/forecast app/health "
+     "app/timeline"},
     {"app/card",
      "sim/base sim/types sim/kernels sim/laws sim/health sim render/image render/frame render/gl "
      "render app/support app/advice app/scene app/output app/record app/setup app/options "
@@ -102,16 +103,18 @@ inline constexpr Folder folders[] = {
      "app/support app/scene/toml app/advice app/scene app/setup app/options app/sweep"},
     {"app/sweep/plan",
      "sim/base sim/types app/support app/scene/toml app/scene app/output app/record app/setup "
-     "app/options app/forecast app/health app/timeline app/run app/sweep app/sweep/read"},
+     "app/options app/forecast app/health app/timeline app/run app/predict app/sweep "
+     "app/sweep/read"},
     {"app/sweep/store",
      "sim/base app/support app/scene/toml app/scene app/output app/record app/setup app/options "
-     "app/run app/sweep/read app/sweep/plan"},
+     "app/run app/predict app/sweep/read app/sweep/plan"},
     {"app/sweep/jobs",
      "sim app/support app/output app/record app/setup app/options app/run app/sweep/plan "
      "app/sweep/store"},
     {"app/sweep/sheet",
      "render/image render/frame render/gl render/overlay render app/support app/scene app/output "
-     "app/setup app/options app/picture app/sweep/plan app/sweep/store app/sweep/jobs"},
+     "app/setup app/options app/picture app/predict app/sweep/plan app/sweep/store "
+     "app/sweep/jobs"},
     {"app/pick/search", "sim/base app/sweep/plan"},
     {"app/pick",
      "render/frame render/overlay app/support app/scene/toml app/scene app/output app/sweep "

@@ -207,7 +207,7 @@ RunCounts count(const fs::path& folder, const store::Manifest& manifest,
   RunCounts counts;
   counts.all = static_cast<int>(indices.size());
   for (const int index : indices) {
-    const Run& run = manifest.runs[static_cast<std::size_t>(index)];
+    const Run& run = *manifest.run_of(index);
     const store::RunState state = store::read_status(store::runs_folder(folder) / run.folder).state;
     counts.finished += store::is_finished(state);
     counts.failed += store::has_failed(state);
@@ -238,7 +238,7 @@ std::vector<int> missing_runs(const fs::path& folder, const store::Manifest& man
   std::vector<int> missing;
   std::set<std::string> keys;
   for (const int index : indices) {
-    const Run& run = manifest.runs[static_cast<std::size_t>(index)];
+    const Run& run = *manifest.run_of(index);
     const store::RunState state = store::read_status(store::runs_folder(folder) / run.folder).state;
     const bool is_wanted = !store::is_finished(state) || retry.contains(state);
     if (is_wanted && keys.insert(run.key).second) missing.push_back(index);

@@ -7,7 +7,7 @@
 
 namespace neve::app::sweep::jobs {
 
-/// Ends of axes before middles; of equal runs, which share a folder, the first.
+/// Ends of axes before middles, then variants; of equal runs, which share a folder, the first.
 /// @param indices  of the runs that are wanted
 /// @param is_side_by_side  long runs start first, by the forecast, so that no core waits for the
 ///        last one

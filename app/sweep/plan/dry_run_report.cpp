@@ -41,6 +41,15 @@ Totals totals_of(const SweepPlan& plan) {
   return totals;
 }
 
+/// s of one thread, of all copies for the prediction.
+double seconds_of_copies(const SweepPlan& plan, const StudyForecast& forecast) {
+  double seconds = 0;
+  for (const PlannedVariant& variant : plan.variants)
+    if (variant.failure.empty())
+      seconds += forecast.seconds(variant.of).expected * work_ratio(plan, variant.coarsening);
+  return seconds;
+}
+
 void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
                 const forecast::Cost& seconds_of_all) {
   Json json;
@@ -69,6 +78,9 @@ void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
                          {"frame", plan.beginning->run.frames.last},
                          {"seconds", foreseen.beginning.expected * foreseen.seconds_per_work}};
   if (plan.keeps_states) json["state_bytes"] = whole_bytes(bytes_of_states(plan));
+  if (!plan.variants.empty())
+    json["prediction"] = {{"copies", plan.variants.size()},
+                          {"seconds", seconds_of_copies(plan, foreseen)}};
   json["memory_bytes"] = whole_bytes(totals_of(plan).largest);
   json["seconds"] = seconds_of_all.expected;
   json["seconds_range"] = {seconds_of_all.least, seconds_of_all.most};
@@ -113,6 +125,14 @@ void print_table(const SweepPlan& plan, const StudyForecast& forecast) {
   }
 }
 
+std::string copies_text(const SweepPlan& plan, const StudyForecast& forecast, int cores) {
+  if (plan.variants.empty()) return "";
+  return fmt::format(
+      "the prediction takes {} coarse copies, {} more at most: copies that are runs "
+      "of the sweep are made once\n",
+      plan.variants.size(), duration_text(seconds_of_copies(plan, forecast) / cores));
+}
+
 }  // namespace
 
 void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
@@ -140,7 +160,7 @@ void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
                    "a run\n",
                    duration_text(seconds.expected), cores, cores == 1 ? "core" : "cores",
                    bytes_text(whole_bytes(totals.largest)))
-            << (longest.empty() ? "" : longest + "\n")
+            << copies_text(plan, forecast, cores) << (longest.empty() ? "" : longest + "\n")
             << (plan.keeps_states ? fmt::format("kept states take about {} on disk\n",
                                                 bytes_text(whole_bytes(bytes_of_states(plan))))
                                   : "")

@@ -141,6 +141,8 @@ void share_camera_and_ranges(SweepPlan& plan, int cores) {
     setup::resolve(item.scene, static_cast<std::size_t>(item.plan.particles));
   };
   for (PlannedRun& item : plan.runs) complete(item);
+  for (PlannedVariant& variant : plan.variants)
+    if (variant.failure.empty()) complete(variant.item);
   if (plan.beginning) complete(*plan.beginning);
 }
 

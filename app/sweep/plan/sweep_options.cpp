@@ -81,12 +81,31 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
   visit("--seeds", o.seeds, seeds(),
         "Make N runs of each point, with the scene's seed and those after it, so that tiles, table "
         "and plots show which differences are larger than noise; N times the cost");
+  visit(
+      "--refine", o.refine,
+      options::number<int>("K", 1, 10000, "a number of points from 1 to 10000, as in --refine 4"),
+      "With --coarsen N: when all runs have ended, make K points at full resolution as well, in "
+      "the same "
+      "folder: the undecided ones first, then the best of --best; tiles show these, and the report "
+      "says how well coarse ranked full");
+  visit("--refine-runs", o.refine_runs, options::text("LIST", "3,7-9"),
+        "With --coarsen N: make these runs at full resolution as well, as in 3,7-9");
+  visit("--best", o.best, options::text("METRIC", "height"),
+        "Metric of data.csv by which --refine chooses, the greatest first; METRIC:least for the "
+        "least, "
+        "as in spread:least")
+      .with_default();
   visit("--keep-states", o.keeps_states,
         "Keep the state of each drawn frame: tiles of another size, view, colour or camera are "
         "then drawn without simulating; --dry-run says how much disk space the states take");
   visit("--size", o.size, options::size(), "Size of a tile; default: 480 pixels wide");
   visit("--coarsen", o.coarsening, options::coarsening(),
         "Make cells N times as large in all runs");
+  visit(
+      "--predict", o.predicts,
+      "With --coarsen N: run coarse copies of each point beside its runs, and say on tiles and in "
+      "tables what it does at full resolution: breaks, holds or undecided, and its size with "
+      "intervals; costs about a third of that run for each point");
   visit("--fast", o.is_fast,
         "Take longer steps in all runs for a quick look, by settings that are recorded like those "
         "of --set");
@@ -123,6 +142,37 @@ void check_places(const SweepOptions& o) {
   if (!o.sbatch.empty() && o.engine != "slurm")
     throw UsageError("--sbatch", "works only with --engine slurm",
                      "add --engine slurm, or remove --sbatch");
+}
+
+void check_prediction(const SweepOptions& o) {
+  if (!o.predicts) return;
+  if (!(o.coarsening.value_or(1) > 1))
+    throw UsageError("--predict", "predicts full runs from coarse ones, and these are none",
+                     "add --coarsen 2");
+  if (o.fork || o.from)
+    throw UsageError("--predict",
+                     std::string("cannot be combined with ") + (o.fork ? "--fork" : "--from") +
+                         ": copies are simulated from the start",
+                     "remove one of them");
+}
+
+void check_refinement(const SweepOptions& o) {
+  if (o.refine == 0 && o.refine_runs.empty()) return;
+  const char* flag = o.refine > 0 ? "--refine" : "--refine-runs";
+  if (!(o.coarsening.value_or(1) > 1))
+    throw UsageError(flag, "makes runs of a coarse sweep at full resolution, and this is none",
+                     "add --coarsen 2");
+  const char* other = o.fork ? "--fork" : o.from ? "--from" : nullptr;
+  if (other)
+    throw UsageError(
+        flag,
+        std::string("cannot be combined with ") + other + ": a run keeps its cells while it runs",
+        "remove one of them");
+  if (o.shard || !o.emit.empty() || o.engine != "local")
+    throw UsageError(
+        flag, "waits for all runs of the sweep, which end elsewhere",
+        "remove --shard, --emit and --engine, or repeat the sweep without them and with " +
+            std::string(flag) + " when they have ended");
 }
 
 /// The end of the list, for commands that work on an existing sweep.
@@ -173,6 +223,8 @@ void describe(options::Command& visit, SweepOptions& o) {
       throw UsageError("sweep", o.file + " is a folder, not a scene",
                        "to vary its run from a time on, add --from TIME");
     check_places(o);
+    check_prediction(o);
+    check_refinement(o);
   });
 }
 

@@ -25,7 +25,11 @@ struct SweepOptions {
   bool keeps_states = false;               ///< of drawn frames, to draw them again
   std::optional<scene::PictureSize> size;  ///< of a tile
   std::optional<double> coarsening;
-  bool is_fast = false;  ///< with the settings of forecast::fast_look
+  bool is_fast = false;         ///< with the settings of forecast::fast_look
+  bool predicts = false;        ///< each point at full resolution, by further copies
+  int refine = 0;               ///< points that are made at full resolution as well; 0: none
+  std::string refine_runs;      ///< "3,7": the same of these runs' points; "": none
+  std::string best = "spread";  ///< metric by which points are refined, see store::Best
   std::string out;
   int threads = 0;  ///< cores in all; 0: as many as there are
   int jobs = 0;     ///< runs side by side; 0: as many as keep the cores busy

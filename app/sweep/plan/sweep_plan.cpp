@@ -8,6 +8,7 @@
 
 #include "app/forecast/forecast.h"
 #include "app/options/languages.h"
+#include "app/predict/copies.h"
 #include "app/record/picture_record.h"
 #include "app/run/fork.h"
 #include "app/run/identity.h"
@@ -17,6 +18,7 @@
 #include "app/scene/scene_file.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
+#include "app/support/text.h"
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/read/read_sweep.h"
@@ -81,9 +83,23 @@ class SceneMaker {
     return make(settings, sweep_.fixed);
   }
 
+  /// Before --coarsen.
+  scene::Scene make_full(const std::vector<scene::Override>& settings) const {
+    return make(settings, sweep_.fixed, 1);
+  }
+  /// As all runs of the sweep are drawn.
+  void prepare(scene::Scene& scene) const { prepare_view(options_, sweep_, scene); }
+
  private:
   scene::Scene make(const std::vector<scene::Override>& settings,
                     const std::vector<scene::Override>& fixed) const {
+    scene::Scene scene = make(settings, fixed, options_.coarsening.value_or(1));
+    prepare(scene);
+    return scene;
+  }
+
+  scene::Scene make(const std::vector<scene::Override>& settings,
+                    const std::vector<scene::Override>& fixed, double coarsening) const {
     std::vector<scene::Override> all = fixed;
     all.insert(all.end(), settings.begin(), settings.end());
     scene::Scene scene = at_fork_
@@ -91,8 +107,7 @@ class SceneMaker {
                              : scene::read_scene_text(text_, sweep_.scene_file,
                                                       scene::base_dir_of(sweep_.scene_file), all);
     scene::place_in_world(scene, sweep_.scene_file);
-    if (options_.coarsening) scene::coarsen(scene, *options_.coarsening);
-    prepare_view(options_, sweep_, scene);
+    scene::coarsen(scene, coarsening);
     return scene;
   }
 
@@ -156,6 +171,9 @@ std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& 
   if (options.fork) return options.fork;
   if (options.from) return options.from;
   if (sweep.settings.fork.empty()) return std::nullopt;
+  if (options.predicts)
+    sweep.fail("sweep.fork", "sweep.fork cannot be combined with --predict",
+               "copies are simulated from the start: remove one of them");
   try {
     return options::time().read("--fork", sweep.settings.fork);
   } catch (const UsageError& error) {
@@ -220,6 +238,44 @@ int axis_called(const read::Sweep& sweep, const char* key, const std::string& wa
              known.empty() ? "the sweep has no axes" : "expected " + scene::list_of(known));
 }
 
+/// The coarse copies by which a point is predicted. @throws UsageError where one cannot be
+std::vector<PlannedVariant> copies_of(const SceneMaker& maker, const PlannedRun& point) {
+  const scene::Scene full = maker.make_full(point.run.settings);
+  if (const std::string why = predict::why_not(full); !why.empty()) throw UsageError("", why);
+  std::vector<PlannedVariant> copies;
+  for (const predict::CopyPlan& plan : predict::copy_plans)
+    for (int k = 0; k < plan.seeds; ++k) {
+      scene::Scene scene =
+          predict::copy_of(full, plan.coarsening, full.seed + static_cast<std::uint64_t>(k));
+      Run run;
+      run.label = fmt::format("copy of run {} with --coarsen {} and seed {}", point.run.index,
+                              rough_text(plan.coarsening), scene.seed);
+      run.settings = point.run.settings;
+      run.settings.push_back({"seed", std::to_string(scene.seed), "--predict"});
+      run.frames = {scene::number_of(scene, 0), point.run.frames.last};
+      maker.prepare(scene);
+      copies.push_back({static_cast<std::size_t>(point.run.index), plan.coarsening,
+                        planned(std::move(run), std::move(scene)), ""});
+    }
+  return copies;
+}
+
+void plan_copies(const SceneMaker& maker, SweepPlan& plan) {
+  const auto seeds = static_cast<std::size_t>(plan.sweep.runs_per_point());
+  for (std::size_t k = 0; k < plan.runs.size(); k += seeds) {
+    std::vector<PlannedVariant> copies;
+    try {
+      copies = copies_of(maker, plan.runs[k]);
+    } catch (const UsageError& error) {
+      copies = {{k, 1, {}, error.what()}};
+    }
+    for (PlannedVariant& copy : copies) {
+      copy.item.run.index = static_cast<int>(plan.runs.size() + plan.variants.size());
+      plan.variants.push_back(std::move(copy));
+    }
+  }
+}
+
 /// Takes the common beginning off the runs. @throws UsageError where they cannot have one
 void share_beginning(double time, SweepPlan& plan) {
   const char* flag = plan.source ? "--from" : "--fork";
@@ -276,9 +332,32 @@ SweepPlan plan_sweep(const SweepOptions& options) {
     run.frames = setup::numbers_of(scene, frames_of(options, plan.sweep, scene));
     plan.runs.push_back(planned(std::move(run), std::move(scene)));
   }
+  plan.coarsening = options.coarsening.value_or(1);
+  if (options.predicts) plan_copies(maker, plan);
   if (const auto time = fork_time(options, plan.sweep)) share_beginning(*time, plan);
   if (plan.source) plan.source->fork->changes.clear();  // the runs make them
   return plan;
+}
+
+double work_ratio(const SweepPlan& plan, double coarsening) {
+  return std::pow(plan.coarsening / coarsening, 4);
+}
+
+void add_full_runs(const SweepOptions& options, const std::vector<std::size_t>& points,
+                   SweepPlan& plan) {
+  const SceneMaker maker(options, plan.sweep, plan.source);
+  for (const std::size_t point : points) {
+    const Run& coarse = plan.runs[point].run;
+    scene::Scene scene = maker.make_full(coarse.settings);
+    maker.prepare(scene);
+    Run run;
+    run.label = fmt::format("run {} at full resolution", coarse.index);
+    run.settings = coarse.settings;
+    run.frames = coarse.frames;
+    PlannedVariant full{point, 1, planned(std::move(run), std::move(scene)), ""};
+    full.item.run.index = static_cast<int>(plan.runs.size() + plan.variants.size());
+    plan.variants.push_back(std::move(full));
+  }
 }
 
 std::vector<int> axis_sizes(const SweepPlan& plan) {

@@ -28,6 +28,14 @@ struct PlannedRun {
   setup::Plan plan;
 };
 
+/// A point of the sweep once more, with cells of another size.
+struct PlannedVariant {
+  std::size_t of = 0;  ///< the first run of the point
+  double coarsening = 1;
+  PlannedRun item;
+  std::string failure;  ///< why there can be none, a sentence; the item is empty then
+};
+
 struct SweepPlan {
   read::Sweep sweep;
   std::filesystem::path folder;
@@ -35,6 +43,10 @@ struct SweepPlan {
   std::string view;   ///< that the tiles show
   scene::Scene base;  ///< with the fixed settings alone
   std::vector<PlannedRun> runs;
+  /// Coarse copies for predictions, then runs at full resolution; their numbers follow those of the
+  /// runs.
+  std::vector<PlannedVariant> variants{};
+  double coarsening = 1;  ///< of the runs
   /// Common start of forked runs, up to the last frame before the fork. The frames and the work of
   /// the runs begin after it. Its settings are the changes that all runs make at the fork.
   std::optional<PlannedRun> beginning;
@@ -50,6 +62,15 @@ struct SweepPlan {
 /// Reads the scene of every run; starts nothing.
 /// @throws SceneError, UsageError, LimitError, sim::ShapeError
 SweepPlan plan_sweep(const SweepOptions& options);
+
+/// Plans a run at full resolution for each of these points, among the variants, with the camera and
+/// ranges that all runs share.
+/// @param points  their first runs
+void add_full_runs(const SweepOptions& options, const std::vector<std::size_t>& points,
+                   SweepPlan& plan);
+
+/// The work of a point with cells coarsened so, over that of its run.
+double work_ratio(const SweepPlan& plan, double coarsening);
 
 /// Values on each axis.
 std::vector<int> axis_sizes(const SweepPlan& plan);

@@ -24,6 +24,7 @@
 #include "app/sweep/sheet/review.h"
 #include "app/sweep/sheet/sheet.h"
 #include "app/sweep/store/points.h"
+#include "app/sweep/store/refine.h"
 #include "render/gl/context.h"
 
 namespace neve::app::sweep::sheet {
@@ -185,8 +186,9 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   std::vector<store::RunResult> results = store::read_results(folder, manifest);
   for (store::RunResult& result : results)
     if (!result.flaws.empty()) result.warnings.push_back(result.flaws);
-  output::write_file(folder / "data.csv", data_csv(manifest, results));
-  write_points(folder, points_csv(manifest, results));
+  const std::vector<predict::Prediction> predictions = store::predictions_of(folder, manifest);
+  output::write_file(folder / "data.csv", data_csv(manifest, results, predictions));
+  write_points(folder, points_csv(manifest, results, predictions));
   if (has_review) link_pictures(folder, manifest, results);
   output::write_file(folder / "runs.otio", otio_timeline(manifest, results, has_review));
   if (const std::string plots = metric_plots_svg(manifest, results); !plots.empty())
@@ -194,6 +196,10 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   write_effects(folder, manifest, results, progress);
   progress.clear();
   for (const std::string& line : store::noise_lines(manifest, results)) progress.note(line);
+  for (const std::string& line :
+       {store::prediction_line(predictions),
+        store::ranking_line(manifest, results, store::full_results(folder, manifest))})
+    if (!line.empty()) progress.note(line);
 
   progress.clear();
   for (const std::string& line : store::warning_lines(manifest, results)) progress.warning(line);
@@ -204,7 +210,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   const auto context = render::gl::open_context(backend);
   ThreadPool pool(threads);
   render::Renderer renderer(*context, {}, &pool);
-  SheetMaker maker(folder, manifest, results, legends, renderer);
+  SheetMaker maker(folder, manifest, results, predictions, legends, renderer);
   std::vector<std::uint8_t> sheet;
   if (has_pictures(results)) {
     write_sheets(folder, manifest, maker, last_drawn(manifest, results), movie, progress);
@@ -213,7 +219,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   }
   output::write_file(folder / "report.html",
                      report_html(folder.string(), manifest, results, maker.pages().front().layout,
-                                 sheet, maker.pages().size()));
+                                 sheet, maker.pages().size(), predictions));
   progress.clear();
   refuse_flaws(folder, manifest, results);
 }

@@ -134,7 +134,33 @@ void add_parameter_names(const store::Manifest& manifest, ColumnNames& names, Ro
   }
 }
 
-void add_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
+constexpr std::array interval_columns{"", "_low", "_high"};
+
+void add_prediction_names(ColumnNames& names, Rows& rows) {
+  for (const char* name : {"full_by", "full_verdict"}) rows.add(names.unique(name, "_done"));
+  for (int q = 0; q < predict::quantity_count; ++q)
+    for (const char* column : interval_columns)
+      rows.add(names.unique(
+          std::string("full_") + predict::info_of(static_cast<predict::Quantity>(q)).name + column,
+          "_done"));
+}
+
+void add_prediction(const predict::Prediction& prediction, Rows& rows) {
+  const bool is_known = !prediction.reason.empty();
+  rows.add(!is_known ? "-" : prediction.is_run ? "run" : "copies");
+  rows.add(is_known ? predict::name(prediction.verdict) : "-");
+  for (std::size_t q = 0; q < predict::quantity_count; ++q) {
+    if (prediction.estimates.empty()) {
+      for (std::size_t k = 0; k < interval_columns.size(); ++k) rows.add("");
+      continue;
+    }
+    const predict::Estimate& e = prediction.estimates[q];
+    for (const double value : {e.expected, e.low, e.high}) rows.add(float_text(value));
+  }
+}
+
+void add_header(const store::Manifest& manifest, bool has_predictions, bool with_times,
+                Rows& rows) {
   ColumnNames names;
   for (const char* name : {"run", "label"}) rows.add(names.unique(name, "_"));
   add_parameter_names(manifest, names, rows);
@@ -143,6 +169,7 @@ void add_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
     rows.add(names.unique(name, "_done"));
   for (const store::MetricInfo& metric : store::metric_infos())
     if (with_times || !metric.is_time) rows.add(names.unique(metric.name, "_done"));
+  if (has_predictions) add_prediction_names(names, rows);
   for (const char* name : {"FILE", "FILE_scene"}) rows.add(name);
   rows.end();
 }
@@ -158,8 +185,9 @@ void add_parameters(const store::Manifest& manifest, const Run& run, Rows& rows)
   }
 }
 
+/// @param prediction  of its point; null without
 void add_row(const store::Manifest& manifest, const Run& run, const store::RunResult& result,
-             bool with_times, Rows& rows) {
+             const predict::Prediction* prediction, bool with_times, Rows& rows) {
   rows.add(std::to_string(run.index));
   rows.add(cell(run.label.empty() ? "run " + std::to_string(run.index) : run.label, "string"));
   add_parameters(manifest, run, rows);
@@ -175,6 +203,7 @@ void add_row(const store::Manifest& manifest, const Run& run, const store::RunRe
     const std::optional<double> value = is_told ? result.metrics[k] : std::nullopt;
     rows.add(!value ? "" : metric.is_whole ? whole_text(*value) : float_text(*value));
   }
+  if (prediction) add_prediction(*prediction, rows);
   const std::string folder = "runs/" + run.folder;
   rows.add(result.frames.empty()
                ? ""
@@ -206,7 +235,8 @@ std::vector<PointColumns> point_columns_of(const std::vector<store::Point>& poin
   return columns;
 }
 
-void add_point_header(const store::Manifest& manifest, bool with_times, Rows& rows) {
+void add_point_header(const store::Manifest& manifest, bool has_predictions, bool with_times,
+                      Rows& rows) {
   ColumnNames names;
   for (const char* name : {"point", "label"}) rows.add(names.unique(name, "_"));
   add_parameter_names(manifest, names, rows);
@@ -216,6 +246,7 @@ void add_point_header(const store::Manifest& manifest, bool with_times, Rows& ro
     if (with_times || !metric.is_time)
       for (const char* column : point_columns)
         rows.add(names.unique(std::string(metric.name) + column, "_done"));
+  if (has_predictions) add_prediction_names(names, rows);
   rows.end();
 }
 
@@ -235,13 +266,14 @@ void add_cells(const PointColumns& column, std::size_t point, Rows& rows) {
 }  // namespace
 
 std::string points_csv(const store::Manifest& manifest,
-                       const std::vector<store::RunResult>& results, bool with_times) {
+                       const std::vector<store::RunResult>& results,
+                       const std::vector<predict::Prediction>& predictions, bool with_times) {
   if (manifest.seeds == 1) return {};
   const store::Manifest shown = store::first_draws(manifest);
   const std::vector<store::Point> points = store::points_of(manifest, results);
   const std::vector<PointColumns> columns = point_columns_of(points, with_times);
   Rows rows;
-  add_point_header(shown, with_times, rows);
+  add_point_header(shown, !predictions.empty(), with_times, rows);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Run& run = shown.runs[k];
     rows.add(std::to_string(k));
@@ -251,17 +283,20 @@ std::string points_csv(const store::Manifest& manifest,
          {points[k].count, points[k].ended, points[k].judged, points[k].broken})
       rows.add(std::to_string(count));
     for (const PointColumns& column : columns) add_cells(column, k, rows);
+    if (!predictions.empty()) add_prediction(predictions[k], rows);
     rows.end();
   }
   return rows.text();
 }
 
 std::string data_csv(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
-                     bool with_times) {
+                     const std::vector<predict::Prediction>& predictions, bool with_times) {
   Rows rows;
-  add_header(manifest, with_times, rows);
+  add_header(manifest, !predictions.empty(), with_times, rows);
+  const auto seeds = static_cast<std::size_t>(manifest.seeds);
   for (std::size_t k = 0; k < manifest.runs.size(); ++k)
-    add_row(manifest, manifest.runs[k], results[k], with_times, rows);
+    add_row(manifest, manifest.runs[k], results[k],
+            predictions.empty() ? nullptr : &predictions[k / seeds], with_times, rows);
   return rows.text();
 }
 

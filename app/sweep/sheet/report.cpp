@@ -8,6 +8,7 @@
 #include "app/sweep/sheet/effects.h"
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/report_data.h"
+#include "app/sweep/store/refine.h"
 #include "render/overlay/svg.h"
 
 namespace neve::app::sweep::sheet {
@@ -110,6 +111,7 @@ std::string summary_of(const store::Manifest& manifest,
     text = std::to_string(runs / seeds) + " points of " + std::to_string(seeds) + " seeds, " + text;
   if (failed > 0) text += ", " + std::to_string(failed) + " failed";
   if (open > 0) text += ", " + std::to_string(open) + " not finished";
+  if (!manifest.coarsened.empty()) text += "; " + manifest.coarsened;
   return text + "; neve " + manifest.version;
 }
 
@@ -129,7 +131,10 @@ std::string fill_page(std::string_view page, const std::map<std::string, std::st
 
 std::string report_html(const std::string& folder, const store::Manifest& manifest,
                         const std::vector<store::RunResult>& results, const SheetLayout& layout,
-                        const std::vector<std::uint8_t>& sheet_png, std::size_t pages) {
+                        const std::vector<std::uint8_t>& sheet_png, std::size_t pages,
+                        const std::vector<predict::Prediction>& predictions) {
+  const std::string ranking =
+      store::ranking_line(manifest, results, store::full_results(folder, manifest));
   std::string script;
   for (const char* file :
        {"study.js", "noise.js", "page.js", "walk.js", "lists.js", "charts.js", "start.js"})
@@ -137,9 +142,12 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
   return fill_page(find_embedded_report("page.html"),
                    {{"title", render::overlay::xml_text(manifest.title)},
                     {"summary", render::overlay::xml_text(summary_of(manifest, results))},
+                    {"ranking", ranking.empty() ? ""
+                                                : "<p class=\"hint\" id=\"ranking\">" +
+                                                      render::overlay::xml_text(ranking) + "</p>"},
                     {"style", std::string(find_embedded_report("style.css"))},
                     {"script", script},
-                    {"data", script_json(report_data(folder, manifest, results))},
+                    {"data", script_json(report_data(folder, manifest, results, predictions))},
                     {"effects", effects_section(manifest, results)},
                     {"more", more_section(manifest, results, layout, sheet_png, pages)}});
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/predict/predict.h"
 #include "app/sweep/sheet/sheet_layout.h"
 #include "app/sweep/store/results.h"
 
@@ -14,9 +15,11 @@ namespace neve::app::sweep::sheet {
 /// @param folder as the commands that repeat runs name it
 /// @param sheet_png the sheet of the last frame, its first page; empty: none
 /// @param pages     that the sheet has
+/// @param predictions  of the points; none without --predict
 std::string report_html(const std::string& folder, const store::Manifest& manifest,
                         const std::vector<store::RunResult>& results, const SheetLayout& layout,
-                        const std::vector<std::uint8_t>& sheet_png, std::size_t pages = 1);
+                        const std::vector<std::uint8_t>& sheet_png, std::size_t pages = 1,
+                        const std::vector<predict::Prediction>& predictions = {});
 
 /// Files of the folder report, which are compiled in; see cmake/EmbedFiles.cmake.
 std::string_view find_embedded_report(std::string_view file_name);

@@ -30,21 +30,42 @@ bool has_labels(const store::Manifest& manifest) {
                      [](const Run& run) { return !run.label.empty(); });
 }
 
-Json column_names(const store::Manifest& manifest) {
+std::string titled(const std::string& title, const std::string& unit) {
+  return title + (unit.empty() ? "" : " (" + unit + ")");
+}
+
+/// Of a quantity in columns and noise: no metric has such a name.
+std::string full_name(predict::Quantity quantity) {
+  return std::string("full_") + predict::info_of(quantity).name;
+}
+
+template <class Act>
+void for_each_quantity(const Act& act) {
+  for (int q = 0; q < predict::quantity_count; ++q) act(static_cast<predict::Quantity>(q));
+}
+
+void add_prediction_columns(Json& columns) {
+  columns.push_back(column("prediction", "at full resolution", true, "full_verdict"));
+  for_each_quantity([&](predict::Quantity quantity) {
+    const predict::QuantityInfo& info = predict::info_of(quantity);
+    columns.push_back(column("metric", titled(std::string("full ") + info.title, info.unit), false,
+                             full_name(quantity)));
+  });
+}
+
+Json column_names(const store::Manifest& manifest, bool has_predictions) {
   Json columns = Json::array();
   columns.push_back(column("run", "run", false));
   if (has_labels(manifest)) columns.push_back(column("name", "name", true));
   for (const Parameter& p : manifest.parameters)
     columns.push_back(column(manifest.seeds > 1 && p.address == "seed" ? "seed" : "parameter",
-                             p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
-                             p.type != "number" && p.type != "integer", p.address));
+                             titled(p.name, p.unit), p.type != "number" && p.type != "integer",
+                             p.address));
   columns.push_back(column("state", "state", true));
   columns.push_back(column("warnings", "warnings", false, "hover over a cell for the text"));
+  if (has_predictions) add_prediction_columns(columns);
   for (const store::MetricInfo& metric : store::metric_infos())
-    columns.push_back(column(
-        "metric",
-        std::string(metric.title) + (metric.unit[0] ? std::string(" (") + metric.unit + ")" : ""),
-        false, metric.name));
+    columns.push_back(column("metric", titled(metric.title, metric.unit), false, metric.name));
   columns.push_back(column("reason", "reason", true));
   return columns;
 }
@@ -61,13 +82,24 @@ Json written_values(const store::Manifest& manifest, const Run& run) {
   return texts;
 }
 
-Json cells_of(const store::Manifest& manifest, const Run& run, const store::RunResult& result) {
+void add_prediction_cells(const predict::Prediction& prediction, Json& cells) {
+  cells.push_back(prediction.reason.empty() ? Json() : Json(predict::name(prediction.verdict)));
+  for_each_quantity([&](predict::Quantity quantity) {
+    cells.push_back(prediction.estimates.empty()
+                        ? Json()
+                        : Json(prediction.estimates[static_cast<std::size_t>(quantity)].expected));
+  });
+}
+
+Json cells_of(const store::Manifest& manifest, const Run& run, const store::RunResult& result,
+              const predict::Prediction* prediction) {
   Json cells = Json::array();
   cells.push_back(run.index);
   if (has_labels(manifest)) cells.push_back(run.label);
   for (const Parameter& p : manifest.parameters) cells.push_back(cell_of(run.value(p.address)));
   cells.push_back(store::name(result.status.state));
   cells.push_back(result.warnings.size());
+  if (prediction) add_prediction_cells(*prediction, cells);
   for (const std::optional<double>& value : result.metrics)
     cells.push_back(value ? Json(*value) : Json());
   cells.push_back(result.status.reason);
@@ -102,9 +134,17 @@ std::string again_command(const std::string& folder, const store::Manifest& mani
   return options::shell_line(options::words_of(options));
 }
 
+/// A run of the sweep, and what else is known of its point.
+struct Known {
+  const predict::Prediction* prediction = nullptr;  ///< of its point; null without
+  const Run* full = nullptr;  ///< at full resolution, whose pictures are shown; null without
+};
+
 Json row_of(const std::string& folder, const store::Manifest& manifest, const Run& run,
-            const store::RunResult& result) {
-  const std::string pictures = "runs/" + run.folder + "/" + manifest.view + "/";
+            const store::RunResult& result, const Known& known) {
+  const predict::Prediction* prediction = known.prediction;
+  const Run& shown = known.full ? *known.full : run;
+  const std::string pictures = "runs/" + shown.folder + "/" + manifest.view + "/";
   return {{"run", run.index},
           {"label", run.label},
           {"state", store::name(result.status.state)},
@@ -115,12 +155,14 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
           {"levels", run.coordinates},
           {"frames", ranges_of(result.frames)},
           {"pictures", pictures},
-          {"view", manifest.beginning ? "" : "neve view " + scene_word(folder, run)},
+          {"view", manifest.beginning ? "" : "neve view " + scene_word(folder, shown)},
           // Digits need no quotes either: the page puts the name of the frame in.
           {"viewFrame", "neve view " + options::shell_path(folder + "/" + pictures + "FRAME.png")},
-          {"again", again_command(folder, manifest, run)},
+          {"again", again_command(folder, manifest, shown)},
           {"texts", written_values(manifest, run)},
-          {"cells", cells_of(manifest, run, result)}};
+          {"full", known.full != nullptr},
+          {"why", prediction ? prediction->reason : ""},
+          {"cells", cells_of(manifest, run, result, prediction)}};
 }
 
 /// Of a grid or a screening, whose runs have a level on each.
@@ -132,15 +174,14 @@ Json axes_of(const store::Manifest& manifest) {
   return axes;
 }
 
-/// A metric at each point, with the noise of its runs: what the page compares, it does not compute.
-Json noise_of(const store::Manifest& manifest, const std::vector<store::Point>& points,
-              std::size_t metric) {
-  const std::vector<store::Summary> summaries = store::summaries_of(points, metric);
+/// A metric at each point, with its noise or interval: what the page compares, it does not compute.
+Json noise_of(const std::string& metric, bool is_noise,
+              const std::vector<store::Summary>& summaries) {
   const std::vector<int> ranks = store::shared_ranks(summaries);
   const std::vector<double> shared = store::shared_means(summaries, ranks);
   const std::vector<std::vector<int>> groups = store::close_groups(summaries);
   Json list = Json::array();
-  for (std::size_t k = 0; k < points.size(); ++k) {
+  for (std::size_t k = 0; k < summaries.size(); ++k) {
     const store::Summary& s = summaries[k];
     list.push_back(s.count == 0 ? Json()
                                 : Json{{"mean", s.mean},
@@ -151,24 +192,41 @@ Json noise_of(const store::Manifest& manifest, const std::vector<store::Point>& 
                                        {"groups", groups[k]},
                                        {"letters", store::group_letters(groups[k])}});
   }
-  return {{"metric", store::metric_infos()[metric].name},
-          {"noise", store::is_noise(manifest, points, metric)},
-          {"points", list}};
+  return {{"metric", metric}, {"noise", is_noise}, {"points", list}};
+}
+
+/// The verdict at full resolution, with what the runs of the point did.
+Json outcome_of(const predict::Prediction& prediction, const store::Point& point) {
+  return {
+      {"text", predicted_outcome(prediction, point)},
+      {"undecided", !prediction.reason.empty() && prediction.verdict != predict::Verdict::breaks &&
+                        prediction.verdict != predict::Verdict::holds}};
 }
 
 void add_noise(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
-               Json& data) {
+               const std::vector<predict::Prediction>& predictions, Json& data) {
   data["seeds"] = manifest.seeds;
-  if (manifest.seeds == 1) return;
+  data["predicts"] = !predictions.empty();
+  if (manifest.seeds == 1 && predictions.empty()) return;
   const std::vector<store::Point> points = store::points_of(manifest, results);
   data["outcomes"] = Json::array();
-  for (const store::Point& point : points)
-    data["outcomes"].push_back(
-        {{"text", store::outcome_text(point)}, {"undecided", store::is_undecided(point)}});
+  for (std::size_t k = 0; k < points.size(); ++k)
+    data["outcomes"].push_back(predictions.empty()
+                                   ? Json{{"text", store::outcome_text(points[k])},
+                                          {"undecided", store::is_undecided(points[k])}}
+                                   : outcome_of(predictions[k], points[k]));
   data["groupColours"] = group_colours;
   data["noise"] = Json::array();
-  for (std::size_t metric = 0; metric < store::metric_infos().size(); ++metric)
-    data["noise"].push_back(noise_of(manifest, points, metric));
+  for (std::size_t metric = 0; manifest.seeds > 1 && metric < store::metric_infos().size();
+       ++metric)
+    data["noise"].push_back(noise_of(store::metric_infos()[metric].name,
+                                     store::is_noise(manifest, points, metric),
+                                     store::summaries_of(points, metric)));
+  if (predictions.empty()) return;
+  for_each_quantity([&](predict::Quantity quantity) {
+    data["noise"].push_back(
+        noise_of(full_name(quantity), false, store::summaries_of(predictions, quantity)));
+  });
 }
 
 /// Tiles side by side, as sheet.png has them where its axes are along its edges; 0: as many as fit.
@@ -180,17 +238,25 @@ std::size_t columns_of_sheet(const store::Manifest& manifest) {
 }  // namespace
 
 Json report_data(const std::string& folder, const store::Manifest& manifest,
-                 const std::vector<store::RunResult>& results) {
+                 const std::vector<store::RunResult>& results,
+                 const std::vector<predict::Prediction>& predictions) {
   Json data;
   data["fps"] = manifest.fps;
   data["tile"] = {manifest.tile_width, manifest.tile_height};
   data["across"] = columns_of_sheet(manifest);
   data["axes"] = axes_of(manifest);
-  data["columns"] = column_names(manifest);
-  add_noise(manifest, results, data);
+  data["columns"] = column_names(manifest, !predictions.empty());
+  add_noise(manifest, results, predictions, data);
   data["rows"] = Json::array();
-  for (std::size_t k = 0; k < manifest.runs.size(); ++k)
-    data["rows"].push_back(row_of(folder, manifest, manifest.runs[k], results[k]));
+  const auto seeds = static_cast<std::size_t>(manifest.seeds);
+  for (std::size_t k = 0; k < manifest.runs.size(); ++k) {
+    Known known;
+    if (!predictions.empty()) known.prediction = &predictions[k / seeds];
+    if (known.prediction && known.prediction->is_run)
+      for (const store::Variant& variant : manifest.variants)
+        if (variant.is_full() && variant.of == k) known.full = &variant.run;
+    data["rows"].push_back(row_of(folder, manifest, manifest.runs[k], results[k], known));
+  }
   return data;
 }
 

@@ -30,8 +30,8 @@ Scale scale_of(const std::vector<store::Summary>& summaries) {
   return scale;
 }
 
-std::string with_unit(double x, const store::MetricInfo& info) {
-  return rough_text(x) + (info.unit[0] ? std::string(" ") + info.unit : "");
+std::string with_unit(double x, const std::string& unit) {
+  return rough_text(x) + (unit.empty() ? "" : " " + unit);
 }
 
 /// A square for each group, or one for many. @return the left end, px
@@ -63,34 +63,105 @@ std::string outcome_at(const store::Point& point, const store::RunResult& run) {
   return text + (*run.has_broken ? ": here" : ": not here");
 }
 
-Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResult>& results) {
-  Seals seals;
-  if (manifest.seeds == 1) return seals;
-  const std::vector<store::Point> points = store::points_of(manifest, results);
-  const std::optional<std::size_t> telling = store::telling_metric(manifest, points);
-  seals.is_noise = !telling;
-  const store::MetricInfo& info = store::metric_infos()[telling.value_or(0)];
-  const std::vector<store::Summary> summaries = store::summaries_of(points, telling.value_or(0));
-  const std::vector<std::vector<int>> groups = store::close_groups(summaries);
-  const Scale scale = scale_of(summaries);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    Seal& seal = seals.of_points.emplace_back();
-    seal.outcome = outcome_at(points[k], results[points[k].first]);
-    seal.is_undecided = store::is_undecided(points[k]);
-    const store::Summary& s = summaries[k];
+std::string predicted_outcome(const predict::Prediction& prediction, const store::Point& point) {
+  const std::string coarse = point.count == 1 ? "" : "coarse: " + store::outcome_text(point);
+  if (!prediction.is_run && prediction.reason.empty()) return coarse;
+  return std::string(prediction.is_run ? "full resolution: " : "expected at full resolution: ") +
+         predict::name(prediction.verdict) + (coarse.empty() ? "" : "; " + coarse);
+}
+
+namespace {
+
+/// A metric or a quantity that the whiskers show.
+struct Whiskers {
+  std::string title, unit;
+  std::vector<store::Summary> points;
+};
+
+/// Fills in the values, groups and whiskers. @return the scale; low > high where nothing has a
+/// value
+Scale place_whiskers(const Whiskers& shown, Seals& seals) {
+  const std::vector<std::vector<int>> groups = store::close_groups(shown.points);
+  const Scale scale = scale_of(shown.points);
+  for (std::size_t k = 0; k < shown.points.size(); ++k) {
+    Seal& seal = seals.of_points[k];
+    const store::Summary& s = shown.points[k];
     if (s.count == 0) continue;
-    seal.value = with_unit(s.mean, info);
+    seal.value = with_unit(s.mean, shown.unit);
     if (!seals.is_noise) seal.groups = groups[k];
     seal.min = scale.place(s.min);
     seal.mean = scale.place(s.mean);
     seal.max = scale.place(s.max);
   }
+  return scale;
+}
+
+std::string letters_key(const Seals& seals) {
+  return seals.is_noise ? fmt::format("all tiles are {}", store::close_words)
+                        : fmt::format("tiles that share a letter are {}", store::close_words);
+}
+
+/// "from 0.2 to 0.5 m"
+std::string scale_text(const Scale& scale, const std::string& unit) {
+  return fmt::format("from {} to {}", rough_text(scale.low), with_unit(scale.high, unit));
+}
+
+const char* whisker_words(const std::vector<predict::Prediction>& predictions) {
+  const auto is_run = [](const predict::Prediction& p) { return p.is_run; };
+  if (std::none_of(predictions.begin(), predictions.end(), is_run))
+    return " expected at full resolution, and the interval that holds four of five";
+  if (std::any_of(predictions.begin(), predictions.end(),
+                  [](const predict::Prediction& p) { return !p.is_run && !p.reason.empty(); }))
+    return " at full resolution: of the run, or expected, with the interval that holds four of "
+           "five";
+  return " of the runs at full resolution";
+}
+
+Seals seals_of_seeds(const store::Manifest& manifest, const std::vector<store::Point>& points,
+                     const std::vector<store::RunResult>& results) {
+  Seals seals;
+  const std::optional<std::size_t> telling = store::telling_metric(manifest, points);
+  seals.is_noise = !telling;
+  for (const store::Point& point : points)
+    seals.of_points.push_back(
+        {outcome_at(point, results[point.first]), store::is_undecided(point), false, "", {}});
+  const store::MetricInfo& info = store::metric_infos()[telling.value_or(0)];
+  const Scale scale = place_whiskers(
+      {info.title, info.unit, store::summaries_of(points, telling.value_or(0))}, seals);
   if (scale.low > scale.high) return seals;
-  seals.key = {seals.is_noise ? fmt::format("all tiles are {}", store::close_words)
-                              : fmt::format("tiles that share a letter are {}", store::close_words),
-               fmt::format("whisker: {}{} of {} seeds, min to max and mean, from {} to {}",
-                           info.title, seals.is_noise ? ", noise here," : "", manifest.seeds,
-                           rough_text(scale.low), with_unit(scale.high, info))};
+  seals.key = {letters_key(seals), fmt::format("whisker: {}{} of {} seeds, min to max and mean, {}",
+                                               info.title, seals.is_noise ? ", noise here," : "",
+                                               manifest.seeds, scale_text(scale, info.unit))};
+  return seals;
+}
+
+}  // namespace
+
+Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
+               const std::vector<predict::Prediction>& predictions) {
+  if (manifest.seeds == 1 && predictions.empty()) return {};
+  const std::vector<store::Point> points = store::points_of(manifest, results);
+  if (predictions.empty()) return seals_of_seeds(manifest, points, results);
+  Seals seals;
+  const std::optional<predict::Quantity> telling = store::telling_quantity(predictions);
+  const auto known = std::count_if(predictions.begin(), predictions.end(),
+                                   [](const auto& p) { return !p.estimates.empty(); });
+  seals.is_noise = !telling && known > 1;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const predict::Verdict verdict = predictions[k].verdict;
+    const bool is_sure = verdict == predict::Verdict::breaks || verdict == predict::Verdict::holds;
+    const bool is_open = !is_sure && !predictions[k].reason.empty();
+    seals.of_points.push_back(
+        {predicted_outcome(predictions[k], points[k]), is_open, predictions[k].is_run, "", {}});
+  }
+  const predict::Quantity quantity = telling.value_or(predict::Quantity::spread);
+  const predict::QuantityInfo& info = predict::info_of(quantity);
+  const Scale scale =
+      place_whiskers({info.title, info.unit, store::summaries_of(predictions, quantity)}, seals);
+  if (scale.low > scale.high) return seals;
+  if (known > 1) seals.key.push_back(letters_key(seals));
+  seals.key.push_back(fmt::format("whisker: {}{}, {}", info.title, whisker_words(predictions),
+                                  scale_text(scale, info.unit)));
   return seals;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/sweep/store/points.h"
+#include "app/sweep/store/predictions.h"
 #include "render/frame/frame.h"
 
 namespace neve::app::sweep::sheet {
@@ -19,20 +20,27 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 6> group_colours{
 struct Seal {
   std::string outcome;        ///< "breaks in 1 of 4: not here"
   bool is_undecided = false;  ///< some runs break
+  bool is_run = false;        ///< the tile shows the run at full resolution
   std::string value;          ///< "0.42 m"; "" where no run tells
   std::vector<int> groups;    ///< tiles that share one are too close to call; none where all are
   double min = 0, mean = 0, max = 0;  ///< places on a scale that all tiles share, 0 to 1
 };
 
-/// Of a sweep with seeds; without, there are none.
+/// Of a sweep with seeds or predictions; without, there are none.
 struct Seals {
   std::vector<std::string> key;  ///< lines that explain them
   bool is_noise = false;         ///< no metric tells points apart: whiskers are grey
   std::vector<Seal> of_points;
 };
 
-/// The metric of the whiskers is the first that is not noise, of those that measure the snow.
-Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResult>& results);
+/// The metric of the whiskers is the first that is not noise, of those that measure the snow. With
+/// predictions they show these, of the first quantity that tells points apart.
+Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
+               const std::vector<predict::Prediction>& predictions);
+
+/// "expected at full resolution: undecided; coarse: breaks in 1 of 4", "full resolution: breaks";
+/// "" of a point of which nothing is known.
+std::string predicted_outcome(const predict::Prediction& prediction, const store::Point& point);
 
 /// "breaks in 1 of 4: here"; says whether a run is of those where some break and some hold.
 std::string outcome_at(const store::Point& point, const store::RunResult& run);

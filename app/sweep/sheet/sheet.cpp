@@ -113,6 +113,7 @@ std::string run_count_text(const store::Manifest& manifest,
                        text);
   if (failed > 0) text += ", " + std::to_string(failed) + " failed";
   if (open > 0) text += ", " + std::to_string(open) + " not finished";
+  if (!manifest.coarsened.empty()) text += dot + manifest.coarsened;
   return text;
 }
 
@@ -120,11 +121,12 @@ std::string run_count_text(const store::Manifest& manifest,
 
 SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& manifest,
                        const std::vector<store::RunResult>& results,
+                       const std::vector<predict::Prediction>& predictions,
                        const std::vector<render::Legend>& legends, render::Renderer& renderer)
     : folder_(std::move(folder)),
       manifest_(store::first_draws(manifest)),
       results_(store::first_draws(manifest, results)),
-      seals_(seals_of(manifest, results)),
+      seals_(seals_of(manifest, results, predictions)),
       counts_(run_count_text(manifest, results)),
       legends_(legends),
       renderer_(renderer),
@@ -132,7 +134,22 @@ SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& mani
       named_(manifest_),
       pages_(layout_pages(manifest_, !legends.empty(), renderer.max_size())) {
   head_.runs.clear();
+  show_full_runs(manifest);
+  const auto full = std::count_if(predictions.begin(), predictions.end(),
+                                  [](const predict::Prediction& p) { return p.is_run; });
+  if (full > 0)
+    counts_ += dot + fmt::format("{} of {} tiles at full resolution", full, predictions.size());
   if (named_.tile_label == "none") named_.tile_label = "differences";
+}
+
+void SheetMaker::show_full_runs(const store::Manifest& manifest) {
+  const std::vector<std::optional<store::RunResult>> full = store::full_results(folder_, manifest);
+  for (const store::Variant& variant : manifest.variants) {
+    const std::size_t place = variant.of / static_cast<std::size_t>(manifest.seeds);
+    if (!variant.is_full() || !full[place]) continue;
+    manifest_.runs[place].folder = variant.run.folder;
+    results_[place] = *full[place];
+  }
 }
 
 render::Image SheetMaker::tile_picture(const Tile& tile, int width, int height,
@@ -192,7 +209,19 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
 }
 
 void SheetMaker::add_seal(const SheetLayout& layout, const Tile& tile, render::Frame& words) const {
-  if (seals_.of_points.empty() || manifest_.tile_label == "none") return;
+  if (seals_.of_points.empty()) return;
+  const auto size = static_cast<float>(layout.font_size);
+  if (seals_.of_points[manifest_.place_of(*tile.run)].is_run) {
+    constexpr const char* words_of_run = "full resolution";
+    const float width = width_of({words_of_run}) * size + size,
+                right = static_cast<float>(tile.x + layout.tile_width);
+    const auto& c = group_colours.front();
+    words.patches.push_back(
+        {right - width, static_cast<float>(tile.y), width, 1.6f * size, {c[0], c[1], c[2], 255}});
+    words.notes.push_back({right - 0.5f * width, static_cast<float>(tile.y) + 0.25f * size,
+                           words_of_run, render::Note::Anchor::middle, width, false, bright});
+  }
+  if (manifest_.tile_label == "none") return;
   draw_seal(seals_.of_points[manifest_.place_of(*tile.run)], seals_.is_noise,
             {static_cast<float>(tile.x), static_cast<float>(tile.y),
              static_cast<float>(layout.tile_width), static_cast<float>(layout.tile_height),
@@ -271,7 +300,7 @@ render::Image SheetMaker::strips_of(const std::vector<int>& frames, std::size_t 
                                     const SheetLayout& layout) {
   render::Frame words = frame_of(
       layout,
-      (seals_.of_points.empty() ? "moments of every run" : "moments of every point, first seed") +
+      (manifest_.seeds == 1 ? "moments of every run" : "moments of every point, first seed") +
           std::string(dot) + counts_);
   std::vector<render::Tile> pictures;
   for (const SheetTile& place : layout.tiles) {
@@ -302,6 +331,7 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames, std::size
                                        std::size_t count) const {
   store::Manifest grid = head_;
   grid.apart = 1;
+  grid.variants.clear();
   grid.columns = 1;
   grid.rows = 0;
   grid.tile_width = std::max(160, manifest_.tile_width * 2 / 3);

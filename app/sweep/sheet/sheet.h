@@ -16,9 +16,11 @@ namespace neve::app::sweep::sheet {
 class SheetMaker {
  public:
   /// With seeds, each point has one tile: its first run.
+  /// @param predictions  of the points; none without --predict
   /// @param legends shared by all tiles; they and the renderer must outlive it
   SheetMaker(std::filesystem::path folder, const store::Manifest& manifest,
              const std::vector<store::RunResult>& results,
+             const std::vector<predict::Prediction>& predictions,
              const std::vector<render::Legend>& legends, render::Renderer& renderer);
 
   /// Every run of a page at a frame. A run that got less far shows where it stopped, dark, and says
@@ -39,6 +41,8 @@ class SheetMaker {
     int x, y;  ///< px
   };
 
+  /// Tiles of points that were made at full resolution show that run.
+  void show_full_runs(const store::Manifest& manifest);
   render::Image compose(const SheetLayout& layout, const std::vector<Tile>& tiles,
                         render::Frame& words) const;
   render::Image tile_picture(const Tile& tile, int width, int height, bool is_late) const;

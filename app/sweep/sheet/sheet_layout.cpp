@@ -140,7 +140,7 @@ class Layouter {
     out_.width = column_x(columns_ - 1) + out_.tile_width + margin() + legend;
     // A title needs room too.
     out_.width = std::max(out_.width, 26 * out_.font_size);
-    out_.key = m_.apart > 1 ? 3 * out_.font_size : 0;
+    out_.key = m_.apart > 1 || !m_.variants.empty() ? 3 * out_.font_size : 0;
     out_.height = bottom_ + margin() + out_.key;
     return out_;
   }

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <exception>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/record/run_json.h"
+#include "app/scene/coarsen.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
@@ -113,6 +115,26 @@ Run run_of(const Json& json) {
                                          [](char c) { return c >= '0' && c <= '9'; });
   if (!is_plain) throw std::runtime_error("the folder of a run is not a number");
   return run;
+}
+
+Json variant_json(const Variant& variant) {
+  Json json = {{"of", variant.of}, {"coarsen", variant.coarsening}};
+  if (variant.failure.empty())
+    json["run"] = run_json(variant.run);
+  else
+    json["failure"] = variant.failure;
+  return json;
+}
+
+Variant variant_of(const Json& json) {
+  Variant variant;
+  variant.of = whole_number<std::size_t>(json.at("of"));
+  variant.coarsening = json.at("coarsen").get<double>();
+  if (json.contains("failure"))
+    variant.failure = json.at("failure").get<std::string>();
+  else
+    variant.run = run_of(json.at("run"));
+  return variant;
 }
 
 std::vector<std::string> axis_addresses(const read::Sweep& sweep) {
@@ -221,6 +243,17 @@ void check_values(const Manifest& m) {
     check(run.index == static_cast<int>(k), "its runs are not numbered in order");
     check_run(m, run);
   }
+  check(m.variants.size() <= max_runs, "it has too many variants");
+  for (std::size_t k = 0; k < m.variants.size(); ++k) {
+    const Variant& variant = m.variants[k];
+    check(variant.of < m.runs.size() && variant.of % static_cast<std::size_t>(m.seeds) == 0,
+          "a variant is of no point");
+    check(variant.coarsening >= 1 && variant.coarsening <= 1e6, "the cells of a variant are wrong");
+    if (!variant.failure.empty()) continue;
+    check(variant.run.index == static_cast<int>(m.runs.size() + k),
+          "its variants are not numbered in order");
+    check_run(m, variant.run);
+  }
 }
 
 }  // namespace
@@ -238,6 +271,27 @@ run::RenderOptions Beginning::fork_of(const Run& branch, const std::string& fold
   for (const std::vector<scene::Override>* settings : {&run.settings, &branch.settings})
     for (const std::string& text : scene::texts_of(*settings)) options.overrides.push_back(text);
   return options;
+}
+
+const Run* Manifest::run_of(int index) const {
+  if (index < 0) return nullptr;
+  const auto place = static_cast<std::size_t>(index);
+  if (place < runs.size()) return &runs[place];
+  if (place >= runs.size() + variants.size()) return nullptr;
+  const Variant& variant = variants[place - runs.size()];
+  return variant.failure.empty() ? &variant.run : nullptr;
+}
+
+int Manifest::last_index() const {
+  return static_cast<int>(runs.size() + variants.size()) - 1;
+}
+
+std::vector<int> Manifest::with_variants(std::vector<int> indices) const {
+  const std::set<int> chosen(indices.begin(), indices.end());
+  for (const Variant& variant : variants)
+    if (variant.failure.empty() && chosen.contains(static_cast<int>(variant.of)))
+      indices.push_back(variant.run.index);
+  return indices;
 }
 
 int Manifest::first_frame() const {
@@ -289,6 +343,15 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
     run.key = keys[k];
     run.inherited = inherited_values(plan.runs[k], m.parameters);
   }
+  for (std::size_t k = 0; k < plan.variants.size(); ++k) {
+    const plan::PlannedVariant& planned = plan.variants[k];
+    Variant& variant = m.variants.emplace_back();
+    variant = {planned.item.run, planned.of, planned.coarsening, planned.failure};
+    variant.run.key = keys[plan.runs.size() + k];
+    variant.run.folder = folders[plan.runs.size() + k];
+  }
+  m.coarsened = scene::coarsened_words(plan.base, plan.coarsening);
+  if (m.coarsened.starts_with(", ")) m.coarsened.erase(0, 2);
   m.keeps_states = plan.keeps_states;
   if (!plan.beginning) return m;
   m.beginning = {plan.fork, plan.beginning->run, plan.source ? plan.source->scene_file : ""};
@@ -357,6 +420,8 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   json["seeds"] = m.seeds;
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
+  for (const Variant& variant : m.variants) json["variants"].push_back(variant_json(variant));
+  if (!m.coarsened.empty()) json["coarsened"] = m.coarsened;
   output::write_file(manifest_path(folder), record::with_own_hash(json));
 }
 
@@ -409,6 +474,9 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
       m.beginning = {json.at("beginning").at("time").get<double>(),
                      run_of(json.at("beginning").at("run")),
                      json.at("beginning").value("source", "")};
+    for (const Json& variant : json.value("variants", Json::array()))
+      m.variants.push_back(variant_of(variant));
+    m.coarsened = json.value("coarsened", "");
     m.seeds = whole_number_or(json, "seeds", 1);
     m.keeps_states = json.value("keeps_states", false);
     m.seconds_per_work = json.value("seconds_per_work", 0.0);

@@ -35,6 +35,17 @@ struct Beginning {
   run::RenderOptions fork_of(const Run& branch, const std::string& folder) const;
 };
 
+/// A point once more, with cells of another size: a coarse copy by which it is predicted, or its
+/// run at full resolution.
+struct Variant {
+  Run run;  ///< its number follows those of the sweep's runs; its folder is one of theirs
+  std::size_t of = 0;  ///< the first run of the point
+  double coarsening = 1;
+  std::string failure;  ///< why there can be none, a sentence; the run is empty then
+
+  bool is_full() const { return coarsening == 1 && failure.empty(); }
+};
+
 struct Manifest {
   std::string sources;  ///< of the program, see Build; "" in files of before they had it
   std::string version, name, title, sweep_file, scene_file, view;
@@ -53,6 +64,8 @@ struct Manifest {
   /// Addresses of all axes, for any method; sorted. Nothing in files of before they had it.
   std::optional<std::vector<std::string>> varied;
   std::vector<Run> runs;
+  std::vector<Variant> variants{};
+  std::string coarsened{};  ///< "coarsened 2x, thresholds for cells of 0.02 m"; "" of other sweeps
   /// Runs of each point, which follow each other and differ in their seed alone.
   int seeds = 1;
   /// From the number of a run to that of the next one: more than 1 where some runs of each point
@@ -63,11 +76,17 @@ struct Manifest {
   std::optional<Beginning> beginning{};
   bool keeps_states = false;  ///< of drawn frames
 
+  /// The run of a number, a variant's too; null: there is none.
+  const Run* run_of(int index) const;
+  int last_index() const;
+  /// These runs, and the variants of their points.
+  std::vector<int> with_variants(std::vector<int> indices) const;
+
   int first_frame() const;
   int last_frame() const;
 };
 
-/// @param keys of the runs @param folders theirs
+/// @param keys  of the runs, then of the variants @param folders  theirs
 Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::string>& keys,
                        const std::vector<std::string>& folders);
 

@@ -23,6 +23,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Runs, then variants; null in the place of one that cannot be.
+std::vector<const plan::PlannedRun*> all_of(const plan::SweepPlan& plan) {
+  std::vector<const plan::PlannedRun*> all;
+  for (const plan::PlannedRun& item : plan.runs) all.push_back(&item);
+  for (const plan::PlannedVariant& variant : plan.variants)
+    all.push_back(variant.failure.empty() ? &variant.item : nullptr);
+  return all;
+}
+
 /// A finished run of the same simulation that is no run of the sweep any more: its drawing was
 /// another. One with kept states where there is any; null if there is none.
 const KnownRun* other_drawing(const std::vector<KnownRun>& known, const std::string& simulation,
@@ -39,7 +48,9 @@ const KnownRun* other_drawing(const std::vector<KnownRun>& known, const std::str
 
 /// Each run's folder: the one that has its key, or states of its simulation, or that of its number,
 /// or a new number.
+/// @param items  see all_of()
 std::vector<std::string> assign_folders(const plan::SweepPlan& plan,
+                                        const std::vector<const plan::PlannedRun*>& items,
                                         const std::vector<std::string>& keys, Redrawn* redrawn) {
   const std::vector<KnownRun> known = known_runs(plan.folder);
   const std::set<std::string> wanted(keys.begin(), keys.end());
@@ -52,10 +63,10 @@ std::vector<std::string> assign_folders(const plan::SweepPlan& plan,
   std::vector<std::string> folders;
   int next = 0;
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    if (!folder_of.contains(keys[k])) {
+    if (items[k] && !folder_of.contains(keys[k])) {
       std::string folder = run_folder_name(static_cast<int>(k));
       const KnownRun* other =
-          other_drawing(known, simulation_key_of(plan, plan.runs[k]), wanted, used);
+          other_drawing(known, simulation_key_of(plan, *items[k]), wanted, used);
       if (other) used.insert(other->folder);
       if (other && redrawn) ++(other->has_states ? redrawn->from_states : redrawn->made_again);
       if (other && other->has_states)
@@ -65,7 +76,7 @@ std::vector<std::string> assign_folders(const plan::SweepPlan& plan,
       taken.insert(folder);
       folder_of[keys[k]] = folder;
     }
-    folders.push_back(folder_of[keys[k]]);
+    folders.push_back(items[k] ? folder_of[keys[k]] : "");
   }
   return folders;
 }
@@ -147,12 +158,14 @@ std::string simulation_key_of(const plan::SweepPlan& plan, const plan::PlannedRu
 Manifest prepare_sweep(const plan::SweepPlan& plan, Redrawn* redrawn) {
   output::make_own_folder(runs_folder(plan.folder));
   std::vector<std::string> keys;
-  for (const plan::PlannedRun& item : plan.runs) keys.push_back(key_of(plan, item));
-  const std::vector<std::string> folders = assign_folders(plan, keys, redrawn);
+  const std::vector<const plan::PlannedRun*> items = all_of(plan);
+  for (const plan::PlannedRun* item : items) keys.push_back(item ? key_of(plan, *item) : "");
+  const std::vector<std::string> folders = assign_folders(plan, items, keys, redrawn);
   const Manifest manifest = make_manifest(plan, keys, folders);
-  for (std::size_t k = 0; k < plan.runs.size(); ++k)
-    write_run(runs_folder(plan.folder) / folders[k],
-              {text_of_run(plan, plan.runs[k]), keys[k], simulation_key_of(plan, plan.runs[k])});
+  for (std::size_t k = 0; k < items.size(); ++k)
+    if (items[k])
+      write_run(runs_folder(plan.folder) / folders[k],
+                {text_of_run(plan, *items[k]), keys[k], simulation_key_of(plan, *items[k])});
   if (plan.beginning)
     write_run(beginning_folder(plan.folder),
               {scene::write_scene(plan.beginning->scene), key_of_beginning(plan),

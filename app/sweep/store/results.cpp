@@ -139,8 +139,11 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   else if (result.status.key == run.key)
     result.flaws = flaws_of_run(folder, run, result.status);
   result.metrics = metrics_of(frames, result.status, notes.diverged_at);
-  if (!frames.empty() && is_whole(run, result))
-    result.has_broken = record::has_broken(frames.front().metrics, frames.back().metrics);
+  if (!frames.empty() && is_whole(run, result)) {
+    const record::Metrics &first = frames.front().metrics, &last = frames.back().metrics;
+    result.has_broken = record::has_broken(first, last);
+    if (first.largest_fragment > 0) result.whole = last.largest_fragment / first.largest_fragment;
+  }
   return result;
 }
 

@@ -30,6 +30,7 @@ struct RunResult {
   std::string flaws{};  ///< see flaws_of_run
   /// Of a run that got to its last frame, against its first picture; see record::has_broken.
   std::optional<bool> has_broken{};
+  std::optional<double> whole{};  ///< its largest piece as a share of that of its first picture
 
   std::optional<int> last_frame() const {
     return frames.empty() ? std::nullopt : std::optional(frames.back());

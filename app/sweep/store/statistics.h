@@ -13,6 +13,8 @@ struct Summary {
   std::size_t count = 0;
   double mean = 0, min = 0, max = 0;
   double variance = 0;  ///< of the values, with count - 1; 0 of less than two
+  /// min to max is an interval that holds the value four times in five, and mean is expected.
+  bool is_interval = false;
 };
 
 Summary summary_of(const std::vector<double>& values);
@@ -28,7 +30,8 @@ double t_tail(double t, double freedom);
 double f_tail(double f, double between, double within);
 
 /// True if the means differ by more than noise: Welch's interval of their difference, at a
-/// confidence of 1 - doubt, does not hold 0. False of points with less than two values.
+/// confidence of 1 - doubt, does not hold 0; of two intervals, if they do not overlap. False of
+/// points with less than two values.
 /// Source: B. L. Welch 1947, The generalization of "Student's" problem.
 bool differ(const Summary& a, const Summary& b);
 

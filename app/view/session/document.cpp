@@ -101,7 +101,7 @@ Document::Document(std::string file, std::string text, std::vector<scene::Overri
       text_(std::move(text)),
       overrides_(std::move(overrides)),
       coarsening_(coarsening) {
-  scene_ = read(text_, {});
+  scene_ = read(text_, {}, &set_by_coarsening_);
   scene::Scene placed = *scene_;
   setup::resolve(placed, particle_count(placed));
   camera_ = placed.camera;
@@ -117,10 +117,12 @@ std::vector<scene::Override> Document::with(const std::vector<scene::Override>& 
 }
 
 std::shared_ptr<const scene::Scene> Document::read(
-    const std::string& text, const std::vector<scene::Override>& edits) const {
+    const std::string& text, const std::vector<scene::Override>& edits,
+    std::vector<std::string>* set_by_coarsening) const {
   scene::Scene scene = scene::read_scene_text(text, file_, scene::base_dir_of(file_), with(edits));
   scene::place_in_world(scene, file_);
-  if (coarsening_ > 1) scene::coarsen(scene, coarsening_);
+  std::vector<std::string> set = scene::coarsen(scene, std::max(1.0, coarsening_));
+  if (set_by_coarsening) *set_by_coarsening = std::move(set);
   add_built_in_views(scene);
   if (camera_) {
     if (!scene.camera) scene.camera = camera_;
@@ -136,7 +138,7 @@ std::shared_ptr<const scene::Scene> Document::read(
 }
 
 void Document::become(std::vector<scene::Override> edits) {
-  scene_ = read(text_, edits);  // throws before anything has changed
+  scene_ = read(text_, edits, &set_by_coarsening_);  // throws before anything has changed
   edits_ = std::move(edits);
 }
 
@@ -283,7 +285,7 @@ std::optional<std::string> Document::default_of(const std::string& address) cons
 }
 
 void Document::reload(std::string text) {
-  scene_ = read(text, edits_);
+  scene_ = read(text, edits_, &set_by_coarsening_);
   text_ = std::move(text);
 }
 

@@ -43,6 +43,8 @@ class Document {
   const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
   const std::vector<scene::Override>& command_line() const { return overrides_; }
   double coarsening() const { return coarsening_; }
+  /// What --coarsen sets in the scene beside lengths and times, as --set would.
+  const std::vector<std::string>& set_by_coarsening() const { return set_by_coarsening_; }
   /// The overrides of the command line, then the edits.
   std::vector<scene::Override> all_overrides() const { return with(edits_); }
 
@@ -87,8 +89,10 @@ class Document {
 
  private:
   std::vector<scene::Override> with(const std::vector<scene::Override>& edits) const;
-  std::shared_ptr<const scene::Scene> read(const std::string& text,
-                                           const std::vector<scene::Override>& edits) const;
+  /// @param set_by_coarsening  takes what --coarsen sets; null: it is not asked for
+  std::shared_ptr<const scene::Scene> read(
+      const std::string& text, const std::vector<scene::Override>& edits,
+      std::vector<std::string>* set_by_coarsening = nullptr) const;
   std::optional<std::string> in_preset(const scene::toml::Table& root,
                                        const std::string& address) const;
   void put_object(std::vector<scene::Override>& edits, const std::string& address,
@@ -99,6 +103,7 @@ class Document {
   std::string file_, text_;
   std::vector<scene::Override> overrides_;
   double coarsening_;
+  std::vector<std::string> set_by_coarsening_;
   std::vector<scene::Override> edits_;
   std::vector<std::vector<scene::Override>> done_, undone_;
   std::uint64_t gesture_ = 0;

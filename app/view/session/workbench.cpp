@@ -106,6 +106,7 @@ SessionOptions Workbench::session_options() const {
 
 std::vector<std::string> Workbench::overrides() const {
   std::vector<std::string> all = options_.overrides;
+  all.insert(all.end(), document_.set_by_coarsening().begin(), document_.set_by_coarsening().end());
   for (const scene::Override& edit : at_start_)
     if (effect_of(edit.address) != Effect::display) all.push_back(edit.address + "=" + edit.value);
   return all;

@@ -489,7 +489,7 @@ function startScatter() {
     drawScatterWords(pen, box);
     drawScatterBrush(pen, box);
     drawScatterPoints(pen, box);
-    if (hasSeeds) drawScatterWhiskers(pen, box);
+    if (columns[scatter.x].points || columns[scatter.y].points) drawScatterWhiskers(pen, box);
   });
   addPainter(drawing.element, ['run', 'hover', 'scatter', 'size', 'theme'], () => drawScatterLit(drawing));
   const nearest = ({x, y}) => nearestDrawn(at => {
@@ -633,7 +633,7 @@ function heatTip(cell) {
   const lines = [cell.runs.length === 1 ? rows[cell.runs[0]].name : cell.runs.length + ' runs'];
   if (cell.count > 0)
     lines.push(columns[state.colour].title + ' ' + columns[state.colour].scale.text(cell.sum / cell.count));
-  if (hasSeeds && cell.runs.length <= seeds) lines.push(pointText(columns[state.colour], cell.runs[0]));
+  if (cell.runs.length <= seeds) lines.push(pointText(columns[state.colour], cell.runs[0]));
   if (cell.failed > 0) lines.push(cell.failed === 1 ? '1 failed' : cell.failed + ' failed');
   return lines.join('\n');
 }

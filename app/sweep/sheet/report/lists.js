@@ -55,11 +55,12 @@ function makeTile(row) {
   const text = tileText(row), note = row.state === 'ok' ? '' : row.state + (text ? '; ' : '');
   const tile = make('button', {type: 'button', className: 'tile ' + kindOf(row), title: noteOf(row)},
     make('img', {alt: '', decoding: 'async'}),
+    ...row.full ? [make('span', {className: 'full', textContent: 'full resolution'})] : [],
     make('span', {}, markOf(row), make('b', {textContent: `${row.run}: ${note}${text}`})));
   tile.dataset.at = row.at;
   tile.dataset.run = row.run;
   tile.setAttribute('aria-label', `${row.name}, ${row.state}, ${text}`);
-  if (hasSeeds) sealTile(tile, row);
+  if (hasSeals) sealTile(tile, row);
   return tile;
 }
 
@@ -81,8 +82,10 @@ function sealTile(tile, row) {
 /** Explains the marks on the tiles. */
 function sealHint() {
   const column = columns[state.colour];
-  if (!hasSeeds || !column || !column.points) return '';
-  const start = `Whisker: ${column.title} over ${seeds} seeds, from min to max, with the mean. `;
+  if (!column || !column.points) return '';
+  const start = isPredicted(column)
+    ? `Whisker: ${column.title}, expected at full resolution, with the interval that holds four times in five. `
+    : `Whisker: ${column.title} over ${seeds} seeds, from min to max, with the mean. `;
   return start + (column.isNoise ? 'It is noise here: all tiles are too close to call.'
     : 'Tiles that share a letter are too close to call; they share a colour where they share a rank.');
 }
@@ -92,13 +95,13 @@ function tileLayout(width) {
   const fits = across > 1 && across <= most + 2 && width / across >= 120;
   const count = fits ? across : Math.min(most, Math.max(rows.length / seeds, 2));
   const side = Math.min(320, Math.floor(width / count));
-  return {count, side, height: Math.round(side * study.tile[1] / study.tile[0]) + (hasSeeds ? 82 : 40)};
+  return {count, side, height: Math.round(side * study.tile[1] / study.tile[0]) + (hasSeals ? 82 : 40)};
 }
 
 function startTiles() {
   const element = by('tiles'), room = by('tiles-room'), box = watchBox(element, 12), tiles = new Map();
   const paint = parts => {
-    if (hasSeeds && parts.has('colour')) {
+    if (hasSeals && parts.has('colour')) {
       for (const tile of tiles.values()) tile.remove();
       tiles.clear();
       by('seal-hint').textContent = sealHint();
@@ -136,7 +139,7 @@ function startTiles() {
     tile.classList.toggle('here', at === state.run);
     tile.classList.toggle('lit', at === state.hover);
   });
-  addPainter(element, ['brush', 'sort', 'size', 'scroll', ...hasSeeds ? ['draw', 'colour'] : []], paint);
+  addPainter(element, ['brush', 'sort', 'size', 'scroll', ...hasSeals ? ['draw', 'colour'] : []], paint);
   addPainter(element, ['run', 'hover'], markTiles);
   // A moment is drawn in the sheet when the slider rests: twenty pictures take longer than one.
   let rest = 0;
@@ -211,6 +214,7 @@ function makeTableRow(row) {
     const cell = make('td', {className: column.text ? 'text' : '', textContent: pointText(column, row.at) || cellText(row, c)});
     cell.classList.toggle('noise', Boolean(column.isNoise));
     if (column.kind === 'state') cell.prepend(markOf(row));
+    if (column.kind === 'prediction') cell.title = row.why;
     if (column.kind === 'reason') cell.title = cell.textContent;
     if (column.kind === 'warnings' && row.warnings.length > 0) {
       cell.title = row.warnings.join('\n');
@@ -232,6 +236,9 @@ function startTable() {
     by('table-hint').textContent = `A metric has its mean over ${seeds} seeds, from min to max, and its letters: ` +
       'points that share one are too close to call, and sorting by ranks keeps their order.';
   }
+  if (study.predicts)
+    by('table-hint').textContent += ' Columns called full have what coarse copies forecast for full resolution, or what the run there gave, ' +
+      'with intervals that hold four times in five; those that share a letter are too close to call.';
   const body = make('tbody'), box = watchBox(element);
   const above = make('tr', {className: 'room'}, make('td', {colSpan: columns.length + 1}));
   const below = above.cloneNode(true);

@@ -1,6 +1,9 @@
 // ---- points of several seeds: which differences are larger than noise -------------------------------
 /** Runs of each point; they follow each other and differ in their seed alone. */
 const seeds = study.seeds, hasSeeds = seeds > 1;
+/** Tiles say how often the snow breaks, or what is predicted for full resolution. */
+const hasSeals = hasSeeds || study.predicts;
+const isPredicted = column => Boolean(column) && column.help.startsWith('full_');
 const pointOf = at => Math.floor(at / seeds);
 const drawOf = at => at % seeds;
 /** The axis of the seeds, -1 without. */
@@ -14,8 +17,8 @@ for (const own of study.noise || []) {
 const titleOf = column => column.title + (column.isNoise ? ': noise here' : '');
 const noiseWords = 'noise here: the points differ by no more than runs with other seeds';
 
-/** Mean, min and max of a metric at the point of a run; nothing without seeds, or where no run tells. */
-const summaryOf = (column, at) => hasSeeds && column.points ? column.points[pointOf(at)] : null;
+/** Mean, min and max of a metric at the point of a run; nothing where it has none, or no run tells. */
+const summaryOf = (column, at) => column.points ? column.points[pointOf(at)] : null;
 
 /** Two points that share a group are too close to call; false where one of them has no value. */
 function isClose(column, a, b) {
@@ -34,14 +37,14 @@ function pointText(column, at) {
 /** "breaks in 1 of 4: here" */
 function outcomeText(at) {
   const outcome = study.outcomes[pointOf(at)], {broken} = rows[at];
-  if (!outcome.undecided || broken === null) return outcome.text;
+  if (study.predicts || !outcome.undecided || broken === null) return outcome.text;
   return outcome.text + (broken ? ': here' : ': not here');
 }
 
 /** The place from 0 to 1 that gives a run its colour: points that share a rank share it. */
 function colourPlace(column, at) {
   const s = summaryOf(column, at);
-  if (!hasSeeds || column.kind !== 'metric') return column.places[at];
+  if (!column.points) return column.places[at];
   return s && column.isDrawn && !column.isNoise ? column.scale.at(s.shared) : NaN;
 }
 
@@ -77,8 +80,8 @@ const rankOf = (column, at) => { const s = summaryOf(column, at); return s ? -s.
 
 /** "They differ in spread. Too close to call: height." of two runs. */
 function differenceText(a, b) {
-  if (!hasSeeds) return '';
-  if (pointOf(a) === pointOf(b)) return ' One point with two seeds: the difference is noise.';
+  if (!hasSeals) return '';
+  if (hasSeeds && pointOf(a) === pointOf(b)) return ' One point with two seeds: the difference is noise.';
   const told = measured.filter(c => summaryOf(c, a) && summaryOf(c, b) && !c.isNoise);
   const names = list => list.map(c => c.title).join(', ');
   const close = told.filter(c => isClose(c, a, b)), apart = told.filter(c => !isClose(c, a, b));

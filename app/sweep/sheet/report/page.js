@@ -136,7 +136,7 @@ function sortRuns() {
   const {column, way} = state.sort;
   if (column < 0) return;
   // A difference within noise is no reason for an order.
-  const isRanked = hasSeeds && columns[column].points;
+  const isRanked = columns[column].points;
   const cell = at => isRanked ? columns[column].isNoise ? null : rankOf(columns[column], at)
                               : rows[at].cells[column];
   state.kept.sort((a, b) => {

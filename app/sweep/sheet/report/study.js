@@ -51,7 +51,10 @@ function makeScale(c) {
   }
   const good = rows.filter(row => row.state === 'ok').map(row => row.cells[c]).filter(isGiven);
   const isMeasured = columns[c].kind === 'metric' && good.length > 0;
-  const [low, high] = extent(isMeasured ? good : values);
+  // Intervals of predictions reach beyond the values.
+  const own = (study.noise || []).find(noise => columns[c].kind === 'metric' && noise.metric === columns[c].help);
+  const ends = own ? own.points.flatMap(point => point ? [point.min, point.max] : []) : [];
+  const [low, high] = extent(isMeasured ? [...good, ...ends] : values);
   const isLog = low > 0 && high > 20 * low;
   const to = isLog ? Math.log : x => x, from = isLog ? Math.exp : x => x;
   const a = to(low), width = to(high) - a;

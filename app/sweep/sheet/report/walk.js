@@ -235,7 +235,8 @@ function linkRow(label, command) {
 }
 
 function noteOf(row) {
-  return [row.state === 'ok' ? '' : row.state + (row.reason ? ': ' + row.reason : ''), ...row.warnings]
+  return [row.state === 'ok' ? '' : row.state + (row.reason ? ': ' + row.reason : ''),
+          row.why ? outcomeText(row.at) + (row.full ? '' : ' (' + row.why + ')') : '', ...row.warnings]
     .filter(text => text).join('\n');
 }
 

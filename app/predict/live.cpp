@@ -1,0 +1,80 @@
+#include "app/predict/live.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/health/check.h"
+#include "app/scene/coarsen.h"
+#include "app/scene/override.h"
+#include "app/scene/read.h"
+#include "app/setup/plan.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+
+namespace neve::app::predict {
+
+namespace {
+
+/// Coarser snow shows little of the film.
+constexpr double max_coarsening = 6;
+
+scene::Scene coarse_scene(scene::Scene scene, double coarsening) {
+  scene::coarsen(scene, coarsening);
+  return scene;
+}
+
+/// The next quarter that a pace asks for: a run costs as the fourth power of its cells.
+double coarser(double coarsening, double pace) {
+  const double wanted = coarsening * std::pow(pace / LiveChoice::room, 0.25);
+  return std::min(max_coarsening, std::max(coarsening + 0.25, std::ceil(4 * wanted) / 4));
+}
+
+}  // namespace
+
+std::string LiveChoice::sentence() const {
+  std::string settings = fast ? "--fast" : "";
+  if (coarsening > 1)
+    settings += fmt::format("{}--coarsen {}", settings.empty() ? "" : " ", rough_text(coarsening));
+  return fmt::format("{}: a second of the film takes about {} s on this machine{}",
+                     settings.empty() ? "the scene as it is" : settings, rough_text(pace),
+                     keeps_up() ? "" : "; it does not keep up with the clock");
+}
+
+Pace measured_pace(int threads) {
+  return [threads](const scene::Scene& scene) {
+    const setup::Plan plan =
+        setup::make_plan(scene, {0, scene::last_frame(scene)}, setup::Quality::preview, threads);
+    return health::examine(scene, plan, threads).seconds().expected / scene::duration(scene);
+  };
+}
+
+LiveChoice choose_live(const scene::Scene& scene, int last, const std::vector<std::string>& chosen,
+                       const Pace& pace) {
+  // Three trials come within a quarter of what the fourth power says; each takes seconds.
+  constexpr int max_trials = 3;
+  LiveChoice choice;
+  choice.pace = pace(scene);
+  if (choice.pace <= LiveChoice::room) return choice;
+  scene::Scene faster = scene;
+  forecast::FastLook look = forecast::fast_look(scene, last, chosen);
+  if (!look.overrides.empty()) {
+    faster = scene::apply(scene, scene::parse_overrides(look.overrides));
+    if (look.work && look.work_before) choice.pace *= *look.work / *look.work_before;
+    choice.fast = std::move(look);
+  }
+  for (int trial = 0; trial < max_trials && choice.pace > LiveChoice::room; ++trial) {
+    const double next = coarser(choice.coarsening, choice.pace);
+    if (next <= choice.coarsening) break;
+    try {
+      choice.pace = pace(coarse_scene(faster, next));
+    } catch (const UsageError&) {
+      break;  // a body would have no particle
+    }
+    choice.coarsening = next;
+  }
+  return choice;
+}
+
+}  // namespace neve::app::predict

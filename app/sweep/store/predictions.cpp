@@ -1,0 +1,153 @@
+#include "app/sweep/store/predictions.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "app/support/text.h"
+
+namespace neve::app::sweep::store {
+
+namespace {
+
+/// Why a copy has no end; "" of one that has.
+std::string failure_of(const Run& run, const RunResult& result) {
+  if (is_whole(run, result)) return "";
+  if (result.status.state == RunState::diverged) return "it diverged";
+  if (has_failed(result.status.state)) return result.status.reason;
+  return "it has not been made yet";
+}
+
+predict::Copy copy_of(const std::filesystem::path& folder, const Manifest& manifest,
+                      const Variant& variant) {
+  predict::Copy copy;
+  copy.coarsening = variant.coarsening;
+  copy.seed = number_of<std::uint64_t>(variant.run.setting("seed")).value_or(0);
+  const RunResult result = read_result(folder, variant.run, manifest.view);
+  copy.failure = failure_of(variant.run, result);
+  if (!copy.failure.empty()) return copy;
+  copy.has_broken = result.has_broken;
+  copy.whole = result.whole.value_or(1);
+  for (int q = 0; q < predict::quantity_count; ++q) {
+    const auto quantity = static_cast<predict::Quantity>(q);
+    const std::optional<double> value = result.metrics[metric_of(quantity)];
+    copy.values[q] = value.value_or(0);
+  }
+  return copy;
+}
+
+/// The run itself, as an interval without width.
+predict::Prediction prediction_of(const RunResult& full) {
+  predict::Prediction known = predict::silent("it has no snow at the start");
+  known.is_run = true;
+  if (!full.has_broken) return known;
+  known.verdict = *full.has_broken ? predict::Verdict::breaks : predict::Verdict::holds;
+  known.reason = "the run at full resolution";
+  for (int q = 0; q < predict::quantity_count; ++q) {
+    const auto quantity = static_cast<predict::Quantity>(q);
+    const double value = full.metrics[metric_of(quantity)].value_or(0);
+    known.estimates.push_back({quantity, value, value, value});
+  }
+  return known;
+}
+
+/// What the copies of a point say. @param point  its first run
+predict::Prediction judge_copies(const std::filesystem::path& folder, const Manifest& manifest,
+                                 std::size_t point) {
+  std::vector<predict::Copy> copies;
+  for (const Variant& variant : manifest.variants) {
+    if (variant.of != point || variant.is_full()) continue;
+    if (!variant.failure.empty()) return predict::silent(variant.failure);
+    copies.push_back(copy_of(folder, manifest, variant));
+  }
+  return copies.size() < 2 ? predict::silent("") : predict::judge(std::move(copies));
+}
+
+}  // namespace
+
+std::size_t metric_of(predict::Quantity quantity) {
+  const std::string_view name = predict::info_of(quantity).name;
+  const std::vector<MetricInfo>& infos = metric_infos();
+  const auto found = std::find_if(infos.begin(), infos.end(),
+                                  [&](const MetricInfo& info) { return name == info.name; });
+  return static_cast<std::size_t>(found - infos.begin());
+}
+
+std::vector<std::optional<RunResult>> full_results(const std::filesystem::path& folder,
+                                                   const Manifest& manifest) {
+  std::vector<std::optional<RunResult>> full;
+  for (const Variant& variant : manifest.variants) {
+    if (!variant.is_full()) continue;
+    full.resize(manifest.runs.size() / static_cast<std::size_t>(manifest.seeds));
+    RunResult result = read_result(folder, variant.run, manifest.view);
+    if (is_whole(variant.run, result))
+      full[variant.of / static_cast<std::size_t>(manifest.seeds)] = std::move(result);
+  }
+  return full;
+}
+
+std::vector<predict::Prediction> predictions_of(const std::filesystem::path& folder,
+                                                const Manifest& manifest) {
+  std::vector<predict::Prediction> predictions;
+  if (manifest.variants.empty()) return predictions;
+  const std::vector<std::optional<RunResult>> full = full_results(folder, manifest);
+  const auto seeds = static_cast<std::size_t>(manifest.seeds);
+  for (std::size_t k = 0; k < manifest.runs.size() / seeds; ++k)
+    predictions.push_back(!full.empty() && full[k] ? prediction_of(*full[k])
+                                                   : judge_copies(folder, manifest, k * seeds));
+  return predictions;
+}
+
+std::vector<Summary> summaries_of(const std::vector<predict::Prediction>& predictions,
+                                  predict::Quantity quantity) {
+  std::vector<Summary> summaries;
+  for (const predict::Prediction& prediction : predictions) {
+    Summary& summary = summaries.emplace_back();
+    if (prediction.estimates.empty()) continue;
+    const predict::Estimate& e = prediction.estimates[static_cast<std::size_t>(quantity)];
+    summary = {.count = std::max<std::size_t>(1, prediction.copies.size()),
+               .mean = e.expected,
+               .min = e.low,
+               .max = e.high,
+               .is_interval = true};
+  }
+  return summaries;
+}
+
+std::optional<predict::Quantity> telling_quantity(
+    const std::vector<predict::Prediction>& predictions) {
+  for (int q = 0; q < predict::quantity_count; ++q) {
+    const std::vector<Summary> points =
+        summaries_of(predictions, static_cast<predict::Quantity>(q));
+    for (const Summary& a : points)
+      for (const Summary& b : points)
+        if (a.count > 0 && b.count > 0 && differ(a, b)) return static_cast<predict::Quantity>(q);
+  }
+  return std::nullopt;
+}
+
+std::string prediction_line(const std::vector<predict::Prediction>& predictions) {
+  using predict::Verdict;
+  std::string text;
+  for (const bool is_run : {true, false}) {
+    std::string counts;
+    std::size_t points = 0;
+    for (const Verdict verdict :
+         {Verdict::breaks, Verdict::holds, Verdict::undecided, Verdict::cannot_say}) {
+      const auto count = std::count_if(predictions.begin(), predictions.end(), [&](const auto& p) {
+        return p.is_run == is_run && p.verdict == verdict && !p.reason.empty();
+      });
+      if (count == 0) continue;
+      points += static_cast<std::size_t>(count);
+      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", predict::name(verdict), count);
+    }
+    if (points == 0) continue;
+    text += fmt::format("{}{} {} {}: {}", text.empty() ? "at full resolution, " : "; ",
+                        is_run ? "by runs of" : "by coarse copies of", points,
+                        points == 1 ? "point" : "points", counts);
+  }
+  return text;
+}
+
+}  // namespace neve::app::sweep::store

@@ -1,0 +1,39 @@
+#pragma once
+/// What is known of the points of a coarse sweep at full resolution: by coarse copies, or by runs
+/// that were made.
+
+#include <filesystem>
+#include <vector>
+
+#include "app/predict/predict.h"
+#include "app/sweep/store/manifest.h"
+#include "app/sweep/store/results.h"
+#include "app/sweep/store/statistics.h"
+
+namespace neve::app::sweep::store {
+
+/// The results of the runs at full resolution that have ended, one place for each point; empty for
+/// a sweep without --refine.
+std::vector<std::optional<RunResult>> full_results(const std::filesystem::path& folder,
+                                                   const Manifest& manifest);
+
+/// One for each point: its run at full resolution where it has one, otherwise what its copies say;
+/// none of a sweep without --predict and --refine.
+std::vector<predict::Prediction> predictions_of(const std::filesystem::path& folder,
+                                                const Manifest& manifest);
+
+/// A quantity of all points, as intervals; without values where copies cannot say.
+std::vector<Summary> summaries_of(const std::vector<predict::Prediction>& predictions,
+                                  predict::Quantity quantity);
+
+/// The metric that a quantity is, of metric_infos().
+std::size_t metric_of(predict::Quantity quantity);
+
+/// The first quantity that tells some points apart; nothing if none does.
+std::optional<predict::Quantity> telling_quantity(
+    const std::vector<predict::Prediction>& predictions);
+
+/// How many points break, hold, are undecided, a sentence; "" without predictions.
+std::string prediction_line(const std::vector<predict::Prediction>& predictions);
+
+}  // namespace neve::app::sweep::store
