@@ -19,6 +19,7 @@
 #include "app/support/json.h"
 #include "app/support/printable_stream.h"
 #include "app/support/version.h"
+#include "app/sweep/store/promote.h"
 #include "sim/kernels/simd.h"
 
 namespace neve::app::cli {
@@ -152,29 +153,31 @@ Entry program() {
       "", "neve simulates snow and draws it, as pictures and movies or live in a window.");
   static bool is_version_asked_for = false;
   made.command("--version", is_version_asked_for, "Print the version");
-  made.parts = {entry(describe_new, run_new),
-                entry<run::RenderOptions>(run::describe, run_render),
-                entry(describe_check, run_check),
-                entry<card::CardOptions>(card::describe, card::run),
-                entry(describe_dump, run_dump),
-                entry(describe_export, run_export),
-                entry(describe_strip, run_strip_command),
-                entry(describe_doctor, run_doctor),
-                entry(describe_info, run_info),
-                entry(describe_verify, run_verify),
-                entry(describe_params, run_params),
-                entry(describe_schema, run_schema),
-                entry(describe_compare, run_compare),
-                entry<sweep::plan::SweepOptions>(
-                    sweep::plan::describe, run_sweep,
-                    {entry<sweep::plan::SweepRunOptions>(sweep::plan::describe, run_sweep_run),
-                     entry<sweep::plan::CollectOptions>(sweep::plan::describe, run_sweep_collect)}),
-                entry(describe_pick, run_pick),
-                entry(describe_view, run_view),
-                bench_entry(),
-                entry(describe_manual, print_manual),
-                entry(describe_version, print_version),
-                entry(describe_help, print_help)};
+  made.parts = {
+      entry(describe_new, run_new),
+      entry<run::RenderOptions>(run::describe, run_render),
+      entry(describe_check, run_check),
+      entry<card::CardOptions>(card::describe, card::run),
+      entry(describe_dump, run_dump),
+      entry(describe_export, run_export),
+      entry(describe_strip, run_strip_command),
+      entry(describe_doctor, run_doctor),
+      entry(describe_info, run_info),
+      entry(describe_verify, run_verify),
+      entry(describe_params, run_params),
+      entry(describe_schema, run_schema),
+      entry(describe_compare, run_compare),
+      entry<sweep::plan::SweepOptions>(
+          sweep::plan::describe, run_sweep,
+          {entry<sweep::plan::SweepRunOptions>(sweep::plan::describe, run_sweep_run),
+           entry<sweep::plan::CollectOptions>(sweep::plan::describe, run_sweep_collect),
+           entry<sweep::store::PromoteOptions>(sweep::store::describe, sweep::store::run_promote)}),
+      entry(describe_pick, run_pick),
+      entry(describe_view, run_view),
+      bench_entry(),
+      entry(describe_manual, print_manual),
+      entry(describe_version, print_version),
+      entry(describe_help, print_help)};
   return made;
 }
 

@@ -298,6 +298,40 @@ TEST_F(SweepCli, RunsAreRepeatedByTheirSceneFileBitForBit) {
   EXPECT_EQ(a["frames"][2]["state_hash"], b["frames"][2]["state_hash"]);
 }
 
+/// From a coarse, fast tile to the scene that makes it in its own resolution, as it was written.
+TEST_F(SweepCli, ATileBecomesASceneOfItsOwn) {
+  folder.write("scene.toml", "# mine\n" + std::string(tiny_scene) +
+                                 "[material.snow]\nhardening = 10  # first guess\n");
+  ASSERT_EQ(neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,7", "--set", "seed=3",
+                  "--coarsen", "1.5", "--fast", "--frames", "1", "--quiet"})
+                .exit_code,
+            0);
+  const auto made = neve({"sweep", "promote", "out/scene.cdb", "1"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_TRUE(contains(made.output, "neve render scene_1.toml")) << made.output;
+  const std::string text = read_text(folder / "scene_1.toml");
+  EXPECT_TRUE(text.starts_with("# Run 1 of out/scene.cdb: material.snow.hardening = 7.\n# mine\n"))
+      << text;
+  EXPECT_TRUE(contains(text, "hardening = 7  # first guess")) << text;
+  EXPECT_FALSE(contains(text, "acoustic_cfl")) << "that was --fast";
+  ASSERT_EQ(neve({"render", "scene_1.toml", "--frames", "1", "--out", "a", "--quiet"}).exit_code,
+            0);
+  ASSERT_EQ(neve({"render", "scene.toml", "--set", "material.snow.hardening=7", "--set", "seed=3",
+                  "--frames", "1", "--out", "b", "--quiet"})
+                .exit_code,
+            0);
+  EXPECT_EQ(neve({"compare", "a", "b"}).exit_code, 0) << "the same run to the bit";
+  // Nothing that a person wrote since is lost, and a scene that changed is told.
+  EXPECT_EQ(neve({"sweep", "promote", "out/scene.cdb", "1"}).exit_code, 0) << "the same again";
+  folder.write("scene_1.toml", "mine");
+  EXPECT_EQ(neve({"sweep", "promote", "out/scene.cdb", "1"}).exit_code, 2);
+  folder.write("scene.toml", "# other\n" + std::string(tiny_scene));
+  const auto later = neve({"sweep", "promote", "out/scene.cdb", "0", "--out", "shots/shot.toml"});
+  EXPECT_EQ(later.exit_code, 0) << later.errors;
+  EXPECT_TRUE(contains(later.errors, "has changed since the sweep")) << later.errors;
+  EXPECT_EQ(neve({"sweep", "promote", "out/scene.cdb", "2"}).exit_code, 2);
+}
+
 TEST_F(SweepCli, AllRunsAreSeenAlike) {
   folder.write("look.toml", std::string(small_sweep) +
                                 "[set]\n\"view.particles.particles.color_by\" = \"speed\"\n");

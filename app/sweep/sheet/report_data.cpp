@@ -9,6 +9,7 @@
 #include "app/support/text.h"
 #include "app/sweep/sheet/seals.h"
 #include "app/sweep/store/points.h"
+#include "app/sweep/store/promote.h"
 
 namespace neve::app::sweep::sheet {
 
@@ -134,6 +135,16 @@ std::string again_command(const std::string& folder, const store::Manifest& mani
   return options::shell_line(options::words_of(options));
 }
 
+/// A branch has no scene of its own.
+std::string promote_command(const std::string& folder, const store::Manifest& manifest,
+                            const Run& run) {
+  if (manifest.beginning) return "";
+  store::PromoteOptions options;
+  options.folder = folder;
+  options.run = run.index;
+  return options::shell_line(options::words_of(options));
+}
+
 /// A run of the sweep, and what else is known of its point.
 struct Known {
   const predict::Prediction* prediction = nullptr;  ///< of its point; null without
@@ -159,6 +170,7 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
           // Digits need no quotes either: the page puts the name of the frame in.
           {"viewFrame", "neve view " + options::shell_path(folder + "/" + pictures + "FRAME.png")},
           {"again", again_command(folder, manifest, shown)},
+          {"promote", promote_command(folder, manifest, run)},
           {"texts", written_values(manifest, run)},
           {"full", known.full != nullptr},
           {"why", prediction ? prediction->reason : ""},

@@ -13,11 +13,13 @@
 #include "app/record/run_json.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
 #include "app/sweep/read/sweep_leaf.h"
 #include "app/sweep/store/prepare.h"
 #include "app/sweep/store/store.h"
+#include "sim/base/hash.h"
 
 namespace neve::app::sweep::store {
 
@@ -353,6 +355,11 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   m.coarsened = scene::coarsened_words(plan.base, plan.coarsening);
   if (m.coarsened.starts_with(", ")) m.coarsened.erase(0, 2);
   m.keeps_states = plan.keeps_states;
+  m.fixed = plan.sweep.fixed;
+  if (plan.fast) m.fixed.resize(m.fixed.size() - plan.fast->overrides.size());
+  std::error_code error;
+  if (std::filesystem::is_regular_file(m.scene_file, error))
+    m.scene_hash = hash_of_scene(scene::read_toml_file(m.scene_file));
   if (!plan.beginning) return m;
   m.beginning = {plan.fork, plan.beginning->run, plan.source ? plan.source->scene_file : ""};
   m.beginning->run.key = key_of_beginning(plan);
@@ -380,6 +387,10 @@ std::size_t outdated_runs(const std::filesystem::path& folder) {
         const RunStatus status = read_status(runs_folder(folder) / run.folder);
         return status.key == run.key && is_finished(status.state);
       }));
+}
+
+std::string hash_of_scene(const std::string& text) {
+  return fmt::format("{:016x}", hash_bytes(text.data(), text.size()));
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
@@ -418,6 +429,8 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   json["keeps_states"] = m.keeps_states;
   json["seconds_per_work"] = m.seconds_per_work;
   json["seeds"] = m.seeds;
+  json["set"] = pairs_json(m.fixed);
+  json["scene_hash"] = m.scene_hash;
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
   for (const Variant& variant : m.variants) json["variants"].push_back(variant_json(variant));
@@ -468,6 +481,8 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
       m.screened.push_back({axis.at("name").get<std::string>(),
                             {},
                             axis.at("addresses").get<std::vector<std::string>>()});
+    if (json.contains("set")) m.fixed = settings_of(json.at("set"));
+    m.scene_hash = json.value("scene_hash", "");
     if (json.contains("varied")) m.varied = json.at("varied").get<std::vector<std::string>>();
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
     if (json.contains("beginning"))

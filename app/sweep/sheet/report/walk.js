@@ -279,6 +279,7 @@ function startFacts() {
   addPainter(null, ['run', 'mode', 'frame'], () => {
     const row = rows[state.mode === 'one' ? state.run : runAt('b')], frame = frameOf(row, state.frame);
     const links = [linkRow('again', row.again)];
+    if (row.promote) links.push(linkRow('as a shot', row.promote));
     if (frame !== undefined) {
       const name = String(frame).padStart(4, '0') + '.png';
       links.unshift(linkRow('this frame', row.viewFrame.replace('FRAME.png', name)));
