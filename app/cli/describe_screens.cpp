@@ -125,8 +125,11 @@ void describe_pick(Command& visit, PickCommand& o) {
   visit("--frames", runs.frames, options::frames(),
         "Frames of each run: A-B, or N for all up to N");
   visit("--size", runs.size, options::size(), "Size of a tile; default: 480 pixels wide");
+  sweep::plan::describe_tiles(visit, runs);
   visit("--coarsen", runs.coarsening, options::coarsening(),
         "Make cells N times as large in all tiles; the picked scene keeps its cell_size");
+  visit("--fast", runs.is_fast,
+        "Take longer steps in all tiles for a quick look; the picked scene keeps its own");
   visit("--refine", o.pick.refines,
         "With --coarsen N: at the end make the pick at full resolution as well, and show both "
         "beside each other in "

@@ -298,6 +298,25 @@ TEST_F(SweepCli, RunsAreRepeatedByTheirSceneFileBitForBit) {
   EXPECT_EQ(a["frames"][2]["state_hash"], b["frames"][2]["state_hash"]);
 }
 
+TEST_F(SweepCli, TilesShowTheViewAndTheQualityThatAreAskedFor) {
+  const auto sweep = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sweep", "scene.toml", "-p",     "seed=1,2", "--frames", "0",
+                                   "--out", "s",          "--size", "160x90",   "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
+  };
+  const auto plain = sweep({"--view", "smoke"});
+  ASSERT_EQ(plain.exit_code, 0) << plain.errors;
+  const std::string quick = read_text(folder / "s/runs/0000/smoke/0000.png");
+  ASSERT_EQ(sweep({"--view", "smoke", "--quality", "final"}).exit_code, 0);
+  const app::Json manifest = json_of("s/manifest.json");
+  EXPECT_EQ(manifest["quality"], "final");
+  const std::string run = manifest["runs"][0]["folder"].get<std::string>();
+  EXPECT_NE(read_text(folder / "s/runs" / run / "smoke/0000.png"), quick) << "four samples a pixel";
+  EXPECT_TRUE(contains(sweep({"--quality", "draft"}).errors, "give --size"));
+  EXPECT_EQ(sweep({"--view", "smok"}).exit_code, 2);
+}
+
 /// From a coarse, fast tile to the scene that makes it in its own resolution, as it was written.
 TEST_F(SweepCli, ATileBecomesASceneOfItsOwn) {
   folder.write("scene.toml", "# mine\n" + std::string(tiny_scene) +

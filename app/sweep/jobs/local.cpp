@@ -346,6 +346,7 @@ class LocalJobs {
     options.verbosity = Verbosity::quiet;
     options.resume = resumes;
     options.keeps_states = manifest_.keeps_states;
+    if (manifest_.quality != setup::Quality::preview) options.quality = manifest_.quality;
     return options::words_of(options);
   }
 

@@ -28,6 +28,13 @@ options::Language<double> budget() {
           [](const double& seconds) { return scene::toml::number_text(seconds) + "s"; }};
 }
 
+setup::Quality tile_quality(const std::string& name) {
+  if (name == setup::name(setup::Quality::draft))
+    throw UsageError("--quality", "tiles are as small as they are asked for",
+                     "give --size 240x135 for smaller ones; expected preview or final");
+  return setup::quality_named(name);
+}
+
 int read_seeds(const std::string& flag, const std::string& text) {
   const std::optional<double> number = finite_number(text);
   if (!number || *number != std::floor(*number) || *number < 0)
@@ -99,6 +106,7 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
         "Keep the state of each drawn frame: tiles of another size, view, colour or camera are "
         "then drawn without simulating; --dry-run says how much disk space the states take");
   visit("--size", o.size, options::size(), "Size of a tile; default: 480 pixels wide");
+  describe_tiles(visit, o);
   visit("--coarsen", o.coarsening, options::coarsening(),
         "Make cells N times as large in all runs");
   visit(
@@ -187,6 +195,16 @@ void describe_folder(options::Command& visit, Options& o) {
 }
 
 }  // namespace
+
+void describe_tiles(options::Command& visit, SweepOptions& o) {
+  visit("--view", o.view, options::text("NAME", "smoke"),
+        "View on the tiles; default: that of the sweep file, else the scene's first");
+  visit("--quality", o.quality,
+        options::language("NAME", "final", tile_quality,
+                          [](setup::Quality quality) { return setup::name(quality); }),
+        "preview: one sample per pixel (default); final: four, without steps at edges, and motion "
+        "blur");
+}
 
 options::Language<int> seeds() {
   return {"N", "4", read_seeds, [](const int& seeds) { return std::to_string(seeds); }};

@@ -24,6 +24,8 @@ struct SweepOptions {
   int seeds = 0;                           ///< runs of each point; 0: those of the file
   bool keeps_states = false;               ///< of drawn frames, to draw them again
   std::optional<scene::PictureSize> size;  ///< of a tile
+  std::string view;                        ///< on the tiles; "": that of the file
+  setup::Quality quality = setup::Quality::preview;
   std::optional<double> coarsening;
   bool is_fast = false;         ///< with the settings of forecast::fast_look
   bool predicts = false;        ///< each point at full resolution, by further copies
@@ -75,6 +77,9 @@ struct CollectOptions {
   Verbosity verbosity = Verbosity::normal;
   ProgressOptions progress{};
 };
+
+/// What tiles show and how well.
+void describe_tiles(options::Command& visit, SweepOptions& options);
 
 /// The number of runs of a point.
 options::Language<int> seeds();

@@ -43,7 +43,9 @@ scene::PictureSize tile_size(const SweepOptions& options, const read::Sweep& swe
   return {tile_width, std::clamp(static_cast<int>(height), 64, 4096)};
 }
 
-scene::View chosen_view(const read::Sweep& sweep, const scene::Scene& scene) {
+scene::View chosen_view(const SweepOptions& options, const read::Sweep& sweep,
+                        const scene::Scene& scene) {
+  if (!options.view.empty()) return scene::find_view(scene, options.view);
   if (sweep.sheet.view.empty()) return scene.views.front();
   try {
     return scene::find_view(scene, sweep.sheet.view);
@@ -55,7 +57,7 @@ scene::View chosen_view(const read::Sweep& sweep, const scene::Scene& scene) {
 
 /// One view, as large as a tile, without the words that the sheet has once.
 void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::Scene& scene) {
-  scene::View view = chosen_view(sweep, scene);
+  scene::View view = chosen_view(options, sweep, scene);
   scene.size = tile_size(options, sweep, scene, view);
   view.size.reset();
   std::erase(view.layers, scene::Layer::legend);
@@ -182,9 +184,9 @@ std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& 
   }
 }
 
-PlannedRun planned(Run run, scene::Scene scene) {
+PlannedRun planned(Run run, scene::Scene scene, setup::Quality quality) {
   const setup::Plan needs =
-      setup::make_plan(scene, setup::frames_of(scene, run.frames), setup::Quality::preview, 1);
+      setup::make_plan(scene, setup::frames_of(scene, run.frames), quality, 1);
   run.particles = needs.particles;
   run.memory = static_cast<double>(needs.memory + program_memory);
   run.work = forecast::work_at_rest(scene, needs);
@@ -239,7 +241,8 @@ int axis_called(const read::Sweep& sweep, const char* key, const std::string& wa
 }
 
 /// The coarse copies by which a point is predicted. @throws UsageError where one cannot be
-std::vector<PlannedVariant> copies_of(const SceneMaker& maker, const PlannedRun& point) {
+std::vector<PlannedVariant> copies_of(const SceneMaker& maker, const PlannedRun& point,
+                                      setup::Quality quality) {
   const scene::Scene full = maker.make_full(point.run.settings);
   if (const std::string why = predict::why_not(full); !why.empty()) throw UsageError("", why);
   std::vector<PlannedVariant> copies;
@@ -255,7 +258,7 @@ std::vector<PlannedVariant> copies_of(const SceneMaker& maker, const PlannedRun&
       run.frames = {scene::number_of(scene, 0), point.run.frames.last};
       maker.prepare(scene);
       copies.push_back({static_cast<std::size_t>(point.run.index), plan.coarsening,
-                        planned(std::move(run), std::move(scene)), ""});
+                        planned(std::move(run), std::move(scene), quality), ""});
     }
   return copies;
 }
@@ -265,7 +268,7 @@ void plan_copies(const SceneMaker& maker, SweepPlan& plan) {
   for (std::size_t k = 0; k < plan.runs.size(); k += seeds) {
     std::vector<PlannedVariant> copies;
     try {
-      copies = copies_of(maker, plan.runs[k]);
+      copies = copies_of(maker, plan.runs[k], plan.quality);
     } catch (const UsageError& error) {
       copies = {{k, 1, {}, error.what()}};
     }
@@ -287,7 +290,8 @@ void share_beginning(double time, SweepPlan& plan) {
   const int start = scene::number_of(plan.base, 0), number = start + frame;
   beginning.frames = {number, number};
   if (plan.source) beginning.settings = plan.sweep.fixed;
-  plan.beginning = planned(std::move(beginning), plan.source ? plan.source->scene : plan.base);
+  plan.beginning =
+      planned(std::move(beginning), plan.source ? plan.source->scene : plan.base, plan.quality);
   for (PlannedRun& item : plan.runs) {
     timeline::require_live(plan.base, item.scene, flag);
     setup::FrameRange& frames = item.run.frames;
@@ -308,6 +312,7 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   if (options.from) plan.source = source_job(options);
   plan.sweep = sweep_of(options, plan.source);
   plan.keeps_states = options.keeps_states || plan.sweep.settings.keep_states;
+  plan.quality = options.quality;
   if (plan.source) prepare_view(options, plan.sweep, plan.source->scene);
   refuse_two_frames(options, plan.sweep);
   plan.folder =
@@ -330,7 +335,7 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   for (Run& run : runs) {
     scene::Scene scene = maker.make(run.settings);
     run.frames = setup::numbers_of(scene, frames_of(options, plan.sweep, scene));
-    plan.runs.push_back(planned(std::move(run), std::move(scene)));
+    plan.runs.push_back(planned(std::move(run), std::move(scene), plan.quality));
   }
   plan.coarsening = options.coarsening.value_or(1);
   if (options.predicts) plan_copies(maker, plan);
@@ -354,7 +359,7 @@ void add_full_runs(const SweepOptions& options, const std::vector<std::size_t>& 
     run.label = fmt::format("run {} at full resolution", coarse.index);
     run.settings = coarse.settings;
     run.frames = coarse.frames;
-    PlannedVariant full{point, 1, planned(std::move(run), std::move(scene)), ""};
+    PlannedVariant full{point, 1, planned(std::move(run), std::move(scene), plan.quality), ""};
     full.item.run.index = static_cast<int>(plan.runs.size() + plan.variants.size());
     plan.variants.push_back(std::move(full));
   }

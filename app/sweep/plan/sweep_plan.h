@@ -53,6 +53,7 @@ struct SweepPlan {
   /// The run or picture in which the beginning is found; without it is simulated from the start.
   std::optional<run::RenderJob> source;
   bool keeps_states = false;
+  setup::Quality quality = setup::Quality::preview;
   int columns = -1, rows = -1;  ///< axes of the sheet that were asked for; -1: automatic
   double fork = 0;              ///< s, the time of the fork
   std::optional<forecast::FastLook>

@@ -132,6 +132,7 @@ std::string again_command(const std::string& folder, const store::Manifest& mani
   if (manifest.beginning) options = manifest.beginning->fork_of(run, folder);
   options.frames = run.frames;
   options.out = "again/" + run.folder;
+  if (manifest.quality != setup::Quality::preview) options.quality = manifest.quality;
   return options::shell_line(options::words_of(options));
 }
 

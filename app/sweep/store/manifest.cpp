@@ -355,6 +355,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   m.coarsened = scene::coarsened_words(plan.base, plan.coarsening);
   if (m.coarsened.starts_with(", ")) m.coarsened.erase(0, 2);
   m.keeps_states = plan.keeps_states;
+  m.quality = plan.quality;
   m.fixed = plan.sweep.fixed;
   if (plan.fast) m.fixed.resize(m.fixed.size() - plan.fast->overrides.size());
   std::error_code error;
@@ -427,6 +428,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
                          {"run", run_json(m.beginning->run)},
                          {"source", m.beginning->source}};
   json["keeps_states"] = m.keeps_states;
+  json["quality"] = setup::name(m.quality);
   json["seconds_per_work"] = m.seconds_per_work;
   json["seeds"] = m.seeds;
   json["set"] = pairs_json(m.fixed);
@@ -494,6 +496,7 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     m.coarsened = json.value("coarsened", "");
     m.seeds = whole_number_or(json, "seeds", 1);
     m.keeps_states = json.value("keeps_states", false);
+    m.quality = setup::quality_named(json.value("quality", setup::name(m.quality)));
     m.seconds_per_work = json.value("seconds_per_work", 0.0);
     check_values(m);
   } catch (const std::exception& error) {

@@ -75,6 +75,7 @@ struct Manifest {
   double seconds_per_work = 0;  ///< s of one thread, by the forecast; 0: not known
   std::optional<Beginning> beginning{};
   bool keeps_states = false;  ///< of drawn frames
+  setup::Quality quality = setup::Quality::preview;
   /// What all runs change in the scene, beside --coarsen and --fast.
   std::vector<scene::Override> fixed{};
   std::string scene_hash{};  ///< of the text of the scene; "" where it is not a file

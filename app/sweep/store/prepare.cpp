@@ -142,9 +142,11 @@ std::string key_of_beginning(const plan::SweepPlan& plan) {
 }
 
 std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
-  if (!plan.beginning) return key_of(item);
-  return record::hash_of(
-      fmt::format("{}\nfrom {} of {}", key_of(item), plan.fork, key_of_beginning(plan)));
+  std::string text = key_of(item);
+  if (plan.quality != setup::Quality::preview)
+    text += fmt::format("\nquality {}", setup::name(plan.quality));
+  if (plan.beginning) text += fmt::format("\nfrom {} of {}", plan.fork, key_of_beginning(plan));
+  return text == key_of(item) ? text : record::hash_of(text);
 }
 
 std::string simulation_key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
