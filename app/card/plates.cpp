@@ -108,7 +108,7 @@ void Plates::show() {
     plate.shape.form = sim::shapes::Box{at, {1.7 * side, thickness, 1.7 * side}};
   }
   const Vec3d middle{side / 2, height / 2, side / 2};
-  look(seen, middle + Vec3d(0.27, 0.11, 0.52), middle);
+  look(seen, middle + Vec3d(0.3, 0.125, 0.58), middle);
   card::show(*simulation_, std::move(seen), experiment_);
 }
 

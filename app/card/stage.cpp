@@ -1,16 +1,19 @@
 #include "app/card/stage.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
+#include "app/support/text.h"
 
 namespace neve::app::card {
 
 namespace {
 
-/// An experiment that takes more steps is stopped, and shows what it has seen.
-constexpr std::size_t max_steps = 20000;
+/// Steps times particles, some seconds: an experiment that takes more is stopped, and shows what it
+/// has seen.
+constexpr std::size_t max_work = 80'000'000;
 
 }  // namespace
 
@@ -54,6 +57,7 @@ sim::Simulation simulation_of(const scene::Scene& stage) {
 
 bool advance(sim::Simulation& simulation, double time, Experiment& experiment,
              sim::AdvanceReport* report) {
+  const std::size_t max_steps = max_work / std::max<std::size_t>(1, simulation.particle_count());
   const sim::AdvanceReport made = simulation.advance_to(
       time, [] { return is_interrupted(); }, max_steps);
   if (report) *report = made;
@@ -61,7 +65,7 @@ bool advance(sim::Simulation& simulation, double time, Experiment& experiment,
   if (simulation.divergence())
     experiment.failure = "it diverged by the rule " + simulation.divergence()->rule;
   else if (simulation.time() < time)
-    experiment.failure = "it ended after " + std::to_string(max_steps) + " steps";
+    experiment.failure = "stiff: stopped after " + rough_text(simulation.time()) + " s";
   return experiment.failure.empty();
 }
 
