@@ -25,10 +25,9 @@ scene::Scene coarse_scene(scene::Scene scene, double coarsening) {
   return scene;
 }
 
-/// The next quarter that a pace asks for: a run costs as the fourth power of its cells.
-double coarser(double coarsening, double pace) {
-  const double wanted = coarsening * std::pow(pace / LiveChoice::room, 0.25);
-  return std::min(max_coarsening, std::max(coarsening + 0.25, std::ceil(4 * wanted) / 4));
+/// The cells, in quarters, that a pace asks for: a run costs as the fourth power of its cells.
+double wanted_cells(double coarsening, double pace) {
+  return std::ceil(4 * coarsening * std::pow(pace / LiveChoice::room, 0.25)) / 4;
 }
 
 }  // namespace
@@ -52,8 +51,9 @@ Pace measured_pace(int threads) {
 
 LiveChoice choose_live(const scene::Scene& scene, int last, const std::vector<std::string>& chosen,
                        const Pace& pace) {
-  // Three trials come within a quarter of what the fourth power says; each takes seconds.
-  constexpr int max_trials = 3;
+  // Each takes seconds; the fourth power needs few of them.
+  constexpr int max_trials = 4;
+  constexpr double step = 0.25;
   LiveChoice choice;
   choice.pace = pace(scene);
   if (choice.pace <= LiveChoice::room) return choice;
@@ -64,17 +64,24 @@ LiveChoice choose_live(const scene::Scene& scene, int last, const std::vector<st
     if (look.work && look.work_before) choice.pace *= *look.work / *look.work_before;
     choice.fast = std::move(look);
   }
+  // Known to be too slow, and to keep up.
+  double slow = 1, quick = max_coarsening + step;
+  LiveChoice tried = choice, best = choice;
   for (int trial = 0; trial < max_trials && choice.pace > LiveChoice::room; ++trial) {
-    const double next = coarser(choice.coarsening, choice.pace);
-    if (next <= choice.coarsening) break;
+    const double next = std::clamp(wanted_cells(tried.coarsening, tried.pace), slow + step,
+                                   std::max(slow + step, quick - step));
+    if (next >= quick || next > max_coarsening) break;
     try {
-      choice.pace = pace(coarse_scene(faster, next));
+      tried.pace = pace(coarse_scene(faster, next));
     } catch (const UsageError&) {
-      break;  // a body would have no particle
+      quick = next;  // a body would have no particle
+      continue;
     }
-    choice.coarsening = next;
+    tried.coarsening = next;
+    (tried.pace <= LiveChoice::room ? quick : slow) = next;
+    if (tried.pace <= LiveChoice::room || next > best.coarsening) best = tried;
   }
-  return choice;
+  return best;
 }
 
 }  // namespace neve::app::predict

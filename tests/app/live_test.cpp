@@ -40,11 +40,18 @@ TEST(Live, CellsGrowUntilTheClockIsMetAndNoFurther) {
   EXPECT_TRUE(choice.keeps_up());
   EXPECT_LE(choice.pace, LiveChoice::room);
   EXPECT_GT(choice.coarsening, 1);
-  // A quarter finer would not do: 20 s and what --fast gains, at the fourth power.
-  const double gain =
-      choice.fast && choice.fast->work ? *choice.fast->work / *choice.fast->work_before : 1;
-  EXPECT_GT(gain * 20 * std::pow(choice.coarsening - 0.5, -4), LiveChoice::room);
+  EXPECT_GT(machine(20)(ball()) * std::pow(choice.coarsening - 0.25, -4), LiveChoice::room)
+      << "a quarter finer would not do";
   EXPECT_NE(choice.sentence().find("--coarsen "), std::string::npos) << choice.sentence();
+}
+
+TEST(Live, AFirstMeasureThatWasTooSlowMakesNoCoarserSnow) {
+  int looks = 0;
+  const Pace busy_at_first = [&](const scene::Scene& scene) {
+    return (looks++ == 0 ? 20 : 1) * machine(20)(scene);
+  };
+  EXPECT_EQ(choose_live(ball(), 2, {}, busy_at_first).coarsening,
+            choose_live(ball(), 2, {}, machine(20)).coarsening);
 }
 
 TEST(Live, WhatCannotKeepUpIsSaid) {
