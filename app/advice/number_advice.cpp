@@ -27,6 +27,9 @@ std::string advice_on_spelling(double value, std::string_view text, std::string_
   if (written == "%") return "as a share of 1 it is " + rough_text(0.01 * value);
   if (written == "k" || written == "K") return "write it out: " + rough_text(1e3 * value);
   if (written == "M") return "write it out: " + rough_text(1e6 * value);
+  if (written.starts_with('/'))
+    if (const auto divisor = number_of(written.substr(1)); divisor && *divisor != 0)
+      return "nothing is computed in a value: write " + rough_text(value / *divisor);
   std::string spelt(text);
   const std::size_t power = spelt.find("10^");
   if (power != std::string::npos && spelt.find_first_of("*x") != std::string::npos)
@@ -71,6 +74,8 @@ std::string vector_advice(const scene::toml::Value& value, const std::string& ad
   }
   // [0, 0,12, 0]
   const auto* items = std::get_if<scene::toml::Array>(&value.data);
+  if (items && items->size() == 4 && address.ends_with("rotation"))
+    return "three angles in degrees, about x, y and z: quaternions are not read";
   if (items && items->size() > 3 && items->size() <= 6)
     return "decimals have a point, as in 0.12, and commas are between the numbers";
   // One number of a gravity or a velocity is meant along y, and gravity down.

@@ -31,6 +31,18 @@ std::string nearest_filter(const std::string& filter, const std::vector<scene::P
   return advice::nearest_name(filter, names);
 }
 
+/// Of "how do I make it sticky" the words that a wish has, of "motion blur" what its flag is; "".
+std::string advice_on_sentence(const std::string& filter) {
+  std::string flag = "--" + filter;
+  std::replace(flag.begin(), flag.end(), ' ', '-');
+  for (const advice::Entry& entry : advice::entries_of("flag"))
+    if (entry.has(flag) && !entry.sentence.empty()) return entry.sentence;
+  std::vector<std::string> found;
+  for (const std::string& word : advice::words_in(filter))
+    if (word.size() > 3 && !advice::wishes_for(word).empty()) found.push_back(word);
+  return found.empty() ? "" : "one word finds more: neve params " + joined(found, ", neve params ");
+}
+
 [[noreturn]] void fail_unfound(const std::string& what, const std::string& filter,
                                const std::string& nearest, const std::string& otherwise) {
   throw UsageError("params", what + " \"" + filter + "\"",
@@ -64,6 +76,9 @@ int run_params(const ParamsOptions& options) {
   const scene::Search search(options.filter);
   std::erase_if(
       list, [&](const scene::ParamInfo& info) { return !search.finds(info.address, info.help); });
+  const std::string sentence = list.empty() ? advice_on_sentence(options.filter) : "";
+  if (list.empty() && !sentence.empty())
+    throw UsageError("params", "no parameter is called \"" + options.filter + "\"", sentence);
   if (list.empty())
     fail_unfound("no parameter has this in its address or description:", options.filter, nearest,
                  "neve params lists all of them");

@@ -174,7 +174,7 @@ void note_cover(const sim::shapes::Shape& shape, double mass, const std::string&
   const double volume = sim::shapes::volume(shape);
   findings.push_back(
       {Severity::note, address + ".shape.cover",
-       fmt::format("{} lies {} m deep on {} m2 of the map: {} m3, {} kg", name,
+       fmt::format("{} lies {} m deep on {} m2 seen from above: {} m3, {} kg", name,
                    rough_text(cover->depth), rough_text(volume / cover->depth), rough_text(volume),
                    rough_text(mass)),
        "depth is vertical; across a slope it is depth times the cosine of its angle"});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 
 #include "app/output/atomic_file.h"
@@ -15,9 +16,25 @@ namespace neve::app::pick {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// A parameter has one range. @param axes "ADDRESS=LOW,HIGH"
+void refuse_repeated(const std::vector<std::string>& axes) {
+  std::set<std::string> seen;
+  for (const std::string& axis : axes) {
+    const std::string address = axis.substr(0, axis.find('='));
+    if (!seen.insert(address).second)
+      throw UsageError("-p " + axis, address + " is given twice",
+                       "give its two ends once, as in -p " + address + "=LOW,HIGH");
+  }
+}
+
+}  // namespace
+
 Game::Game(const PickOptions& options) : options_(options) {
   std::vector<std::string> axes;
   for (const std::string& axis : options.runs.axes) axes.push_back(with_two_ends(axis));
+  refuse_repeated(options.runs.axes);
   const sweep::read::Sweep sweep =
       sweep::read::read_sweep(options.runs.file, {axes, options.runs.overrides});
   if (!sweep.file.empty())

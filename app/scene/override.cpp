@@ -5,6 +5,7 @@
 
 #include "app/advice/suggest.h"
 #include "app/scene/leaf.h"
+#include "app/scene/names.h"
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
 #include "app/scene/toml/error.h"
@@ -90,7 +91,22 @@ std::string address_of_nearest_name(const std::string& word, const Path& known) 
   return at == names.end() ? "" : known[static_cast<std::size_t>(at - names.begin())];
 }
 
+/// "material.snow" holds others: "it is a table: ..."; "" of what is none.
+std::string advice_on_table(const Override& change, const Path& known) {
+  const std::string below = change.address + ".";
+  const auto inside = std::find_if(known.begin(), known.end(), [&](const std::string& address) {
+    return address.starts_with(below);
+  });
+  if (inside == known.end()) return {};
+  const std::string preset = below + "preset";
+  const bool is_preset = is_preset_address(preset) && value_named<Preset>(change.value);
+  return "it is a table: set one of its parameters, as in " +
+         (is_preset ? preset + "=" + change.value : *inside + "=...");
+}
+
 [[noreturn]] void fail_unknown(const Override& change, const Path& known) {
+  if (const std::string table = advice_on_table(change, known); !table.empty())
+    change.fail(change.key, change.address + " is not a parameter", table);
   // "hardening" alone: say where it is. "solver.hardening", "outptu.size", "solver.hardness": the
   // word is right, its table is another.
   const std::string word = last_word(change.address);
@@ -101,9 +117,9 @@ std::string address_of_nearest_name(const std::string& word, const Path& known) 
   if (nearest.empty()) nearest = our_address(word, known);
   if (nearest.empty()) nearest = advice::nearest_name(change.address, known);
   if (nearest.empty() && word == change.address) nearest = address_of_nearest_name(word, known);
-  change.fail(
-      change.key, "unknown parameter " + toml::toml_string(change.address),
-      nearest.empty() ? "neve params lists all of them" : advice::did_you_mean(nearest, true));
+  std::string hint = nearest.empty() ? "" : advice::did_you_mean(nearest, true);
+  if (hint.empty()) hint = advice::suggest(word, {"key", {}}, "neve params lists all of them");
+  change.fail(change.key, "unknown parameter " + toml::toml_string(change.address), hint);
 }
 
 /// Entries without names are set together: "camera.keyframes" for "camera.keyframes[N].time".

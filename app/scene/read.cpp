@@ -90,10 +90,17 @@ bool is_in_mosaic(const toml::Table& root, const std::string& name) {
 }
 
 /// The views that the scene has, or the one that is drawn when it has none; and built-in ones that
-/// a --set or a mosaic speaks of.
+/// a --set or a mosaic speaks of. Where a mosaic does, nothing else need be drawn.
 void add_views(toml::Table& root, const std::vector<Override>& overrides) {
+  const std::vector<View> built_in_ones = built_in_views();
+  const bool are_in_mosaic =
+      std::any_of(built_in_ones.begin(), built_in_ones.end(),
+                  [&](const View& view) { return is_in_mosaic(root, view.name); });
   if (!root.find("view"))
-    root.entries.push_back({"view", {}, {toml::Array{toml::Value{table_of(first_view)}}}});
+    root.entries.push_back(
+        {"view",
+         {},
+         {are_in_mosaic ? toml::Array{} : toml::Array{toml::Value{table_of(first_view)}}}});
   toml::Array* views = std::get_if<toml::Array>(&root.find("view")->value.data);
   if (!views) return;
   for (const View& built_in : built_in_views()) {

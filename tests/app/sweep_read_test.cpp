@@ -244,8 +244,8 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
        "4:11 limits.timeout = \"20 fortnights\"; expected seconds, or a time such as \"90s\", "
        "\"20m\" or \"1h30m\""},
       {"[sheet]\nview = \"smok\"\n[axis]\n\"fps\" = [1]\n",
-       "4:8 sheet.view = \"smok\": the scene has no such view; expected \"particles\", \"smoke\", "
-       "\"slice\" or \"snow\"; did you mean \"smoke\"?"},
+       "4:8 sheet.view = \"smok\": the scene has no such view; expected \"snow\", "
+       "\"particles\", \"smoke\" or \"slice\"; did you mean \"smoke\"?"},
       {"[set]\n\"solver.cell_size\" = -1\n[axis]\n\"fps\" = [1]\n",
        "4:22 solver.cell_size = -1; expected 1e-9 <= value <= 1000000"}};
   for (const auto& c : cases) EXPECT_EQ(complaint(head + c.text), c.complaint) << c.text;

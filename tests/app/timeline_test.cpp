@@ -135,7 +135,7 @@ TEST(Timeline, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
   EXPECT_EQ(again.simulation().choose_dt(1).dt, session.simulation.choose_dt(1).dt);
   EXPECT_GT(told, 5);
   const scene::Scene now = again.timeline.scene();
-  EXPECT_EQ(now.views[0].particles.color_by, scene::ColorBy::id);
+  EXPECT_EQ(scene::find_view(now, "particles").particles.color_by, scene::ColorBy::id);
   EXPECT_EQ(now.solver.kernel, sim::Kernel::quadratic);
   // Drawn colliders are at their simulated places.
   EXPECT_EQ(now.colliders[1].pose_offset.since,

@@ -78,7 +78,8 @@ TEST(Options, OfEveryCommandAreTheSameAfterTheWayToWordsAndBack) {
       Option& option = one.command.options[k];
       if (option.name() == "--help") continue;
       for (Option& other : one.command.options)  // the second argument is one behind the first
-        if (other.is_argument() && other.is_required && &other != &option) other.read("before");
+        if (other.is_argument() && other.is_required && &other != &option)
+          other.read(sample(other));
       for (const auto& read : {option.read, all.command.options[k].read})
         for (int time = 0; time < (option.is_repeatable ? 2 : 1); ++time) read(sample(option));
       EXPECT_NE(words_of(one, path), Words{}) << one.command.name << " " << option.name();

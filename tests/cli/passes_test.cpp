@@ -78,7 +78,7 @@ TEST_F(Passes, UnknownNamesAreRefusedWithAProposal) {
 
 TEST_F(Passes, AMosaicHasNoneAndSaysSo) {
   folder.write("both.toml", std::string(flying_scene) +
-                                "[[view]]\nname = \"particles\"\n[[view]]\nname = \"snow\"\n"
+                                "[[view]]\nname = \"snow\"\n"
                                 "[[mosaic]]\nname = \"both\"\nviews = [\"particles\", \"snow\"]\n");
   for (const auto& [flag, value] :
        {std::pair{"--passes", "depth"}, std::pair{"--plate", "plate.png"}}) {
@@ -95,9 +95,8 @@ TEST_F(Passes, AMosaicHasNoneAndSaysSo) {
 }
 
 TEST_F(Passes, MosaicsHaveMotionBlur) {
-  folder.write("one.toml", std::string(flying_scene) +
-                               "[[view]]\nname = \"particles\"\n"
-                               "[[mosaic]]\nname = \"one\"\nviews = [\"particles\"]\n");
+  folder.write("one.toml",
+               std::string(flying_scene) + "[[mosaic]]\nname = \"one\"\nviews = [\"particles\"]\n");
   const auto drawn = [&](const std::string& shutter) {
     render(
         {"one.toml", "--view", "one", "--frames", "2-2", "--shutter", shutter, "--out", shutter});

@@ -53,7 +53,7 @@ TEST_F(Terrain, CheckSaysMassAndDepthOfACover) {
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   const std::string said = result.output + result.errors;
   // 0.4 m x 1.5 m x 2 m x 300 kg/m3
-  EXPECT_TRUE(contains(said, "lies 0.4 m deep on 3 m2 of the map: 1.2 m3, 360 kg")) << said;
+  EXPECT_TRUE(contains(said, "lies 0.4 m deep on 3 m2 seen from above: 1.2 m3, 360 kg")) << said;
   EXPECT_TRUE(contains(said, "17 x 13 posts, 0.5 m apart, at heights from 1798 m to 1802 m"))
       << said;
   EXPECT_FALSE(contains(said, "starts inside")) << said;

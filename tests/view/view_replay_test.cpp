@@ -104,13 +104,14 @@ TEST_F(ViewByScript, ADroppedSceneIsOpenedAndAnotherFileIsAMessage) {
                            {"--coarsen", "1.25", "--set", "material.snow.hardening=5"});
   SKIP_WITHOUT_GL(result);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  // As coarse as the first one; what was set was meant for that.
+  // As coarse as the first one; what was set was meant for that. Thresholds are of the scene's
+  // cell.
   const std::vector<std::string> saved = files("particles_0000_step", ".png");
   ASSERT_EQ(saved.size(), 1u);
   const auto info = neve({"info", "out/" + saved[0], "--json"});
   const app::Json json = app::parse_json(std::string_view(info.output));
   EXPECT_EQ(json["coarsen"], 1.25);
-  EXPECT_TRUE(json["overrides"].empty()) << info.output;
+  EXPECT_EQ(json["overrides"], app::Json{"solver.threshold_cell=0.04"}) << info.output;
 }
 
 TEST_F(ViewByScript, ASmallWindowHasAllButtonsOfTheBar) {

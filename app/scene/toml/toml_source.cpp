@@ -78,6 +78,14 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
+/// "1/25"
+bool has_quotient(std::string_view value) {
+  const std::size_t slash = value.find('/');
+  return slash != value.npos && slash > 0 && slash + 1 < value.size() &&
+         is_digit(value[slash - 1]) && is_digit(value[slash + 1]) &&
+         value.find_first_not_of("+-.0123456789/ ") == value.npos;
+}
+
 /// "0,04"
 bool has_decimal_comma(std::string_view value) {
   const std::size_t comma = value.find(',');
@@ -115,6 +123,7 @@ std::string advice_on(std::string_view text, int line) {
   const std::size_t first = std::min(text.find_first_not_of(" \t", equals + 1), text.size());
   const std::string_view value = text.substr(first);
   if (value.empty() || value[0] == '#') return "a value follows the =";
+  if (has_quotient(value)) return "nothing is computed in a value: write the number, as in 0.04";
   if (has_decimal_comma(value)) return "decimals have a point, as in 0.04";
   if (has_unit(value)) return "numbers have no unit: they are in metres, kilograms and seconds";
   if (value.find('\\') != value.npos) return "in paths write / between folders, or \\\\";

@@ -359,7 +359,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   m.fixed = plan.sweep.fixed;
   if (plan.fast) m.fixed.resize(m.fixed.size() - plan.fast->overrides.size());
   std::error_code error;
-  if (std::filesystem::is_regular_file(m.scene_file, error))
+  if (!plan.source && std::filesystem::is_regular_file(m.scene_file, error))
     m.scene_hash = hash_of_scene(scene::read_toml_file(m.scene_file));
   if (!plan.beginning) return m;
   m.beginning = {plan.fork, plan.beginning->run, plan.source ? plan.source->scene_file : ""};

@@ -18,6 +18,9 @@ namespace {
 using Addresses = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
 
 Addresses find_address(const std::string& address, int port) {
+  if (!address.empty() && address.find_first_not_of("0123456789") == std::string::npos)
+    throw UsageError("--listen", address + " is a port, and no address",
+                     "did you mean --listen 127.0.0.1:" + address + "?");
   addrinfo wish{};
   wish.ai_family = AF_UNSPEC;
   wish.ai_socktype = SOCK_STREAM;
