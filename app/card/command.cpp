@@ -4,13 +4,11 @@
 #include <filesystem>
 #include <iostream>
 
+#include "app/card/again.h"
 #include "app/card/card_options.h"
 #include "app/card/card_picture.h"
 #include "app/card/subjects.h"
 #include "app/output/atomic_file.h"
-#include "app/record/picture_files.h"
-#include "app/record/picture_record.h"
-#include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/out_folder.h"
@@ -20,7 +18,6 @@
 #include "render/gl/context.h"
 #include "render/image/image.h"
 #include "sim/base/thread_pool.h"
-#include "sim/kernels/simd.h"
 
 namespace neve::app::card {
 
@@ -44,25 +41,6 @@ std::string words_of(const Card& card) {
     text += "  " + name + joined(e.words, ", ") +
             (e.failure.empty() ? "" : (e.words.empty() ? "" : ", ") + e.failure) + "\n";
   }
-  return text;
-}
-
-/// The scene of the first card, as every picture has one, and the numbers of all.
-render::PngText texts_of(const std::vector<Source>& sources, const Json& json) {
-  const timeline::Origin& origin = sources.front().origin;
-  record::PictureRecord record;
-  record.scene = scene::write_scene(origin.scene);
-  record.overrides = origin.overrides;
-  record.coarsening = origin.coarsening;
-  record.seed = origin.scene.seed;
-  record.version = version;
-  record.build = build_text(sim::kernels::name(sim::kernels::chosen_simd_level()));
-  record.view = origin.scene.views.front().name;
-  record.frame = scene::number_of(origin.scene, 0);
-  record.quality = "preview";
-  record.files = record::hash_files(origin.scene);
-  render::PngText text = record::to_png_text(record);
-  text["neve:card"] = to_text(json, -1);
   return text;
 }
 
@@ -97,7 +75,7 @@ int run(const CardOptions& options) {
   render::Renderer renderer(*context, {}, &pool);
   const Json json = json_of(cards);
   const std::vector<std::uint8_t> png =
-      render::encode_png(draw_cards(cards, renderer), texts_of(sources, json));
+      render::encode_png(draw_cards(cards, renderer), texts_of(sources));
   if (picture.has_parent_path()) output::make_folder(picture.parent_path());
   output::write_file(picture, png);
   output::write_file(numbers, to_text(json) + "\n");

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "app/advice/suggest.h"
+#include "app/card/again.h"
 #include "app/scene/names.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
@@ -88,12 +89,17 @@ std::vector<Source> sources_of(const CardOptions& options) {
   timeline::Edits edits{options.overrides};
   edits.agreement = options.is_agreed ? timeline::Agreement::given : timeline::Agreement::asked;
   edits.is_start_only = true;
+  std::vector<Source> sources;
   std::vector<timeline::Origin> origins;
   std::vector<std::string> titles;
   const bool is_default = options.scenes.empty() && options.presets.empty();
   for (const std::string& named : is_default ? std::vector<std::string>{""} : options.scenes) {
     refuse_preset(named);
-    origins.push_back(timeline::Origin::of(named, edits));
+    const timeline::Origin origin = timeline::Origin::of(named, edits);
+    const std::vector<Source> cards = cards_in(origin, options.overrides);
+    sources.insert(sources.end(), cards.begin(), cards.end());
+    if (!cards.empty()) continue;
+    origins.push_back(origin);
     titles.push_back(origins.back().name());
   }
   for (const scene::Preset preset : options.presets) {
@@ -101,7 +107,6 @@ std::vector<Source> sources_of(const CardOptions& options) {
     origins.push_back(origin_of(preset, options));
   }
   check_names(options, origins);
-  std::vector<Source> sources;
   for (std::size_t k = 0; k < origins.size(); ++k)
     add_sources(origins[k], titles[k], options, sources);
   if (sources.size() > max_materials)

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "app/card/again.h"
 #include "app/card/card.h"
 #include "app/card/plates.h"
 #include "app/card/subjects.h"
+#include "app/output/atomic_file.h"
 #include "app/support/errors.h"
+#include "render/image/image.h"
 #include "tests/card/subject.h"
 #include "tests/support/temporary_folder.h"
 
@@ -84,6 +87,38 @@ TEST_F(CardSubjects, OfAPresetHaveItsNumbersAndThoseThatAreSet) {
   EXPECT_EQ(wet.hardening, 3);
   EXPECT_EQ(wet.critical_stretch, preset_snow(Preset::wet).critical_stretch);
   EXPECT_EQ(wet.model, neve::sim::laws::model::snow);
+}
+
+TEST_F(CardSubjects, OfAPictureAreThoseThatItShows) {
+  options.presets = {Preset::wet};
+  options.overrides = {"solver.transfer=mls"};
+  const std::vector<Source> made = sources_of(options);
+  const neve::render::Image pixel{1, 1, 3, {0, 0, 0}};
+  const auto write = [&](const neve::render::PngText& texts) {
+    neve::app::output::write_file(folder / "card.png", neve::render::encode_png(pixel, texts));
+  };
+  write(texts_of(made));
+  options = {};
+  options.scenes = {(folder / "card.png").string()};
+  options.overrides = {"material.snow.hardening=3"};
+  const std::vector<Source> again = sources_of(options);
+  ASSERT_EQ(again.size(), made.size());
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    EXPECT_EQ(again[k].subject.title, made[k].subject.title);
+    EXPECT_EQ(again[k].subject.material.density, made[k].subject.material.density);
+    EXPECT_EQ(again[k].subject.solver.transfer, neve::sim::Transfer::mls);
+  }
+  EXPECT_EQ(again.back().subject.material.hardening, 3);
+
+  neve::render::PngText broken = texts_of(made);
+  for (const char* text : {"", "{}", "[1]", "[{\"scene\": \"\"}]"}) {
+    broken["neve:card"] = text;
+    write(broken);
+    if (text == std::string("{}"))
+      EXPECT_EQ(sources_of(options).size(), 2u) << "the scene counts";
+    else
+      EXPECT_THROW(sources_of(options), std::runtime_error) << text;
+  }
 }
 
 TEST_F(CardSubjects, AreNotMoreThanAPictureHolds) {
