@@ -436,7 +436,7 @@ inline constexpr Parameter parameters[] = {
      .bounds = {1e-3, 1e3},
      .help = "cam_clay: rate at which snow that packs gains consolidation pressure."}};
 
-inline constexpr Law law{.kind = "snow whose strength grows and whose stiffness stays",
+inline constexpr Law law{.kind = "snow as soil",
                          .is_snow = true,
                          .is_plastic = InLanes::is_plastic,
                          .is_benched = true,

@@ -24,7 +24,7 @@ struct InLanes : StretchesInLanes {
 #ifndef NEVE_LANES_ALONE
 inline constexpr Parameter parameters[] = {parameter::hardening};
 
-inline constexpr Law law{.kind = "elastic, with the paper's energy",
+inline constexpr Law law{.kind = "elastic",
                          .hardens = true,
                          .is_plastic = InLanes::is_plastic,
                          .parameters = parameters,

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "sim/laws/files.h"
 
@@ -45,10 +46,20 @@ std::vector<Parameter> parameters_of_laws() {
   return found;
 }
 
+/// Laws of one kind together, so that the sentence is short.
 std::string text_of_model() {
-  std::string text = "Law of the material: ";
-  for (const Law& law : laws)
-    text += std::string(&law == laws ? "" : ", ") + law.name + " (" + law.kind + ")";
+  std::vector<std::pair<std::string, std::string>> kinds;  // names, kind
+  for (const Law& law : laws) {
+    const auto same = std::find_if(kinds.begin(), kinds.end(),
+                                   [&](const auto& kind) { return kind.second == law.kind; });
+    if (same == kinds.end())
+      kinds.emplace_back(law.name, law.kind);
+    else
+      same->first += std::string(", ") + law.name;
+  }
+  std::string text;
+  for (const auto& [names, kind] : kinds)
+    text += (text.empty() ? "Law: " : "; ") + names + " (" + kind + ")";
   return text + ".";
 }
 

@@ -75,7 +75,7 @@ inline Mat3d first_piola(const Material& m, const Mat3d& F_E, double J_P) {
 
 inline constexpr Parameter parameters[] = {parameter::hardening};
 
-inline constexpr Law law{.kind = "elastic, never squeezed flat",
+inline constexpr Law law{.kind = "elastic",
                          .hardens = true,
                          .is_plastic = InLanes::is_plastic,
                          .parameters = parameters,

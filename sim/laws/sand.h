@@ -311,7 +311,7 @@ inline constexpr SelfTest self_test{
 
 inline constexpr Parameter parameters[] = {parameter::friction_angle};
 
-inline constexpr Law law{.kind = "grains that slide and bear no tension",
+inline constexpr Law law{.kind = "grains",
                          .is_plastic = InLanes::is_plastic,
                          .is_granular = true,
                          .parameters = parameters,
