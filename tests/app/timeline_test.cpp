@@ -73,7 +73,7 @@ void play(Session& session) {
   session.steps(2);
   session.set("collider.floor.shape.plane.point", "[0, 0.01, 0]");
   session.set("material.snow.model", "corotated");
-  session.set("view.particles.particles.color_by", "id");
+  session.set("view.snow.particles.color_by", "id");
   session.finish();
   session.set("solver.kernel", "quadratic");
   session.frame();
@@ -135,7 +135,7 @@ TEST(Timeline, GetsTheStateOfTheRunInWhichTheChangesWereMade) {
   EXPECT_EQ(again.simulation().choose_dt(1).dt, session.simulation.choose_dt(1).dt);
   EXPECT_GT(told, 5);
   const scene::Scene now = again.timeline.scene();
-  EXPECT_EQ(scene::find_view(now, "particles").particles.color_by, scene::ColorBy::id);
+  EXPECT_EQ(now.views[0].particles.color_by, scene::ColorBy::id);
   EXPECT_EQ(now.solver.kernel, sim::Kernel::quadratic);
   // Drawn colliders are at their simulated places.
   EXPECT_EQ(now.colliders[1].pose_offset.since,

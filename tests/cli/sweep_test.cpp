@@ -345,6 +345,7 @@ TEST_F(SweepCli, ATileBecomesASceneOfItsOwn) {
   folder.write("scene_1.toml", "mine");
   EXPECT_EQ(neve({"sweep", "promote", "out/scene.cdb", "1"}).exit_code, 2);
   folder.write("scene.toml", "# other\n" + std::string(tiny_scene));
+  fs::create_directory(folder / "shots");
   const auto later = neve({"sweep", "promote", "out/scene.cdb", "0", "--out", "shots/shot.toml"});
   EXPECT_EQ(later.exit_code, 0) << later.errors;
   EXPECT_TRUE(contains(later.errors, "has changed since the sweep")) << later.errors;
