@@ -6,6 +6,7 @@
 
 #include "app/options/common.h"
 #include "app/options/languages.h"
+#include "app/run/render_options.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
