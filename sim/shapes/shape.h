@@ -89,7 +89,8 @@ struct Terrain {
   Vec3d origin{0, 0, 0};  ///< east, north and up in the file that are taken for its origin
 };
 /// Snow on a terrain or a mesh, between its surface, the highest where there are several, and a
-/// depth straight above it, within a rectangle or, with a radius, a disc. Rotation is about y alone.
+/// depth straight above it, within a rectangle or, with a radius, a disc. Rotation is about y
+/// alone.
 struct Cover {
   std::string on;                ///< name of a collider
   double depth = 0.1;            ///< m, vertical

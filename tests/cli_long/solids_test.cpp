@@ -17,7 +17,8 @@ class PublicSolids : public Cli {
  protected:
   void write_scene(const std::string& mesh, double scale, double cell_size) {
     folder.write("solid.toml", "frames = 1\n[solver]\ncell_size = " + std::to_string(cell_size) +
-                                   "\n[[view]]\nname = \"particles\"\n[[body]]\nname = \"solid\"\nshape = { mesh = { file = \"" +
+                                   "\n[[view]]\nname = \"particles\"\n[[body]]\nname = "
+                                   "\"solid\"\nshape = { mesh = { file = \"" +
                                    mesh + "\", scale = " + std::to_string(scale) +
                                    " } }\n[output]\nsize = [160, 90]\n");
   }
