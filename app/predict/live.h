@@ -16,8 +16,9 @@ struct LiveChoice {
   std::optional<forecast::FastLook> fast;  ///< of --fast, where it is taken
   double pace = 0;                         ///< s that a second of the film takes, by a forecast
 
-  /// Leaves a quarter of the time to drawing and to what no forecast sees.
-  static constexpr double room = 0.75;
+  /// Drawing without a GPU takes about twice what a coarse simulation takes, on the same cores; the
+  /// rest is for what no forecast sees.
+  static constexpr double room = 0.25;
   bool keeps_up() const { return pace <= 1; }
   /// "--fast --coarsen 1.75: a second of the film takes about 0.7 s on this machine"
   std::string sentence() const;

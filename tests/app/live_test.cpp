@@ -28,11 +28,11 @@ Pace machine(double seconds, double least = 0) {
 }
 
 TEST(Live, ASceneThatKeepsUpStaysAsItIs) {
-  const LiveChoice choice = choose_live(ball(), 2, {}, machine(0.5));
+  const LiveChoice choice = choose_live(ball(), 2, {}, machine(0.2));
   EXPECT_EQ(choice.coarsening, 1);
   EXPECT_FALSE(choice.fast);
   EXPECT_EQ(choice.sentence(),
-            "the scene as it is: a second of the film takes about 0.5 s on this machine");
+            "the scene as it is: a second of the film takes about 0.2 s on this machine");
 }
 
 TEST(Live, CellsGrowUntilTheClockIsMetAndNoFurther) {
