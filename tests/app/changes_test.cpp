@@ -74,7 +74,7 @@ TEST(LiveChanges, ChangesUpToAStepMakeItsScene) {
 
 TEST(LiveChanges, ARecordedSceneStartsAsTheRunAndLooksAsItDoesNow) {
   const app::scene::Scene from = test::changed_scene();
-  app::scene::Scene now = test::changed_scene("view.particles.particles.color_by=speed");
+  app::scene::Scene now = test::changed_scene("view.snow.particles.color_by=speed");
   now.solver.cfl = 0.1;
   now.colliders[0].friction = 0.9;
   now.colliders[0].style = app::scene::ColliderStyle::wire;

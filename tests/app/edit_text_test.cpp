@@ -108,7 +108,7 @@ TEST(EditText, NewTablesGetASectionAtTheEnd) {
             text + "\n[output]\nsize = [640, 360]\nbackground = \"transparent\"\n");
   EXPECT_EQ(edit({"view.smoke.smoke.density_scale=2"}),
             text +
-                "\n[[view]]\nname = \"particles\"\n\n[[view]]\nname = \"smoke\"\n"
+                "\n[[view]]\nname = \"snow\"\n\n[[view]]\nname = \"smoke\"\n"
                 "smoke = { density_scale = 2 }\n");
   const std::string bare = "[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }";
   EXPECT_EQ(edit({"material.snow.hardening=5"}, bare), bare + "\n\n[material.snow]\nhardening = 5");

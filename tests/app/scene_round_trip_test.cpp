@@ -363,7 +363,7 @@ TEST(SceneDefaults, SceneDefaultsAreThoseOfTheStructs) {
   EXPECT_EQ(scene.bodies[0].name, "1");
   EXPECT_EQ(scene.bodies[0].material, "snow");
   ASSERT_EQ(scene.views.size(), 1u);
-  EXPECT_EQ(scene.views[0].name, "particles");
+  EXPECT_EQ(scene.views[0].name, "snow");
   EXPECT_FALSE(scene.camera.has_value());
 }
 

@@ -60,7 +60,7 @@ TEST(Set, SettingReachesEveryKindOfAddress) {
 
 TEST(Set, SettingReachesTheBuiltInView) {
   const char* text = "[[body]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }";
-  EXPECT_EQ(set({"view.particles.particles.color_by=id"}, text).views[0].particles.color_by,
+  EXPECT_EQ(set({"view.particles.particles.color_by=id"}, text).views.back().particles.color_by,
             app::scene::ColorBy::id);
 }
 
@@ -121,8 +121,10 @@ TEST(Set, UnknownAddressesNameTheNearest) {
   EXPECT_EQ(override_error("body.velocity=[0,0,0]"),
             "--set body.velocity=[0,0,0]: error: body.velocity does not say which body; write "
             "body.NAME.velocity, NAME being \"ball\" or \"2\"");
-  EXPECT_EQ(override_error("body=3"),
-            "--set body=3: error: unknown parameter \"body\"; neve params lists all of them");
+  EXPECT_EQ(
+      override_error("body=3"),
+      "--set body=3: error: body is not a parameter; it is a table: set one of its parameters, "
+      "as in body.ball.name=...");
 }
 
 TEST(Set, SettingNeedsAnAddressAndAValue) {

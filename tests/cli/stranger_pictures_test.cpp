@@ -112,8 +112,8 @@ TEST_F(StrangerPictures, ANameThatIsFoundInItsReplacementIsReplacedOnce) {
   const auto again = neve({"render", odd + "0000.png", "--out", "again"});
   EXPECT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_EQ(hashes("again"), hashes("m"));
-  EXPECT_EQ(neve({"info", "again/particles/0000.png"}).exit_code, 0);
-  EXPECT_EQ(neve({"render", "again/particles/0000.png", "--out", "third"}).exit_code, 0)
+  EXPECT_EQ(neve({"info", "again/snow/0000.png"}).exit_code, 0);
+  EXPECT_EQ(neve({"render", "again/snow/0000.png", "--out", "third"}).exit_code, 0)
       << "the name of the folder is text, not TOML";
 }
 
