@@ -31,7 +31,7 @@ options::Language<double> budget() {
 
 setup::Quality tile_quality(const std::string& name) {
   if (name == setup::name(setup::Quality::draft))
-    throw UsageError("--quality", "tiles are as small as they are asked for",
+    throw UsageError("--quality", "tiles have a size of their own",
                      "give --size 240x135 for smaller ones; expected preview or final");
   return setup::quality_named(name);
 }
