@@ -11,6 +11,7 @@
 #include "sim/shapes/height_field.h"
 #include "sim/shapes/mesh.h"
 #include "sim/shapes/mesh_columns.h"
+#include "sim/shapes/mesh_surface.h"
 #include "sim/types/number_text.h"
 
 namespace neve::sim::shapes {
@@ -228,10 +229,16 @@ class MeshGround final : public Ground {
   std::optional<Columns> columns_;
 };
 
-std::unique_ptr<const Ground> ground_of(const Cover& cover) {
-  if (const auto* mesh = std::get_if<Mesh>(&cover.ground))
-    return std::make_unique<MeshGround>(*mesh, cover.turned);
-  return std::make_unique<TerrainGround>(std::get<Terrain>(cover.ground), cover.turned.y());
+/// A mesh is put in order once: a scene asks for its covers many times.
+std::shared_ptr<const Ground> ground_of(const Cover& cover) {
+  const auto* mesh = std::get_if<Mesh>(&cover.ground);
+  if (!mesh)
+    return std::make_shared<TerrainGround>(std::get<Terrain>(cover.ground), cover.turned.y());
+  static Recent<Ground> recent;
+  std::string key = reading_key(*mesh);
+  for (const Vec3d& place : {mesh->center, cover.turned})
+    for (const double x : place) key += "|" + number_text(x, 17);
+  return recent.get(key, [&] { return std::make_shared<const MeshGround>(*mesh, cover.turned); });
 }
 
 /// About the middle of its outline, at the height that the cover gives.
@@ -288,7 +295,7 @@ class CoverForm final : public Form {
                      ", where " + ground_->extent() + ". Move it or make it smaller");
   }
 
-  std::unique_ptr<const Ground> ground_;
+  std::shared_ptr<const Ground> ground_;
   Outline outline_;
   double lift_, depth_, low_ = 0, high_ = 0;
 };
