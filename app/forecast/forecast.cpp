@@ -33,8 +33,7 @@ sim::DtChoice allowed(const scene::Scene& scene, const sim::StepLimits& state,
   // The same difference of velocity over smaller cells.
   limits.max_strain_rate = state.max_strain_rate * cell_of_state / scene.solver.cell_size;
   for (const sim::Material& m : scene.materials)
-    if (sim::laws::of(m).hardens)
-      sim::include_hardening(m, limits, sim::shapes::max_factor(m.variation.youngs_modulus));
+    sim::laws::include_hardening(m, limits, sim::shapes::max_factor(m.variation.youngs_modulus));
   return sim::choose_dt(scene.solver, limits, 1e9);
 }
 

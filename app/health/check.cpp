@@ -31,7 +31,7 @@ sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) 
   for (const setup::SnowPiece& piece : setup::snow_places(scene)) {
     limits.max_speed = std::max(limits.max_speed, piece.velocity.norm());
     limits.max_sound_speed = std::max(limits.max_sound_speed, sim::sound_speed(*piece.material));
-    if (sim::laws::of(*piece.material).hardens) sim::include_hardening(*piece.material, limits);
+    sim::laws::include_hardening(*piece.material, limits);
   }
   start = {sim::limits_on_dt(scene.solver, limits), limits.max_speed, limits.max_sound_speed, 0};
   return sim::choose_dt(scene.solver, limits, 1 / scene.fps);

@@ -5,6 +5,7 @@
 /// Kirchhoff stress tau = P F_E^T: the force of a particle is -V0 tau grad_w, J cancels.
 
 #include "sim/kernels/decompose.h"
+#include "sim/kernels/law.h"
 #include "sim/kernels/particle_lanes.h"
 #ifndef NEVE_LANES_ALONE
 #include <Eigen/LU>
@@ -99,6 +100,18 @@ NEVE_INLINE void take_lanes(const Record<V, I>& p, const MaterialConstants<Eleme
   m.word[M::word_min_J_P] = k[5];
   m.word[M::word_max_J_P] = k[6];
   m.word[M::word_max_hardening] = k[7];
+}
+
+/// What a solve keeps of a particle. @param shape  what its law keeps of F_E
+template <class V, class I>
+NEVE_INLINE Elasticity<V> hardened_elasticity(const Record<V, I>& p,
+                                              const MaterialConstants<ElementOf<V>>* table,
+                                              const Sym3<V>& shape) {
+  MaterialLanes<V> m;
+  take_lanes(p, table, m);
+  V mu, lambda;
+  m.harden(mu, lambda);
+  return {shape, p.V0 * mu, p.V0 * lambda};
 }
 
 /// A batch takes its stress.

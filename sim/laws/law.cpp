@@ -1,6 +1,7 @@
 #include "sim/laws/law.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -76,6 +77,14 @@ std::span<const Law> every() {
 
 const Law& of(Model model) {
   return laws[static_cast<std::size_t>(model)];
+}
+
+void include_hardening(const Material& material, StateLimits& limits, double stiffest) {
+  if (!of(material).hardens) return;
+  limits.max_xi = std::max(limits.max_xi, material.hardening);
+  limits.max_hardened_speed =
+      std::max(limits.max_hardened_speed,
+               sound_speed(material) * std::sqrt(stiffest * material.max_hardening));
 }
 
 std::span<const Parameter> all_parameters() {

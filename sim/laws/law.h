@@ -10,6 +10,7 @@
 #include "sim/kernels/particles.h"
 #include "sim/types/material.h"
 #include "sim/types/math.h"
+#include "sim/types/time_step.h"
 
 namespace neve::sim::laws {
 
@@ -148,6 +149,9 @@ const Law& of(Model model);
 inline const Law& of(const Material& material) {
   return of(material.model);
 }
+
+/// Extends the limits to a material, if its law hardens. @param stiffest  factor on its moduli
+void include_hardening(const Material& material, StateLimits& limits, double stiffest = 1);
 
 /// Those of all laws, each once.
 std::span<const Parameter> all_parameters();

@@ -38,11 +38,7 @@ struct InLanes {
   template <class V, class I>
   NEVE_INLINE static Elasticity<V> elasticity(const Record<V, I>& p,
                                               const MaterialConstants<ElementOf<V>>* table) {
-    MaterialLanes<V> m;
-    take_lanes(p, table, m);
-    V mu, lambda;
-    m.harden(mu, lambda);
-    return {left_cauchy_green(p.F_E), p.V0 * mu, p.V0 * lambda};
+    return hardened_elasticity(p, table, left_cauchy_green(p.F_E));
   }
 
   template <class V>

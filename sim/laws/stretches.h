@@ -6,7 +6,6 @@
 /// with the left stretch V (F_E = V R), b = V^2, and dR = [w]x R, (tr V I - V) w = axial(G V - V
 /// G^T), as in the paper's technical report.
 
-#include "sim/kernels/law.h"
 #include "sim/laws/differential.h"
 #include "sim/laws/hardening.h"
 #ifndef NEVE_LANES_ALONE
@@ -293,11 +292,7 @@ struct StretchesInLanes {
   template <class V, class I>
   NEVE_INLINE static Elasticity<V> elasticity(const Record<V, I>& p,
                                               const MaterialConstants<ElementOf<V>>* table) {
-    MaterialLanes<V> m;
-    take_lanes(p, table, m);
-    V mu, lambda;
-    m.harden(mu, lambda);
-    return {left_stretch(p.F_E), p.V0 * mu, p.V0 * lambda};
+    return hardened_elasticity(p, table, left_stretch(p.F_E));
   }
 
   template <class V>

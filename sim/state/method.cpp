@@ -108,9 +108,8 @@ void Method<Real>::limit_hardening(StateLimits& limits) const {
   // as fast as in snow 6.5 times as stiff.
   constexpr double corner = 6.5;
   for (const Material& material : materials)
-    if (laws::of(material).hardens)
-      include_hardening(material, limits,
-                        corner * shapes::max_factor(material.variation.youngs_modulus));
+    laws::include_hardening(material, limits,
+                            corner * shapes::max_factor(material.variation.youngs_modulus));
 }
 
 template <class Real>

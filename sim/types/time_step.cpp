@@ -38,13 +38,6 @@ double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
 
 }  // namespace
 
-void include_hardening(const Material& material, StateLimits& limits, double stiffest) {
-  limits.max_xi = std::max(limits.max_xi, material.hardening);
-  limits.max_hardened_speed =
-      std::max(limits.max_hardened_speed,
-               sound_speed(material) * std::sqrt(stiffest * material.max_hardening));
-}
-
 DtChoice choose_dt(const SolverSettings& s, const StateLimits& limits, double remaining,
                    double scale) {
   // Rounding of the remaining time must not leave a step of 1e-18 s.

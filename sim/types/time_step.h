@@ -20,9 +20,6 @@ struct StateLimits {
   double max_collider_speed = 0;  ///< m/s, of colliders that snow may meet in the next step
 };
 
-/// Extends the limits to a material whose law hardens. @param stiffest  factor on its moduli
-void include_hardening(const Material& material, StateLimits& limits, double stiffest = 1);
-
 /// dt of the next step and the limit that rules it. `remaining` is the time to the end of the
 /// frame; the last two steps before it share what is left, so that none is tiny. `scale` is a
 /// factor of the step, not of the limits.

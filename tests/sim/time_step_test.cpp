@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/laws/law.h"
 #include "sim/types/time_step.h"
 #include "tests/support/snow.h"
 
@@ -88,7 +89,7 @@ TEST(TimeStep, FastSnowThatHardlyHardensKeepsItsLongSteps) {
   Material material;
   material.max_hardening = 3;
   StateLimits impact{20, 19.7};
-  include_hardening(material, impact);
+  laws::include_hardening(material, impact);
   EXPECT_EQ(impact.max_xi, 10);
   EXPECT_NEAR(impact.max_hardened_speed, std::sqrt(3) * sound_speed(material), 1e-12);
   // 1.74 of 19.7 m/s: sound crosses 0.87 of a cell after the step.
