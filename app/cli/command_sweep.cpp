@@ -266,21 +266,27 @@ std::vector<int> unfinished_runs(const sweep::plan::SweepOptions& options,
   return indices;
 }
 
-/// Says how long the sweep will take, and gives the manifest the cost of each run, by which runs
-/// start and share the cores. @return s; 0: nothing is left to do, or it is not known
-double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan::SweepPlan& plan,
-                    int cores, sweep::store::Manifest& manifest, Progress& progress) {
-  const std::vector<int> left = unfinished_runs(options, plan.folder, manifest);
-  if (left.empty() || options.engine != "local") return 0;
-  // Copies cost as the run of their point, in proportion to their cells and steps.
-  std::set<std::size_t> runs;
-  for (const int index : left) {
+/// What is left to do.
+struct Left {
+  std::vector<std::size_t> runs;                           ///< places in the plan, in order
+  std::vector<const sweep::plan::PlannedVariant*> copies;  ///< of their points
+};
+
+Left left_of(const sweep::plan::SweepPlan& plan, const std::vector<int>& unfinished) {
+  Left left;
+  for (const int index : unfinished) {
     const auto place = static_cast<std::size_t>(index);
-    runs.insert(place < plan.runs.size() ? place : plan.variants[place - plan.runs.size()].of);
+    if (place < plan.runs.size())
+      left.runs.push_back(place);
+    else
+      left.copies.push_back(&plan.variants[place - plan.runs.size()]);
   }
-  const std::vector<std::size_t> places(runs.begin(), runs.end());
-  const sweep::plan::StudyForecast forecast = sweep::plan::foresee_study(
-      plan, places, sweep::plan::small_effort(plan, places, cores), cores);
+  return left;
+}
+
+/// Gives the manifest the cost of each run and copy. @return s of one thread, of all runs
+double take_costs(const sweep::plan::SweepPlan& plan, const sweep::plan::StudyForecast& forecast,
+                  sweep::store::Manifest& manifest) {
   double cost = 0, seconds = 0;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     manifest.runs[k].work = forecast.cost(k);
@@ -291,38 +297,50 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
     variant.run.work =
         forecast.cost(variant.of) * sweep::plan::work_ratio(plan, variant.coarsening);
   if (forecast.seconds_per_work > 0) manifest.seconds_per_work = seconds / cost;
+  return seconds;
+}
+
+/// @param seconds  of one thread, of all runs
+void note_refinement(const sweep::plan::SweepOptions& options, const sweep::plan::SweepPlan& plan,
+                     double seconds, int cores, Progress& progress) {
+  const auto count = static_cast<std::size_t>(options.refine) * plan.sweep.runs_per_point();
+  const double share =
+      std::min(1.0, static_cast<double>(count) / static_cast<double>(plan.runs.size()));
+  const double all = seconds * sweep::plan::work_ratio(plan, 1) / plan.sweep.runs_per_point();
+  progress.note(fmt::format("then {} {} at full resolution, about {} if they cost as most",
+                            options.refine, options.refine == 1 ? "point" : "points",
+                            duration_text(all * share / cores)));
+}
+
+/// Says how long the sweep will take, and gives the manifest the cost of each run, by which runs
+/// start and share the cores. @return s; 0: nothing is left to do, or it is not known
+double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan::SweepPlan& plan,
+                    int cores, sweep::store::Manifest& manifest, Progress& progress) {
+  const Left left = left_of(plan, unfinished_runs(options, plan.folder, manifest));
+  if ((left.runs.empty() && left.copies.empty()) || options.engine != "local") return 0;
+  // Copies cost as the run of their point, in proportion to their cells and steps.
+  std::set<std::size_t> known(left.runs.begin(), left.runs.end());
+  for (const sweep::plan::PlannedVariant* copy : left.copies) known.insert(copy->of);
+  const std::vector<std::size_t> places(known.begin(), known.end());
+  const sweep::plan::StudyForecast forecast = sweep::plan::foresee_study(
+      plan, places, sweep::plan::small_effort(plan, places, cores), cores);
+  const double seconds = take_costs(plan, forecast, manifest);
   sweep::store::write_manifest(plan.folder, manifest);
   double of_copies = 0;
-  int copies = 0;
-  for (const int index : left) {
-    const auto place = static_cast<std::size_t>(index);
-    if (place < plan.runs.size()) continue;
-    const sweep::plan::PlannedVariant& variant = plan.variants[place - plan.runs.size()];
+  for (const sweep::plan::PlannedVariant* copy : left.copies)
     of_copies +=
-        forecast.seconds(variant.of).expected * sweep::plan::work_ratio(plan, variant.coarsening);
-    ++copies;
-  }
-  std::erase_if(runs, [&](std::size_t run) {
-    return !std::binary_search(left.begin(), left.end(), static_cast<int>(run));
-  });
-  const std::vector<std::size_t> own(runs.begin(), runs.end());
-  if (forecast.seconds_per_work > 0 && !own.empty())
-    progress.note(sweep::plan::forecast_text(plan, own, forecast, cores, options.budget));
-  if (copies > 0)
+        forecast.seconds(copy->of).expected * sweep::plan::work_ratio(plan, copy->coarsening);
+  if (forecast.seconds_per_work > 0 && !left.runs.empty())
+    progress.note(sweep::plan::forecast_text(plan, left.runs, forecast, cores, options.budget));
+  if (!left.copies.empty())
     progress.note(fmt::format(
-        "the prediction runs {} further {}{}", copies, copies == 1 ? "copy" : "copies",
+        "the prediction runs {} further {}{}", left.copies.size(),
+        left.copies.size() == 1 ? "copy" : "copies",
         of_copies > 0 ? ": about " + duration_text(of_copies / cores) + " more on these cores"
                       : ""));
-  if (options.refine > 0 && forecast.seconds_per_work > 0) {
-    const auto count = static_cast<std::size_t>(options.refine) * plan.sweep.runs_per_point();
-    const double share =
-        std::min(1.0, static_cast<double>(count) / static_cast<double>(plan.runs.size()));
-    const double all = seconds * sweep::plan::work_ratio(plan, 1) / plan.sweep.runs_per_point();
-    progress.note(fmt::format("then {} {} at full resolution, about {} if they cost as most",
-                              options.refine, options.refine == 1 ? "point" : "points",
-                              duration_text(all * share / cores)));
-  }
-  return forecast.seconds_of_all(own, cores).expected + of_copies / cores;
+  if (options.refine > 0 && forecast.seconds_per_work > 0)
+    note_refinement(options, plan, seconds, cores, progress);
+  return forecast.seconds_of_all(left.runs, cores).expected + of_copies / cores;
 }
 
 /// First runs of the points that are to be made at full resolution.

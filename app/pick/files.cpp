@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/scene/coarsen.h"
+#include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/support/text.h"
@@ -83,14 +84,8 @@ std::string picked_pair(const std::string& scene_name, const scene::Scene& picke
       "# The pick, coarse and at full resolution.\n\n[sweep]\nscene = " + toml_string(scene_name) +
       "\nmethod = \"list\"\n\n[sheet]\nlabel = \"name\"\nwrap = 2\n";
   text += fmt::format("\n[[run]]\nlabel = \"coarsened {}\"\n", scene::coarsening_text(coarsening));
-  const scene::toml::Table before = scene::scene_table(picked), after = scene::scene_table(coarse);
-  for (const char* address : {"solver.cell_size", "solver.threshold_cell", "solver.dt",
-                              "solver.max_dt", "solver.flip_ratio"}) {
-    const scene::toml::Value *was = scene::value_at(before, address),
-                             *is = scene::value_at(after, address);
-    if (was && is && scene::toml::toml_literal(*was) != scene::toml::toml_literal(*is))
-      text += toml_string(address) + " = " + scene::toml::toml_literal(*is) + "\n";
-  }
+  for (const scene::Difference& change : scene::differences(picked, coarse))
+    text += toml_string(change.address) + " = " + scene::toml::toml_literal(*change.after) + "\n";
   return text + "\n[[run]]\nlabel = \"full resolution\"\n";
 }
 

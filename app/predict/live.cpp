@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/health/check.h"
-#include "app/scene/coarsen.h"
+#include "app/predict/copies.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
 #include "app/setup/plan.h"
@@ -19,11 +19,6 @@ namespace {
 
 /// Coarser snow shows little of the film.
 constexpr double max_coarsening = 6;
-
-scene::Scene coarse_scene(scene::Scene scene, double coarsening) {
-  scene::coarsen(scene, coarsening);
-  return scene;
-}
 
 /// The cells, in quarters, that a pace asks for: a run costs as the fourth power of its cells.
 double wanted_cells(double coarsening, double pace) {
@@ -72,7 +67,7 @@ LiveChoice choose_live(const scene::Scene& scene, int last, const std::vector<st
                                    std::max(slow + step, quick - step));
     if (next >= quick || next > max_coarsening) break;
     try {
-      tried.pace = pace(coarse_scene(faster, next));
+      tried.pace = pace(copy_of(faster, next, faster.seed));
     } catch (const UsageError&) {
       quick = next;  // a body would have no particle
       continue;

@@ -108,6 +108,11 @@ const char* name(Verdict verdict) {
   return "";
 }
 
+bool is_in_doubt(const Prediction& prediction) {
+  const Verdict verdict = prediction.verdict;
+  return !prediction.reason.empty() && verdict != Verdict::breaks && verdict != Verdict::holds;
+}
+
 Prediction silent(std::string reason) {
   Prediction prediction;
   prediction.reason = std::move(reason);

@@ -30,6 +30,9 @@ struct Prediction {
 
 /// @param copies  the finest first, as run_copies() makes them; at least two
 Prediction judge(std::vector<Copy> copies);
+/// True where something is said, and it is neither that the snow breaks nor that it holds.
+bool is_in_doubt(const Prediction& prediction);
+
 /// Nothing is said, for a reason.
 Prediction silent(std::string reason);
 

@@ -103,7 +103,7 @@ void add_views(toml::Table& root, const std::vector<Override>& overrides) {
          {are_in_mosaic ? toml::Array{} : toml::Array{toml::Value{table_of(first_view)}}}});
   toml::Array* views = std::get_if<toml::Array>(&root.find("view")->value.data);
   if (!views) return;
-  for (const View& built_in : built_in_views()) {
+  for (const View& built_in : built_in_ones) {
     const bool is_set = std::any_of(overrides.begin(), overrides.end(), [&](const Override& o) {
       return o.address.starts_with("view." + built_in.name + ".");
     });

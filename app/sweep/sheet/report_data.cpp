@@ -210,10 +210,8 @@ Json noise_of(const std::string& metric, bool is_noise,
 
 /// The verdict at full resolution, with what the runs of the point did.
 Json outcome_of(const predict::Prediction& prediction, const store::Point& point) {
-  return {
-      {"text", predicted_outcome(prediction, point)},
-      {"undecided", !prediction.reason.empty() && prediction.verdict != predict::Verdict::breaks &&
-                        prediction.verdict != predict::Verdict::holds}};
+  return {{"text", predicted_outcome(prediction, point)},
+          {"undecided", predict::is_in_doubt(prediction)}};
 }
 
 void add_noise(const store::Manifest& manifest, const std::vector<store::RunResult>& results,

@@ -147,13 +147,12 @@ Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResu
   const auto known = std::count_if(predictions.begin(), predictions.end(),
                                    [](const auto& p) { return !p.estimates.empty(); });
   seals.is_noise = !telling && known > 1;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const predict::Verdict verdict = predictions[k].verdict;
-    const bool is_sure = verdict == predict::Verdict::breaks || verdict == predict::Verdict::holds;
-    const bool is_open = !is_sure && !predictions[k].reason.empty();
-    seals.of_points.push_back(
-        {predicted_outcome(predictions[k], points[k]), is_open, predictions[k].is_run, "", {}});
-  }
+  for (std::size_t k = 0; k < points.size(); ++k)
+    seals.of_points.push_back({predicted_outcome(predictions[k], points[k]),
+                               predict::is_in_doubt(predictions[k]),
+                               predictions[k].is_run,
+                               "",
+                               {}});
   const predict::Quantity quantity = telling.value_or(predict::Quantity::spread);
   const predict::QuantityInfo& info = predict::info_of(quantity);
   const Scale scale =

@@ -19,7 +19,6 @@
 #include "app/sweep/read/sweep_leaf.h"
 #include "app/sweep/store/prepare.h"
 #include "app/sweep/store/store.h"
-#include "sim/base/hash.h"
 
 namespace neve::app::sweep::store {
 
@@ -360,7 +359,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   if (plan.fast) m.fixed.resize(m.fixed.size() - plan.fast->overrides.size());
   std::error_code error;
   if (!plan.source && std::filesystem::is_regular_file(m.scene_file, error))
-    m.scene_hash = hash_of_scene(scene::read_toml_file(m.scene_file));
+    m.scene_hash = record::hash_of(scene::read_toml_file(m.scene_file));
   if (!plan.beginning) return m;
   m.beginning = {plan.fork, plan.beginning->run, plan.source ? plan.source->scene_file : ""};
   m.beginning->run.key = key_of_beginning(plan);
@@ -388,10 +387,6 @@ std::size_t outdated_runs(const std::filesystem::path& folder) {
         const RunStatus status = read_status(runs_folder(folder) / run.folder);
         return status.key == run.key && is_finished(status.state);
       }));
-}
-
-std::string hash_of_scene(const std::string& text) {
-  return fmt::format("{:016x}", hash_bytes(text.data(), text.size()));
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& m) {

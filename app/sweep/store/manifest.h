@@ -78,7 +78,7 @@ struct Manifest {
   setup::Quality quality = setup::Quality::preview;
   /// What all runs change in the scene, beside --coarsen and --fast.
   std::vector<scene::Override> fixed{};
-  std::string scene_hash{};  ///< of the text of the scene; "" where it is not a file
+  std::string scene_hash{};  ///< record::hash_of() its text; "" where it is not a file
 
   /// The run of a number, a variant's too; null: there is none.
   const Run* run_of(int index) const;
@@ -93,9 +93,6 @@ struct Manifest {
 /// @param keys  of the runs, then of the variants @param folders  theirs
 Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::string>& keys,
                        const std::vector<std::string>& folders);
-
-/// 16 hexadecimal digits.
-std::string hash_of_scene(const std::string& text);
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
 /// One sweep in a folder: its table, sheet and report replace those of another.

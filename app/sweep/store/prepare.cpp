@@ -142,11 +142,12 @@ std::string key_of_beginning(const plan::SweepPlan& plan) {
 }
 
 std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
-  std::string text = key_of(item);
+  const std::string own = key_of(item);
+  std::string more;
   if (plan.quality != setup::Quality::preview)
-    text += fmt::format("\nquality {}", setup::name(plan.quality));
-  if (plan.beginning) text += fmt::format("\nfrom {} of {}", plan.fork, key_of_beginning(plan));
-  return text == key_of(item) ? text : record::hash_of(text);
+    more += fmt::format("\nquality {}", setup::name(plan.quality));
+  if (plan.beginning) more += fmt::format("\nfrom {} of {}", plan.fork, key_of_beginning(plan));
+  return more.empty() ? own : record::hash_of(own + more);
 }
 
 std::string simulation_key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {

@@ -10,6 +10,7 @@
 #include "app/options/common.h"
 #include "app/options/languages.h"
 #include "app/output/atomic_file.h"
+#include "app/record/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
@@ -112,7 +113,7 @@ int run_promote(const PromoteOptions& options) {
                      "name another file with --out, or move that one away");
   output::write_file(out, made);
   const bool has_changed =
-      !manifest.scene_hash.empty() && manifest.scene_hash != hash_of_scene(text);
+      !manifest.scene_hash.empty() && manifest.scene_hash != record::hash_of(text);
   if (has_changed)
     std::cerr << "neve: warning: " << manifest.scene_file
               << " has changed since the sweep: the rest of this scene is as it is now\n";
