@@ -500,6 +500,68 @@ bool is_half_turn(const sim::Vec3d& degrees, const sim::Vec3d& next) {
   return turn.trace() < -1 + 1e-12;
 }
 
+/// What only a body with a mass has.
+Found massless_problem(const Collider& collider, const std::string& at) {
+  const sim::shapes::RigidBody &body = collider.body, fresh;
+  const std::pair<const char*, bool> given[] = {{".inertia", body.inertia != fresh.inertia},
+                                                {".hold", !body.hold.empty()},
+                                                {".joint", body.joint != fresh.joint},
+                                                {".joint_stiffness", body.joint_stiffness != 0},
+                                                {".joint_damping", body.joint_damping != 0},
+                                                {".spring_stiffness", body.spring_stiffness != 0},
+                                                {".spring_damping", body.spring_damping != 0}};
+  for (const auto& [key, is_given] : given)
+    if (is_given)
+      return Problem{at + key, std::string(key + 1) + " is of a body that moves by itself",
+                     "give " + at + " a density in kg/m3, or a mass in kg"};
+  return {};
+}
+
+bool can_move(const sim::shapes::Shape& shape) {
+  return !std::holds_alternative<sim::shapes::Plane>(shape.form) &&
+         !std::holds_alternative<sim::shapes::Terrain>(shape.form) &&
+         !std::holds_alternative<sim::shapes::MeshSequence>(shape.form);
+}
+
+/// A body that moves by itself.
+Found body_problem(const Scene& scene, const Collider& collider) {
+  const std::string at = "collider." + collider.name;
+  const sim::shapes::RigidBody& body = collider.body;
+  if (!body.moves()) return massless_problem(collider, at);
+  const char* key = body.mass > 0 ? ".mass" : ".density";
+  if (body.mass > 0 && body.density > 0)
+    return Problem{at + key, "the body has a mass and a density", "give one of the two"};
+  if (!can_move(collider.shape))
+    return Problem{at + key, "a shape of this kind cannot move by itself",
+                   "give a mass to a sphere, box, capsule, cylinder, cone, torus or mesh"};
+  if (!collider.keyframes.empty())
+    return Problem{at + key, "keyframes and a mass both move the collider",
+                   "omit the one or the other"};
+  if (!scene.solver.is_contact_at_particles())
+    return Problem{at + key, "snow does not move bodies with solver.contact_at = \"nodes\"",
+                   "use contact_at = \"particles\", the default"};
+  for (const Collider& other : scene.colliders)
+    if (std::holds_alternative<sim::shapes::MeshSequence>(other.shape.form))
+      return Problem{at + key,
+                     "bodies that move by themselves do not meet meshes that deform, as " +
+                         toml::toml_string(other.name) + " does",
+                     "omit the mass, or use a mesh in place of the sequence"};
+  const sim::Vec3d& inertia = body.inertia;
+  if (!inertia.isZero(0) && (inertia.minCoeff() <= 0 || 2 * inertia.maxCoeff() > inertia.sum()))
+    return Problem{at + ".inertia", "no body has these moments of inertia",
+                   "give three above 0, none larger than the other two together"};
+  if (body.joint != sim::shapes::Joint::none && body.joint_axis.isZero(0))
+    return Problem{at + ".joint_axis", "the axis of the joint has no direction",
+                   "give a vector, as [0, 0, 1]"};
+  const bool has_axis =
+      body.joint == sim::shapes::Joint::hinge || body.joint == sim::shapes::Joint::slider;
+  if (!has_axis && (body.joint_stiffness > 0 || body.joint_damping > 0))
+    return Problem{at + (body.joint_stiffness > 0 ? ".joint_stiffness" : ".joint_damping"),
+                   "only a hinge or a slider has a spring or a damper",
+                   "give joint = \"hinge\" or \"slider\""};
+  return {};
+}
+
 Found motion_problem(const Collider& collider) {
   const std::string at = "collider." + collider.name;
   if (collider.keyframes.empty()) return {};
@@ -542,6 +604,7 @@ Found collider_problem(const Scene& scene, const Collider& collider) {
   const std::string address = "collider." + collider.name;
   if (Found found = form_problem(collider.shape, address)) return found;
   if (Found found = motion_problem(collider)) return found;
+  if (Found found = body_problem(scene, collider)) return found;
   if (std::holds_alternative<sim::shapes::Plane>(collider.shape.form)) return {};
   const std::string at = place_address(collider.shape, address);
   if (Found found = too_far(scene, sim::shapes::center(collider.shape), at)) return found;

@@ -30,7 +30,8 @@ inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second
                             *velocity = "m/s", *acceleration = "m/s2", *spin = "rad/s",
                             *density = "kg/m3", *mass_rate = "kg/s", *pascal = "Pa",
                             *degrees = "degrees", *pixels = "px", *bytes = "B", *joule = "J",
-                            *newton = "N";
+                            *newton = "N", *kilogram = "kg", *inertia = "kg m2", *stiffness = "N/m",
+                            *damping = "N s/m";
 }
 
 /// Beyond these, single precision and 64-bit counts stop making sense.
@@ -431,6 +432,37 @@ void describe(V& visit, sim::seeding::Sink& s) {
   visit("outside", s.outside, unit::none, anything, restart, "Remove the snow outside instead.");
 }
 
+/// With a mass, a collider moves by itself.
+template <class V>
+void describe_body_that_moves(V& visit, sim::shapes::RigidBody& b) {
+  using enum Change;
+  visit("density", b.density, unit::density, at_least(1e-3).at_most_or_0(1e30), restart,
+        "Makes it a body that snow, gravity and other bodies move; 0: only the scene moves it.");
+  visit("mass", b.mass, unit::kilogram, at_least(1e-9).at_most_or_0(1e30), restart,
+        "The same by its mass, in place of a density; 0: not given.");
+  visit("inertia", b.inertia, unit::inertia, at_least(0).at_most(1e40), restart,
+        "Moments about the axes of the form, through the centre of mass; 0: those of the shape.");
+  visit("hold", b.hold, unit::none, anything, restart,
+        "Directions of the world that the body does not move along or turn about.");
+  visit("joint", b.joint, unit::none, anything, restart,
+        "What joins the body to the world: ball: a point; hinge: a point and an axis; slider: an "
+        "axis to slide along.");
+  visit("joint_point", b.joint_point, unit::metre, position, restart,
+        "Place of a ball joint or a hinge.");
+  visit("joint_axis", b.joint_axis, unit::none, within(1e6), restart,
+        "Direction of a hinge or a slider.");
+  visit("joint_stiffness", b.joint_stiffness, unit::none, at_least(0).at_most(1e15), live,
+        "Spring of a hinge (N m/rad) or a slider (N/m) back to where it starts.");
+  visit("joint_damping", b.joint_damping, unit::none, at_least(0).at_most(1e15), live,
+        "Damper of a hinge (N m s/rad) or a slider (N s/m).");
+  visit("spring_place", b.spring_place, unit::metre, position, restart,
+        "Place to which a spring pulls the centre of mass.");
+  visit("spring_stiffness", b.spring_stiffness, unit::stiffness, at_least(0).at_most(1e15), live,
+        "Stiffness of that spring; its rest length is 0.");
+  visit("spring_damping", b.spring_damping, unit::damping, at_least(0).at_most(1e15), live,
+        "Damper beside that spring.");
+}
+
 template <class V>
 void describe(V& visit, Collider& c) {
   using enum Change;
@@ -443,9 +475,12 @@ void describe(V& visit, Collider& c) {
         "moves along.");
   visit("friction", c.friction, unit::none, between(0, 1000), live,
         "Coulomb coefficient of separate contact.");
-  visit("velocity", c.velocity, unit::velocity, speed, live, "Constant velocity.");
+  visit("velocity", c.velocity, unit::velocity, speed, live,
+        "Constant velocity; of a body with a mass, at the start.");
   visit("angular_velocity", c.angular_velocity, unit::spin, speed, live,
-        "Constant spin about the shape's centre; a plane only gets a surface velocity.");
+        "Constant spin about the shape's centre, of a body with a mass at the start; a plane only "
+        "gets a surface velocity.");
+  describe_body_that_moves(visit, c.body);
   visit.sequence("keyframes", c.keyframes,
                  "Path of the shape, from rest to rest; excludes the velocities.");
   visit("style", c.style, unit::none, anything, live,

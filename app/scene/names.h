@@ -38,6 +38,16 @@ constexpr auto names(sim::ContactAt) {
   using enum sim::ContactAt;
   return std::array{Name{particles, "particles"}, Name{nodes, "nodes"}};
 }
+constexpr auto names(sim::shapes::HeldAxis) {
+  using enum sim::shapes::HeldAxis;
+  return std::array{Name{x, "x"},           Name{y, "y"},           Name{z, "z"},
+                    Name{turn_x, "turn_x"}, Name{turn_y, "turn_y"}, Name{turn_z, "turn_z"}};
+}
+constexpr auto names(sim::shapes::Joint) {
+  using enum sim::shapes::Joint;
+  return std::array{Name{none, "none"}, Name{ball, "ball"}, Name{hinge, "hinge"},
+                    Name{slider, "slider"}};
+}
 constexpr auto names(sim::TimeStep) {
   using enum sim::TimeStep;
   return std::array{Name{adaptive, "adaptive"}, Name{fixed, "fixed"}};

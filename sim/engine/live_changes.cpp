@@ -57,8 +57,11 @@ std::vector<shapes::Collider> with_offsets(const std::vector<shapes::Collider>& 
   std::vector<shapes::Collider> colliders = after;
   for (std::size_t k = 0; k < colliders.size(); ++k) {
     const shapes::Collider* same = earlier(before, after[k], k);
-    colliders[k].pose_offset =
-        same ? shapes::offset_after(*same, after[k], time) : shapes::PoseOffset{.since = time};
+    if (same && same->body.moves() && after[k].body.moves())
+      shapes::continue_motion(*same, colliders[k], time);
+    else
+      colliders[k].pose_offset =
+          same ? shapes::offset_after(*same, after[k], time) : shapes::PoseOffset{.since = time};
   }
   return colliders;
 }

@@ -12,6 +12,8 @@ namespace {
 constexpr int passes = 2;
 /// After a solve: springs gave way, at each particle by another share.
 constexpr int passes_after_solve = 4;
+/// With bodies that move by themselves, which answer after each.
+constexpr int passes_with_bodies = 6;
 
 /// ContactArgs::carried. Loads go on in a longer step; what stopped snow in a short one does not.
 constexpr double max_carried = 2;
@@ -154,13 +156,24 @@ void ParticleContact<Real>::act(State<Real>& state, const kernels::SweepArgs<Rea
   a.node_blocks = node_blocks_.data();
   over(node_blocks_, sweeps.weigh, state);
   kept_count_ = count;
+  bodies_.begin(state, a);
+  follow_bodies(state);
   if (is_before_solve) return over(blocks_, sweeps.rows, state);
-  for (int k = 1; k <= passes; ++k) {
-    a.is_last = k == passes;
+  const int wanted = bodies_.empty() ? passes : passes_with_bodies;
+  for (int k = 1; k <= wanted; ++k) {
+    a.is_last = k == wanted;
     // What was remembered has been read.
     if (a.is_last) a.keep = kept.room_for(count);
     pass(state);
+    if (!a.is_last) follow_bodies(state);
   }
+}
+
+/// Bodies answer the impulses that there are.
+template <class Real>
+void ParticleContact<Real>::follow_bodies(const State<Real>& state) {
+  if (bodies_.empty()) return;
+  bodies_.answer(state, args_, blocks_);
 }
 
 template <class Real>
@@ -239,8 +252,10 @@ void ParticleContact<Real>::share(const Vec3d& unexplained) {
 template <class Real>
 void ParticleContact<Real>::pass_again(const State<Real>& state) {
   over(node_blocks_, state.method.contact_sweeps->take, state);
-  for (int k = 1; k <= passes_after_solve; ++k) {
-    args_.is_last = k == passes_after_solve;
+  const int wanted = bodies_.empty() ? passes_after_solve : passes_with_bodies;
+  for (int k = 1; k <= wanted; ++k) {
+    follow_bodies(state);
+    args_.is_last = k == wanted;
     pass(state);
   }
 }

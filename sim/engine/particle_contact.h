@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/engine/body_contact.h"
 #include "sim/kernels/implicit.h"
 #include "sim/kernels/particle_contact.h"
 #include "sim/state/state.h"
@@ -50,6 +51,7 @@ class ParticleContact {
   void make_room(std::size_t particles, const Partition& partition);
   std::uint64_t place_contacts();
   std::uint32_t place_kept();
+  void follow_bodies(const State<Real>& state);
   void pass(const State<Real>& state);
   void pass_again(const State<Real>& state);
   void share(const Vec3d& unexplained);
@@ -68,6 +70,7 @@ class ParticleContact {
   kernels::ContactArgs<Real> args_{};  ///< of the last step
   std::uint32_t kept_count_ = 0;       ///< of its contacts, that may be remembered
   std::vector<double> sums_;           ///< see ContactArgs
+  BodyContact<Real> bodies_;
 };
 
 }  // namespace neve::sim::engine

@@ -217,6 +217,9 @@ void require_healthy(const SavedNumbers<Real>& saved, const Method<Real>& method
   require_healthy_counters(saved.progress);
   for (const kernels::Particle<Real>& p : saved.records) require_healthy_particle(p);
   for (const shapes::PoseOffset& offset : saved.offsets) require_healthy_offset(offset);
+  for (const auto& motion : saved.motions)
+    for (const Vec3d& velocity : motion)
+      for (const double v : velocity) require_finite("a body that moves with velocity", v);
   for (const kernels::KeptContact<Real>& contact : saved.contacts) require_healthy_contact(contact);
   for (const seeding::EmitterStream::State& emitter : saved.emitters)
     require_healthy_emitter(emitter, saved.progress.time);

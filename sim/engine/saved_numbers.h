@@ -1,6 +1,7 @@
 #pragma once
 /// The numbers of a saved state, and which of them cannot be, however right a checksum is.
 
+#include <array>
 #include <vector>
 
 #include "sim/kernels/particle_contact.h"
@@ -17,6 +18,8 @@ struct SavedNumbers {
   Progress progress;
   std::vector<kernels::Particle<Real>> records;
   std::vector<shapes::PoseOffset> offsets;  ///< of colliders
+  /// m/s and rad/s, of bodies that move by themselves.
+  std::vector<std::array<Vec3d, 2>> motions;
   std::vector<seeding::EmitterStream::State> emitters;
   std::vector<kernels::KeptContact<Real>> contacts;
 };

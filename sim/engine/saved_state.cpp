@@ -15,7 +15,7 @@ namespace {
 constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'E'};
 
 /// At the beginning: it says what follows. Then come Progress, the records, the offsets of the
-/// colliders, the emitters and the contacts.
+/// colliders, the emitters, the contacts and the velocities of bodies that move by themselves.
 struct SavedHead {
   char magic[8];
   std::uint32_t bytes_per_number, bytes_per_record;
@@ -27,6 +27,11 @@ static_assert(std::has_unique_object_representations_v<SavedHead>);
 
 struct SavedOffset {
   double since, moved[3], turned[9], delay;
+};
+
+/// Of a body that moves by itself.
+struct SavedMotion {
+  double velocity[3], spin[3];
 };
 
 /// KeptContact, without the order that they are read in.
@@ -127,10 +132,12 @@ SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<R
   saved.emitters = flow.emitter_states();
   require_same(head, head_of(state, saved.emitters.size(), head.contacts));
   std::vector<SavedOffset> offsets(state.colliders.list().size());
+  saved.motions.resize(state.colliders.bodies().size());
   if (head.particles > bytes.size() / sizeof(kernels::Particle<Real>) ||
       bytes.size() != sizeof head + sizeof saved.progress +
                           head.particles * sizeof(kernels::Particle<Real>) + bytes_in(offsets) +
-                          bytes_in(saved.emitters) + head.contacts * sizeof(SavedContact))
+                          bytes_in(saved.emitters) + head.contacts * sizeof(SavedContact) +
+                          saved.motions.size() * sizeof(SavedMotion))
     refuse_saved("has a different length than it says");
   take(&saved.progress, sizeof saved.progress);
   saved.records.resize(head.particles);
@@ -139,6 +146,12 @@ SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<R
   take(saved.emitters.data(), bytes_in(saved.emitters));
   std::vector<SavedContact> contacts(head.contacts);
   take(contacts.data(), bytes_in(contacts));
+  for (auto& [velocity, spin] : saved.motions) {
+    SavedMotion motion{};
+    take(&motion, sizeof motion);
+    velocity = Vec3d::Map(motion.velocity);
+    spin = Vec3d::Map(motion.spin);
+  }
   for (const SavedOffset& offset : offsets) saved.offsets.push_back(restored(offset));
   for (const SavedContact& contact : contacts) saved.contacts.push_back(restored<Real>(contact));
   return saved;
@@ -157,9 +170,18 @@ std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& f
   std::vector<SavedContact> contacts;
   for (const kernels::KeptContact<Real>& contact : state.particles.contacts.list())
     contacts.push_back(saved(contact));
+  std::vector<SavedMotion> motions;
+  const rigid::RigidBodies& bodies = state.colliders.bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const shapes::Collider& body = state.colliders.list()[bodies.collider(b)];
+    SavedMotion& motion = motions.emplace_back();
+    Vec3d::Map(motion.velocity) = body.velocity;
+    Vec3d::Map(motion.spin) = body.angular_velocity;
+  }
   const SavedHead head = head_of(state, emitters.size(), contacts.size());
   std::vector<std::uint8_t> bytes(sizeof head + sizeof state.progress + bytes_in(records) +
-                                  bytes_in(offsets) + bytes_in(emitters) + bytes_in(contacts));
+                                  bytes_in(offsets) + bytes_in(emitters) + bytes_in(contacts) +
+                                  bytes_in(motions));
   std::uint8_t* next = bytes.data();
   const auto put = [&](const void* data, std::size_t size) {
     if (size > 0) std::memcpy(next, data, size);
@@ -171,6 +193,7 @@ std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& f
   put(offsets.data(), bytes_in(offsets));
   put(emitters.data(), bytes_in(emitters));
   put(contacts.data(), bytes_in(contacts));
+  put(motions.data(), bytes_in(motions));
   return bytes;
 }
 
@@ -181,6 +204,9 @@ void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<R
   state.progress = saved.progress;
   for (std::size_t k = 0; k < saved.offsets.size(); ++k)
     state.colliders.set_offset(k, saved.offsets[k]);
+  for (std::size_t b = 0; b < saved.motions.size(); ++b)
+    state.colliders.set_velocities(state.colliders.bodies().collider(b), saved.motions[b][0],
+                                   saved.motions[b][1]);
   state.colliders.place(state.method.lattice, saved.progress.colliders_time, *state.pool);
   flow.restore(saved.emitters);
   state.particles.replace(saved.records);

@@ -140,6 +140,17 @@ std::uint64_t StateReader<Real>::state_hash() const {
     hash = hash_bytes(p.C, sizeof p.C, hash);
     sum += mix64(static_cast<std::uint64_t>(p.id), hash);
   }
+  const rigid::RigidBodies& bodies = state_.colliders.bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::size_t k = bodies.collider(b);
+    const shapes::Collider& body = state_.colliders.list()[k];
+    std::uint64_t hash = hash_bytes(body.velocity.data(), sizeof(Vec3d));
+    hash = hash_bytes(body.angular_velocity.data(), sizeof(Vec3d), hash);
+    hash = hash_bytes(body.pose_offset.moved.data(), sizeof(Vec3d), hash);
+    hash = hash_bytes(body.pose_offset.turned.data(), sizeof(Mat3d), hash);
+    // Ids of particles have 32 bits.
+    sum += mix64(~static_cast<std::uint64_t>(k), hash);
+  }
   return sum;
 }
 

@@ -18,6 +18,12 @@
 ///
 /// It begins with the impulses of the last step, projected.
 ///
+/// A body that moves by itself answers between the passes: its surface has another velocity then.
+/// To each contact it shows an equal part of its mass, `give` is what that part gives way by: then
+/// the passes go as far as they should and no further, for a feather as for an anvil (Tonge,
+/// Benevolenski and Voroshilov, Mass splitting for jitter-free parallel rigid body simulation,
+/// SIGGRAPH 2012).
+///
 /// In the semi-implicit solve, elasticity answers too. Each contact that acts is a spring of
 /// stiffness `hold` / D_p there, between v_p and the velocity that it wants: along the normal, and
 /// along the surface where friction or the collider holds on to it. Its impulse adds to that of the
@@ -59,11 +65,14 @@ struct ContactRecord {
   I list;        ///< number of the collider in the list of the run
   R lost[3];     ///< m/s, of the particle's own velocity: the collider takes it
   R mass;        ///< kg, of the particle
+  R give;        ///< 1/kg: a body gives way by so much to an impulse along the normal; 0 of others
+  R give_along;  ///< along the surface
+  R unused[2];
 };
 inline constexpr int holds_normal = 1, holds_surface = 2;
 template <class Real>
 using Contact = ContactRecord<Real, Integer<Real>>;
-inline constexpr int contact_quads = 8;
+inline constexpr int contact_quads = 9;
 static_assert(sizeof(Contact<float>) == 16 * contact_quads);
 
 /// What a particle and a collider remember of each other until the next step: what pressed it then

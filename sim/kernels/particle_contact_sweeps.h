@@ -374,14 +374,15 @@ struct ContactSweepsFor {
         reinterpret_cast<V>(c.cell[2]), reinterpret_cast<V>(c.collider));
     put(6, c.touches, c.is_shallow, reinterpret_cast<V>(c.particle), reinterpret_cast<V>(c.list));
     put(7, c.lost[0], c.lost[1], c.lost[2], c.mass);
+    put(8, c.give, c.give_along, V{}, V{});
   }
 
   NEVE_INLINE static void read(Lanes& c, Contact<Real>* const* records) {
     const auto get = [&](int quad) NEVE_INLINE_BODY {
       return load_words<V>(records, 4 * quad * static_cast<int>(sizeof(Real)));
     };
-    const FourWords<V> q[contact_quads] = {get(0), get(1), get(2), get(3),
-                                           get(4), get(5), get(6), get(7)};
+    const FourWords<V> q[contact_quads] = {get(0), get(1), get(2), get(3), get(4),
+                                           get(5), get(6), get(7), get(8)};
     for (int x = 0; x < 3; ++x) {
       c.offset[x] = q[0].w[x];
       c.normal[x] = q[1].w[x];
@@ -402,6 +403,8 @@ struct ContactSweepsFor {
     c.list = reinterpret_cast<I>(q[6].w[3]);
     for (int x = 0; x < 3; ++x) c.lost[x] = q[7].w[x];
     c.mass = q[7].w[3];
+    c.give = q[8].w[0];
+    c.give_along = q[8].w[1];
   }
 
   // ---- passes -----------------------------------------------------------------------------------
@@ -473,21 +476,31 @@ struct ContactSweepsFor {
     c.row = v_and_row.w[3];
     const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
     const Vec3<V> v_rel = relative(v_and_row, c);
-    const V v_n = dot(v_rel, n), inverse = all<V>(1) / c.row;
+    const V v_n = dot(v_rel, n), inverse = all<V>(1) / (c.row + c.give);
     // Nearer it may come, away it may not.
     const V push = c.impulse + (c.least - v_n) * inverse;
     const V pull = c.impulse + (larger_lanes(c.least, V{}) - v_n) * inverse;
     const Vec3<V> before{c.sliding[0], c.sliding[1], c.sliding[2]};
-    const Vec3<V> sliding = before - (v_rel - n * v_n) * inverse;
+    const Vec3<V> sliding = before - (v_rel - n * v_n) * (all<V>(1) / (c.row + c.give_along));
     return project(push, pull, sliding, c);
   }
 
-  /// A pass after the solve: impulses of particles that still come too near only.
-  NEVE_INLINE static Vec3<V> close(const FourWords<V>& on_grid, Lanes& c) {
+  /// A pass after the solve: impulses of particles that still come too near only. Bodies, which the
+  /// solve does not know, get a whole one.
+  NEVE_INLINE static Vec3<V> close(const FourWords<V>& v_and_row, Lanes& c) {
     const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
-    const V more = larger_lanes((c.least - dot(relative(on_grid, c), n)) / c.row, V{});
-    c.impulse += more;
-    return n * more;
+    const V more = larger_lanes((c.least - dot(relative(v_and_row, c), n)) / c.row, V{});
+    const I is_body = c.give > V{};
+    if (!any_lane(is_body)) {
+      c.impulse += more;
+      return n * more;
+    }
+    Lanes whole = c;
+    const Vec3<V> answer = respond_to(v_and_row, whole);
+    c.impulse = is_body ? whole.impulse : c.impulse + more;
+    c.holds = is_body ? whole.holds : c.holds;
+    for (int x = 0; x < 3; ++x) c.sliding[x] = is_body ? whole.sliding[x] : c.sliding[x];
+    return select(is_body, answer, n * more);
   }
 
   /// The impulses become the nearest that contact can have, and `holds` says how. A contact that
@@ -528,7 +541,7 @@ struct ContactSweepsFor {
       load_u(a, b, u);
       each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
         const Vec3<V> force =
-            spring_of(gathered(group.s, u), group.contact, a.is_first) * all<V>(stiffness);
+            spring_of(a, gathered(group.s, u), group.contact, a.is_first) * all<V>(stiffness);
         scatter(group.s, FourWords<V>{{force.x, force.y, force.z, V{}}}, group.used,
                 tile_of<Real, K>(a.step, b, 0));
       });
@@ -557,7 +570,7 @@ struct ContactSweepsFor {
       each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
         Lanes& c = group.contact;
         const FourWords<V> on_grid = gathered(group.s, u);
-        const Vec3<V> spring = spring_of(on_grid, c, true) * all<V>(-a.hold);
+        const Vec3<V> spring = spring_of(a, on_grid, c, true) * all<V>(-a.hold);
         feel(c, spring);
         // What a pass would still change, by its mass.
         FourWords<V> v_and_row = on_grid;
@@ -593,7 +606,7 @@ struct ContactSweepsFor {
         const Lanes before = c;
         FourWords<V> v_and_row = gathered(group.s, u);
         v_and_row.w[3] = c.row;
-        feel(c, spring_of(v_and_row, c, true) * all<V>(-a.hold));
+        feel(c, spring_of(a, v_and_row, c, true) * all<V>(-a.hold));
         respond_to(v_and_row, c);
         write(c, group.record, group.used);
         FourWords<V> change{};
@@ -612,7 +625,7 @@ struct ContactSweepsFor {
       load_u(a, b, u);
       each_group(a, b, [&](Group& group) NEVE_INLINE_BODY {
         Lanes& c = group.contact;
-        feel(c, spring_of(gathered(group.s, u), c, true) * all<V>(-a.hold));
+        feel(c, spring_of(a, gathered(group.s, u), c, true) * all<V>(-a.hold));
         write(c, group.record, group.used);
       });
     }
@@ -638,16 +651,19 @@ struct ContactSweepsFor {
   }
 
   /// The part of u that each contact holds, over D. What pulls wants the particle no further away.
-  NEVE_INLINE static Vec3<V> spring_of(const FourWords<V>& on_grid, const Lanes& c, bool is_first) {
+  /// A body is a mass behind its springs: they give way as it does.
+  NEVE_INLINE static Vec3<V> spring_of(const Args& a, const FourWords<V>& on_grid, const Lanes& c,
+                                       bool is_first) {
     const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
     const Vec3<V> u =
         is_first ? relative(on_grid, c) : Vec3<V>{on_grid.w[0], on_grid.w[1], on_grid.w[2]};
     const V closest = c.impulse < V{} ? larger_lanes(c.least, V{}) : c.least;
     const V u_n = dot(u, n), wanted = is_first ? closest : V{};
-    const V inverse = all<V>(1) / c.row;
+    const V inverse = all<V>(1) / (c.row + c.give * a.hold);
     const I holds_n = (c.holds == all<V>(holds_normal)) | (c.holds > all<V>(holds_surface));
     const V normal = holds_n ? (u_n - wanted) * inverse : V{};
-    const V surface = c.holds >= all<V>(holds_surface) ? inverse : V{};
+    const V surface =
+        c.holds >= all<V>(holds_surface) ? all<V>(1) / (c.row + c.give_along * a.hold) : V{};
     return n * normal + (u - n * u_n) * surface;
   }
 

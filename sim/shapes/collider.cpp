@@ -229,6 +229,25 @@ PoseOffset offset_after(const Collider& before, const Collider& after, double ti
   return offset;
 }
 
+void set_motion(Collider& body, const Vec3d& velocity, const Vec3d& spin) {
+  if (!body.body.start) body.body.start = {body.velocity, body.angular_velocity};
+  body.velocity = velocity;
+  body.angular_velocity = spin;
+}
+
+void continue_motion(const Collider& before, Collider& after, double time) {
+  const std::array<Vec3d, 2> start =
+      before.body.start.value_or(std::array{before.velocity, before.angular_velocity});
+  after.pose_offset = before.pose_offset;
+  if (after.velocity == start[0] && after.angular_velocity == start[1])
+    return set_motion(after, before.velocity, before.angular_velocity);
+  const Pose now = pose_at(before, time);
+  after.pose_offset.since = time;
+  after.pose_offset.moved = now.point - center(before.shape);
+  after.pose_offset.turned =
+      now.rotation * rotation_from_degrees(before.shape.rotation).transpose();
+}
+
 PoseOffset delayed(PoseOffset offset, double seconds) {
   offset.since += seconds;
   offset.delay += seconds;

@@ -2,6 +2,8 @@
 /// Obstacles, rigid or deforming: signed distance, normal and velocity at a time, and the contact
 /// law.
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,16 +23,44 @@ struct PoseOffset {
   double delay = 0;                  ///< s that steps did not move it: keyframes are so much later
 };
 
+/// Directions of the world that a body may not move along or turn about.
+enum class HeldAxis { x, y, z, turn_x, turn_y, turn_z };
+
+/// What joins a body to the world: a point that stays, an axis that it turns about, or one that it
+/// slides along.
+enum class Joint { none, ball, hinge, slider };
+
+/// A collider with a mass moves by itself (sim/rigid/rigid_bodies.h).
+struct RigidBody {
+  double density = 0;      ///< kg/m3; 0: not given
+  double mass = 0;         ///< kg, before the density; 0: not given
+  Vec3d inertia{0, 0, 0};  ///< kg m2, about the axes of the form; 0: of the shape
+  std::vector<HeldAxis> hold;
+  Joint joint = Joint::none;
+  Vec3d joint_point{0, 0, 0};  ///< m, where the body is at the start
+  Vec3d joint_axis{0, 1, 0};
+  double joint_stiffness = 0;   ///< N m/rad of a hinge, N/m of a slider, back to the start
+  double joint_damping = 0;     ///< N m s/rad, N s/m
+  Vec3d spring_place{0, 0, 0};  ///< m, to which a spring pulls the centre of mass
+  double spring_stiffness = 0;  ///< N/m
+  double spring_damping = 0;    ///< N s/m
+  /// m/s and rad/s, that its motion began with, once it has another.
+  std::optional<std::array<Vec3d, 2>> start{};
+
+  bool moves() const { return density > 0 || mass > 0; }
+};
+
 struct Collider {
   std::string name;
   Shape shape;
   Contact contact = Contact::separate;
   double friction = 0.5;    ///< Coulomb, of separate contact
-  Vec3d velocity{0, 0, 0};  ///< m/s
+  Vec3d velocity{0, 0, 0};  ///< m/s; of a body that moves by itself, at the start
   Vec3d angular_velocity{
       0, 0, 0};  ///< rad/s about the shape's centre; a plane's only adds surface velocity
   std::vector<PoseKeyframe> keyframes;  ///< times increase; the velocities above are 0 then
   PoseOffset pose_offset{};
+  RigidBody body{};
 };
 
 /// Pose and motion of a collider at a time: from its place in the scene at t = 0 with constant
@@ -47,6 +77,13 @@ double shape_time(const Collider& collider, double time);
 /// keyframes, it continues from its place; one whose place, shape or contact was edited moves by
 /// the edit alone. Keyframes say themselves where it is.
 PoseOffset offset_after(const Collider& before, const Collider& after, double time);
+
+/// A body that moves by itself has this velocity now, m/s and rad/s.
+void set_motion(Collider& body, const Vec3d& velocity, const Vec3d& spin);
+
+/// Offset of a body that moves by itself and is changed at a time: it continues as it does, unless
+/// it is given another velocity to start with. @param after  gets the motion
+void continue_motion(const Collider& before, Collider& after, double time);
 
 /// Offset of a collider that steps did not move for a while.
 PoseOffset delayed(PoseOffset offset, double seconds);

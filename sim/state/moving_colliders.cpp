@@ -61,7 +61,7 @@ double speed_near(const kernels::LocalCollider<double>& c, std::uint64_t key, do
 
 MovingColliders::MovingColliders(const std::vector<shapes::Collider>& colliders,
                                  const Lattice& lattice, double time, ThreadPool& pool)
-    : list_(colliders) {
+    : list_(colliders), bodies_(colliders) {
   if (list_.size() > kernels::max_colliders)
     throw std::invalid_argument("at most " + std::to_string(kernels::max_colliders) + " colliders");
   for (const shapes::Collider& c : list_) {
@@ -115,6 +115,7 @@ double MovingColliders::shape_speed(std::size_t k, double from, double to) const
 
 void MovingColliders::place(const Lattice& lattice, double time, ThreadPool& pool) {
   poses_.clear();
+  has_begun_ = false;
   for (std::size_t k = 0; k < list_.size(); ++k) {
     if (fields_[k].deforming)
       fields_[k].deforming->move_to(shapes::shape_time(list_[k], time), pool);
@@ -123,6 +124,23 @@ void MovingColliders::place(const Lattice& lattice, double time, ThreadPool& poo
       poses_.push_back(*pose);
     }
   }
+}
+
+rigid::RigidBodies* MovingColliders::begin_bodies(double time) {
+  if (bodies_.empty()) return nullptr;
+  bodies_.begin(list_, time);
+  has_begun_ = true;
+  return &bodies_;
+}
+
+void MovingColliders::move_bodies(double time, double dt, const Vec3d& gravity,
+                                  const std::vector<rigid::Push>& pushes) {
+  if (bodies_.empty()) return;
+  if (!has_begun_) bodies_.begin(list_, time);
+  has_begun_ = false;
+  bodies_.respond(dt, gravity, pushes);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    bodies_.move(b, dt, time + dt, list_[bodies_.collider(b)]);
 }
 
 double MovingColliders::fastest_near(const std::vector<kernels::BlockRange>& blocks,

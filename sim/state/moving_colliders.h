@@ -9,6 +9,7 @@
 #include "sim/base/thread_pool.h"
 #include "sim/kernels/blocks.h"
 #include "sim/kernels/contact.h"
+#include "sim/rigid/rigid_bodies.h"
 #include "sim/shapes/collider.h"
 #include "sim/shapes/deforming_field.h"
 #include "sim/shapes/height_field.h"
@@ -27,6 +28,21 @@ class MovingColliders {
   void place(const Lattice& lattice, double time, ThreadPool& pool);
   void set_offset(std::size_t k, const shapes::PoseOffset& offset) {
     list_[k].pose_offset = offset;
+  }
+  /// Of a body that moves by itself.
+  void set_velocities(std::size_t k, const Vec3d& velocity, const Vec3d& spin) {
+    shapes::set_motion(list_[k], velocity, spin);
+  }
+  /// Bodies that move by themselves, at the beginning of a step.
+  /// @param time  of their poses  @return nothing where there is none
+  rigid::RigidBodies* begin_bodies(double time);
+  /// They take a step of dt. @param pushes  see RigidBodies::respond
+  void move_bodies(double time, double dt, const Vec3d& gravity,
+                   const std::vector<rigid::Push>& pushes);
+  const rigid::RigidBodies& bodies() const { return bodies_; }
+  /// m, its centre of mass at a time.
+  Vec3d centre_of_body(std::size_t body, double time) const {
+    return bodies_.centre(body, shapes::pose_at(list_[bodies_.collider(body)], time));
   }
 
   /// Largest speed of a surface that snow may meet in a step of dt from `time`, m/s; 0 if those
@@ -65,6 +81,8 @@ class MovingColliders {
   double shape_speed(std::size_t k, double from, double to) const;
 
   std::vector<shapes::Collider> list_;
+  rigid::RigidBodies bodies_;
+  bool has_begun_ = false;  ///< the step of the bodies
   std::vector<Field> fields_;
   std::vector<kernels::ColliderPose> poses_;
   std::vector<kernels::LocalCollider<double>> ahead_;  ///< seen from cell 0

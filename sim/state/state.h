@@ -40,7 +40,8 @@ struct State {
   /// Stress, keys and limits of records [begin, end) as they are, all that come among them.
   kernels::BlockReport<Real> refresh(std::size_t begin, std::size_t end);
 
-  /// Time passes, and colliders move unless the settings skip that.
+  /// Time passes, and colliders move unless the settings skip that: bodies by what the loads of the
+  /// step say.
   void advance_time(double dt);
   /// Makes the speed of colliders that snow may meet a limit of the next step.
   void note_near_colliders();
@@ -65,6 +66,7 @@ struct State {
 
  private:
   void sort_into_blocks();
+  void move_bodies(double dt);
 };
 
 template <class Real>

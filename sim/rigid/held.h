@@ -1,0 +1,53 @@
+#pragma once
+/// What holds a body: axes that it may not move along or turn about, and a joint with the world.
+
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "sim/rigid/mass.h"
+
+namespace neve::sim::rigid {
+
+/// Rows of Bullet's solver, all of them rigid. Errors of place are taken back by the share `erp` of
+/// the solver, step by step.
+class Held final : public btTypedConstraint {
+ public:
+  /// @param rotation  of the pose of the collider in the scene, times the axes of its form
+  Held(btRigidBody& body, const shapes::Collider& collider, const MassProperties& mass,
+       const Mat3d& rotation);
+  /// False where nothing holds the body: it has no row.
+  static bool holds(const shapes::RigidBody& body);
+
+  /// Before the rows are asked for.
+  /// @param rotation  as in the constructor, now
+  void set_place(const Vec3d& centre, const Mat3d& rotation);
+
+  /// The impulse of the springs in a step of dt, and its moment about the centre of mass: exact for
+  /// the one freedom that the joint leaves, and stable for any stiffness (implicit Euler).
+  void add_springs(double dt, const Vec3d& velocity, const Vec3d& spin, const Mat3d& inertia,
+                   Vec3d& impulse, Vec3d& moment) const;
+
+  void getInfo1(btConstraintInfo1* info) override;
+  void getInfo2(btConstraintInfo2* info) override;
+  void setParam(int, btScalar, int = -1) override {}
+  btScalar getParam(int, int = -1) const override { return 0; }
+
+ private:
+  struct Row {
+    Vec3d along, about;
+    double error;
+  };
+  std::vector<Row> rows() const;
+  void add_joint(std::vector<Row>& rows) const;
+
+  const shapes::RigidBody held_;
+  const double mass_;
+  Vec3d start_;     ///< m, of the centre of mass
+  Mat3d rotation_;  ///< in the scene
+  Vec3d arm_;       ///< of the joint's point, in the axes of the form from the centre of mass
+  Vec3d axis_;      ///< of the joint, in the axes of the world
+  Vec3d centre_;
+  Mat3d now_;
+};
+
+}  // namespace neve::sim::rigid

@@ -1,0 +1,25 @@
+#pragma once
+/// Mass, centre and inertia of solid shapes of even density.
+
+#include "sim/shapes/collider.h"
+
+namespace neve::sim::rigid {
+
+/// In the axes of the form (shapes::form_axes), about the shape's centre.
+struct MassProperties {
+  double mass = 0;                    ///< kg
+  Vec3d centre{0, 0, 0};              ///< m, centre of mass from the shape's centre
+  Mat3d inertia = Mat3d::Identity();  ///< kg m2, about the centre of mass
+};
+
+/// Exact for the analytic forms. Of meshes it is that of the polyhedron, by sums over tetrahedra
+/// from the origin to each face (Eberly, Polyhedral mass properties (revisited), 2002), scaled to
+/// the volume that the mesh is filled with.
+/// @throws ShapeError when a mesh cannot be read or is open; std::invalid_argument for shapes that
+///         have no finite volume or deform
+MassProperties mass_properties(const shapes::Shape& shape, double density);
+
+/// Of a collider that has a body: its mass, density or inertia as given.
+MassProperties mass_properties(const shapes::Collider& collider);
+
+}  // namespace neve::sim::rigid

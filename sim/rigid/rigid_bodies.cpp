@@ -1,0 +1,332 @@
+#include "sim/rigid/rigid_bodies.h"
+
+#include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/rigid/held.h"
+#include "sim/rigid/rigid_shape.h"
+
+namespace neve::sim::rigid {
+
+namespace {
+
+/// Bodies are few and a step is short: contact is solved to the end.
+constexpr int iterations = 50;
+/// Around the first axis of a contact, Bullet looks for more points of it in so many directions.
+constexpr int perturbations = 8, wanted_points = 4;
+/// What holds a body in place has no slack, and what overlaps is moved apart, by this share a step.
+constexpr double taken_back = 0.2;
+/// Bullet's largest coefficient; sticky.
+constexpr double without_sliding = 10;
+
+/// Bullet multiplies those of the two that touch: this way it is their geometric mean.
+double bullet_friction(const shapes::Collider& collider) {
+  if (collider.contact == shapes::Contact::sticky) return without_sliding;
+  if (collider.contact == shapes::Contact::slip) return 0;
+  return std::min(std::sqrt(collider.friction), without_sliding);
+}
+
+/// Columns are principal axes; where the given ones already are, they stay.
+Mat3d principal_axes(const Mat3d& inertia) {
+  Mat3d off = inertia;
+  off.diagonal().setZero();
+  if (off.norm() <= 1e-9 * inertia.norm()) return Mat3d::Identity();
+  Mat3d axes = Eigen::SelfAdjointEigenSolver<Mat3d>(inertia).eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) *= -1;
+  return axes;
+}
+
+btRigidBody::btRigidBodyConstructionInfo construction(double mass, btCollisionShape* shape,
+                                                      const btVector3& inertia) {
+  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape, inertia);
+  info.m_restitution = 0;
+  return info;
+}
+
+}  // namespace
+
+/// A rigid body of Bullet and what it needs; a collider that the scene moves has no mass there.
+class RigidBodies::World {
+ public:
+  World(const std::vector<Body>& bodies, const std::vector<shapes::Collider>& colliders) {
+    for (const Body& body : bodies) heaviest_ = std::max(heaviest_, body.mass.mass);
+    configuration_.setConvexConvexMultipointIterations(perturbations, wanted_points);
+    configuration_.setPlaneConvexMultipointIterations(perturbations, wanted_points);
+    auto next = bodies.begin();
+    for (std::size_t k = 0; k < colliders.size(); ++k) {
+      const bool moves = next != bodies.end() && next->collider == k;
+      things_.push_back(moves ? moving_thing(*next, colliders[k]) : fixed_thing(colliders[k]));
+      if (moves) moving_.push_back(k), ++next;
+    }
+    leave_out_joined(bodies, colliders);
+  }
+
+  void place(const std::vector<Body>& bodies, const std::vector<shapes::Collider>& colliders,
+             double time) {
+    for (std::size_t k = 0; k < things_.size(); ++k)
+      if (!things_[k].moves) place_fixed(things_[k], colliders[k], time);
+    for (std::size_t b = 0; b < bodies.size(); ++b) reset(bodies[b], things_[moving_[b]]);
+    detect();
+  }
+
+  void respond(std::vector<Body>& bodies, double dt, const Vec3d& gravity,
+               const std::vector<Push>& pushes) {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      reset(bodies[b], things_[moving_[b]]);
+      push(bodies[b], things_[moving_[b]], dt, gravity, pushes[b]);
+    }
+    solve(dt);
+    for (std::size_t b = 0; b < bodies.size(); ++b) read(things_[moving_[b]], bodies[b]);
+  }
+
+ private:
+  struct Thing {
+    bool moves = false;
+    std::unique_ptr<RigidShape> shape;
+    std::unique_ptr<btRigidBody> body;
+    Mat3d axes = Mat3d::Identity();       ///< of the form
+    Mat3d principal = Mat3d::Identity();  ///< in the axes of the form
+    std::unique_ptr<Held> held;
+    std::vector<std::size_t>
+        joined;  ///< colliders that it overlaps where it is joined to the world
+  };
+
+  static Thing fixed_thing(const shapes::Collider& collider) {
+    Thing out;
+    out.axes = shapes::form_axes(collider.shape);
+    out.shape = fixed_shape(collider.shape);
+    out.body = std::make_unique<btRigidBody>(construction(0, out.shape->get(), btVector3(0, 0, 0)));
+    out.body->setFriction(bullet_friction(collider));
+    out.body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    out.body->setActivationState(DISABLE_DEACTIVATION);
+    return out;
+  }
+
+  Thing moving_thing(const Body& body, const shapes::Collider& collider) const {
+    Thing out;
+    out.moves = true;
+    out.axes = body.axes;
+    out.principal = principal_axes(body.mass.inertia);
+    out.shape = body_shape(collider.shape, body.mass, out.principal);
+    const Vec3d inertia =
+        (out.principal.transpose() * body.mass.inertia * out.principal).diagonal() / heaviest_;
+    out.body = std::make_unique<btRigidBody>(
+        construction(body.mass.mass / heaviest_, out.shape->get(), to_bullet(inertia)));
+    out.body->setFriction(bullet_friction(collider));
+    out.body->setActivationState(DISABLE_DEACTIVATION);
+    if (Held::holds(collider.body)) {
+      const Mat3d turned = rotation_from_degrees(collider.shape.rotation) * body.axes;
+      out.held = std::make_unique<Held>(*out.body, collider, body.mass, turned);
+    }
+    return out;
+  }
+
+  static void place_fixed(Thing& thing, const shapes::Collider& collider, double time) {
+    const shapes::Pose pose = shapes::pose_at(collider, time);
+    thing.body->setWorldTransform(
+        btTransform(to_bullet(Mat3d(pose.rotation * thing.axes)), to_bullet(pose.point)));
+    thing.body->setLinearVelocity(to_bullet(pose.velocity));
+    thing.body->setAngularVelocity(to_bullet(pose.angular_velocity));
+  }
+
+  /// As it was before the step.
+  static void reset(const Body& body, Thing& thing) {
+    const Mat3d form = body.before.rotation * thing.axes;
+    thing.body->setWorldTransform(
+        btTransform(to_bullet(Mat3d(form * thing.principal)), to_bullet(body.before.centre)));
+    thing.body->updateInertiaTensor();
+    thing.body->setLinearVelocity(to_bullet(body.before.velocity));
+    thing.body->setAngularVelocity(to_bullet(body.before.spin));
+    if (thing.held) thing.held->set_place(body.before.centre, form);
+  }
+
+  static void push(const Body& body, Thing& thing, double dt, const Vec3d& gravity,
+                   const Push& push) {
+    const Mat3d form = body.before.rotation * thing.axes;
+    const Mat3d inertia = form * body.mass.inertia * form.transpose();
+    Vec3d impulse = push.impulse + body.mass.mass * dt * gravity, moment = push.moment;
+    if (thing.held) {
+      // A spring knows what else pushes: it resists the velocity that the body will have.
+      const Vec3d velocity = body.before.velocity + impulse / body.mass.mass;
+      const Vec3d spin = body.before.spin + inertia.ldlt().solve(moment);
+      thing.held->add_springs(dt, velocity, spin, inertia, impulse, moment);
+    }
+    const Vec3d velocity = body.before.velocity + impulse / body.mass.mass;
+    const Vec3d spin = body.before.spin + inertia.ldlt().solve(moment);
+    thing.body->setLinearVelocity(to_bullet(velocity));
+    thing.body->setAngularVelocity(to_bullet(spin));
+  }
+
+  /// Bullet has taken apart what overlapped.
+  static void read(const Thing& thing, Body& body) {
+    const btTransform& at = thing.body->getWorldTransform();
+    body.after.centre = from_bullet(at.getOrigin());
+    body.after.rotation =
+        from_bullet(at.getBasis()) * thing.principal.transpose() * thing.axes.transpose();
+    body.after.velocity = from_bullet(thing.body->getLinearVelocity());
+    body.after.spin = from_bullet(thing.body->getAngularVelocity());
+  }
+
+  /// Everything that Bullet remembers is made anew: what it finds depends on the places alone.
+  void detect() {
+    world_.reset();
+    dispatcher_ = std::make_unique<Dispatcher>(&configuration_, things_);
+    broadphase_ = std::make_unique<btSimpleBroadphase>(static_cast<int>(things_.size()) + 1);
+    world_ =
+        std::make_unique<btCollisionWorld>(dispatcher_.get(), broadphase_.get(), &configuration_);
+    for (std::size_t k = 0; k < things_.size(); ++k) {
+      Thing& thing = things_[k];
+      thing.body->setUserIndex(static_cast<int>(k));
+      world_->addCollisionObject(thing.body.get());
+    }
+    world_->computeOverlappingPairs();
+    dispatcher_->dispatchAllCollisionPairs(broadphase_->getOverlappingPairCache(),
+                                           world_->getDispatchInfo(), dispatcher_.get());
+  }
+
+  void solve(double dt) {
+    btContactSolverInfo info;
+    info.m_timeStep = dt;
+    info.m_numIterations = iterations;
+    info.m_erp = info.m_erp2 = taken_back;
+    info.m_splitImpulse = true;
+    info.m_splitImpulsePenetrationThreshold = 0;
+    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
+    std::vector<btCollisionObject*> objects;
+    std::vector<btTypedConstraint*> constraints;
+    for (Thing& thing : things_) {
+      objects.push_back(thing.body.get());
+      if (thing.held) constraints.push_back(thing.held.get());
+    }
+    const auto count = [](const auto& list) { return static_cast<int>(list.size()); };
+    solver_.reset();
+    solver_.solveGroup(objects.data(), count(objects), dispatcher_->getInternalManifoldPointer(),
+                       dispatcher_->getNumManifolds(), constraints.data(), count(constraints), info,
+                       nullptr, dispatcher_.get());
+  }
+
+  /// A body that is joined to the world where it overlaps something, as a sign with its post, does
+  /// not meet that.
+  void leave_out_joined(const std::vector<Body>& bodies,
+                        const std::vector<shapes::Collider>& colliders) {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const std::size_t k = moving_[b];
+      if (colliders[k].body.joint == shapes::Joint::none) continue;
+      std::vector<Body> start = bodies;
+      for (Body& body : start) body.before = at_start(body, colliders[body.collider]);
+      place(start, colliders, 0);
+      for (int m = 0; m < dispatcher_->getNumManifolds(); ++m) {
+        const btPersistentManifold* manifold = dispatcher_->getManifoldByIndexInternal(m);
+        const int first = manifold->getBody0()->getUserIndex(),
+                  second = manifold->getBody1()->getUserIndex();
+        const int self = static_cast<int>(k);
+        if ((first == self || second == self) && manifold->getNumContacts() > 0)
+          things_[k].joined.push_back(static_cast<std::size_t>(first == self ? second : first));
+      }
+    }
+  }
+
+  static Motion at_start(const Body& body, const shapes::Collider& collider) {
+    const Mat3d rotation = rotation_from_degrees(collider.shape.rotation);
+    return {shapes::center(collider.shape) + rotation * body.axes * body.mass.centre, rotation,
+            Vec3d::Zero(), Vec3d::Zero()};
+  }
+
+  class Dispatcher final : public btCollisionDispatcher {
+   public:
+    Dispatcher(btCollisionConfiguration* configuration, const std::vector<Thing>& things)
+        : btCollisionDispatcher(configuration), things_(things) {}
+    bool needsCollision(const btCollisionObject* a, const btCollisionObject* b) override {
+      return btCollisionDispatcher::needsCollision(a, b) && !is_joined(a, b) && !is_joined(b, a);
+    }
+
+   private:
+    bool is_joined(const btCollisionObject* a, const btCollisionObject* b) const {
+      const auto& joined = things_[static_cast<std::size_t>(a->getUserIndex())].joined;
+      return std::find(joined.begin(), joined.end(), static_cast<std::size_t>(b->getUserIndex())) !=
+             joined.end();
+    }
+    const std::vector<Thing>& things_;
+  };
+
+  /// kg. Bullet's impulses have a largest size: its unit of mass is that of the heaviest body.
+  double heaviest_ = 0;
+  std::vector<Thing> things_;        ///< per collider
+  std::vector<std::size_t> moving_;  ///< per body: its thing
+  btDefaultCollisionConfiguration configuration_;
+  std::unique_ptr<Dispatcher> dispatcher_;
+  std::unique_ptr<btSimpleBroadphase> broadphase_;
+  std::unique_ptr<btCollisionWorld> world_;
+  btSequentialImpulseConstraintSolver solver_;
+};
+
+RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
+  for (std::size_t k = 0; k < colliders.size(); ++k) {
+    if (!colliders[k].body.moves()) continue;
+    try {
+      bodies_.push_back(
+          {k, mass_properties(colliders[k]), shapes::form_axes(colliders[k].shape), {}, {}});
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("collider " + colliders[k].name + ": " + error.what());
+    }
+  }
+}
+
+RigidBodies::~RigidBodies() = default;
+RigidBodies::RigidBodies(RigidBodies&&) noexcept = default;
+RigidBodies& RigidBodies::operator=(RigidBodies&&) noexcept = default;
+RigidBodies::RigidBodies(const RigidBodies& other) : bodies_(other.bodies_) {}
+RigidBodies& RigidBodies::operator=(const RigidBodies& other) {
+  bodies_ = other.bodies_;
+  world_.reset();
+  return *this;
+}
+
+void RigidBodies::begin(const std::vector<shapes::Collider>& colliders, double time) {
+  if (!world_) world_ = std::make_unique<World>(bodies_, colliders);
+  for (Body& body : bodies_) {
+    const shapes::Pose pose = shapes::pose_at(colliders[body.collider], time);
+    const Vec3d arm = pose.rotation * body.axes * body.mass.centre;
+    body.before = {pose.point + arm, pose.rotation,
+                   pose.velocity + pose.angular_velocity.cross(arm), pose.angular_velocity};
+    body.after = body.before;
+  }
+  world_->place(bodies_, colliders, time);
+}
+
+void RigidBodies::respond(double dt, const Vec3d& gravity, const std::vector<Push>& pushes) {
+  world_->respond(bodies_, dt, gravity, pushes);
+}
+
+Vec3d RigidBodies::centre(std::size_t body, const shapes::Pose& pose) const {
+  return pose.point + pose.rotation * bodies_[body].axes * bodies_[body].mass.centre;
+}
+
+Mat3d RigidBodies::inertia(std::size_t body) const {
+  const Mat3d form = bodies_[body].before.rotation * bodies_[body].axes;
+  return form * bodies_[body].mass.inertia * form.transpose();
+}
+
+void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& collider) const {
+  const Body& body = bodies_[k];
+  const Mat3d turned = rotation_from_vector(dt * body.after.spin) * body.after.rotation;
+  // Products of many turns stay a turn.
+  const Eigen::Quaterniond attitude = Eigen::Quaterniond(turned).normalized();
+  const Mat3d rotation = attitude.toRotationMatrix();
+  const Vec3d arm = rotation * body.axes * body.mass.centre;
+  const Vec3d point = body.after.centre + dt * body.after.velocity - arm;
+  shapes::set_motion(collider, body.after.velocity - body.after.spin.cross(arm), body.after.spin);
+  collider.pose_offset = {time, point - shapes::center(collider.shape),
+                          rotation * rotation_from_degrees(collider.shape.rotation).transpose(),
+                          collider.pose_offset.delay};
+}
+
+}  // namespace neve::sim::rigid

@@ -1,0 +1,79 @@
+#pragma once
+/// Colliders that move by themselves: pushed by snow, pulled by gravity, stopped by each other.
+///
+/// Where a body is and how it moves is what its collider says (velocity, spin and pose offset):
+/// nothing else lasts from step to step, so a run that is resumed takes the same steps to the bit.
+/// A step is staggered: snow meets the surfaces where they are at its start, at velocities that
+/// answer to its impulses pass by pass (sim/engine/body_contact.h); then the bodies get exactly the
+/// impulses that the snow got, and move. Contact of bodies with each other and with colliders, and
+/// what holds them, is Bullet's.
+
+#include <memory>
+#include <vector>
+
+#include "sim/rigid/mass.h"
+#include "sim/shapes/collider.h"
+
+namespace neve::sim::rigid {
+
+/// Impulses on a body in a step. The moment is about its centre of mass, N m s.
+struct Push {
+  Vec3d impulse{0, 0, 0};
+  Vec3d moment{0, 0, 0};
+};
+
+/// How a body moves. Velocities are those of its centre of mass.
+struct Motion {
+  Vec3d centre{0, 0, 0};               ///< m, centre of mass
+  Mat3d rotation = Mat3d::Identity();  ///< of its collider's pose
+  Vec3d velocity{0, 0, 0};             ///< m/s
+  Vec3d spin{0, 0, 0};                 ///< rad/s
+};
+
+class RigidBodies {
+ public:
+  RigidBodies() = default;
+  /// @throws std::invalid_argument for a collider that cannot have a body, ShapeError
+  explicit RigidBodies(const std::vector<shapes::Collider>& colliders);
+  ~RigidBodies();
+  RigidBodies(const RigidBodies& other);
+  RigidBodies& operator=(const RigidBodies& other);
+  RigidBodies(RigidBodies&&) noexcept;
+  RigidBodies& operator=(RigidBodies&&) noexcept;
+
+  bool empty() const { return bodies_.empty(); }
+  std::size_t size() const { return bodies_.size(); }
+  /// Numbers of their colliders, increasing.
+  std::size_t collider(std::size_t body) const { return bodies_[body].collider; }
+  const MassProperties& mass(std::size_t body) const { return bodies_[body].mass; }
+
+  /// Places everything as it is at a time, and finds what touches.
+  void begin(const std::vector<shapes::Collider>& colliders, double time);
+  /// How bodies move at the end of a step of dt that gives them these impulses and gravity.
+  /// They have not moved yet.
+  /// @param pushes  per body
+  void respond(double dt, const Vec3d& gravity, const std::vector<Push>& pushes);
+  /// Before the step, and as it was found by respond().
+  const Motion& before(std::size_t body) const { return bodies_[body].before; }
+  const Motion& after(std::size_t body) const { return bodies_[body].after; }
+  /// m, centre of mass of a body with that pose.
+  Vec3d centre(std::size_t body, const shapes::Pose& pose) const;
+  /// kg m2, about the centre of mass in the axes of the world, before the step.
+  Mat3d inertia(std::size_t body) const;
+  /// The collider moves on: over dt, as found by respond().
+  void move(std::size_t body, double dt, double time, shapes::Collider& collider) const;
+
+ private:
+  struct Body {
+    std::size_t collider;
+    MassProperties mass;
+    Mat3d axes;  ///< of its form
+    Motion before, after;
+  };
+  class World;
+
+  std::vector<Body> bodies_;
+  std::unique_ptr<World> world_;  ///< of this step; made when it is needed
+};
+
+}  // namespace neve::sim::rigid

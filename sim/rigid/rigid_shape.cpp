@@ -1,0 +1,233 @@
+#include "sim/rigid/rigid_shape.h"
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+#include <LinearMath/btConvexHullComputer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "sim/shapes/height_field.h"
+#include "sim/shapes/mesh_surface.h"
+
+namespace neve::sim::rigid {
+
+namespace {
+
+/// Bullet rounds the edges of convex shapes by this share of their smallest half width.
+constexpr double rounding = 0.04;
+/// Of a torus, which is made of capsules.
+constexpr int pieces_of_ring = 32;
+
+/// A shape that has memory of its own.
+template <class Shape>
+class Single final : public RigidShape {
+ public:
+  template <class... Args>
+  explicit Single(double smallest, Args&&... args) : shape_(std::forward<Args>(args)...) {
+    if (smallest > 0) shape_.setMargin(rounding * smallest);
+  }
+  btCollisionShape* get() override { return &shape_; }
+
+ private:
+  Shape shape_;
+};
+
+class Compound final : public RigidShape {
+ public:
+  void add(std::unique_ptr<RigidShape> part, const btTransform& place) {
+    shape_.addChildShape(place, part->get());
+    parts_.push_back(std::move(part));
+  }
+  btCollisionShape* get() override { return &shape_; }
+
+ private:
+  std::vector<std::unique_ptr<RigidShape>> parts_;
+  btCompoundShape shape_;
+};
+
+class Triangles final : public RigidShape {
+ public:
+  explicit Triangles(std::shared_ptr<const shapes::MeshSurface> surface) {
+    for (const Vec3d& x : surface->mesh().vertices)
+      vertices_.insert(vertices_.end(), {x[0], x[1], x[2]});
+    for (const auto& t : surface->mesh().triangles)
+      for (const std::uint32_t v : t) corners_.push_back(static_cast<int>(v));
+    mesh_ = std::make_unique<btTriangleIndexVertexArray>(
+        static_cast<int>(corners_.size() / 3), corners_.data(), static_cast<int>(3 * sizeof(int)),
+        static_cast<int>(vertices_.size() / 3), vertices_.data(),
+        static_cast<int>(3 * sizeof(double)));
+    shape_ = std::make_unique<btBvhTriangleMeshShape>(mesh_.get(), true);
+    shape_->setMargin(0);
+  }
+  btCollisionShape* get() override { return shape_.get(); }
+
+ private:
+  std::vector<double> vertices_;
+  std::vector<int> corners_;
+  std::unique_ptr<btTriangleIndexVertexArray> mesh_;
+  std::unique_ptr<btBvhTriangleMeshShape> shape_;
+};
+
+/// Holes are so deep that nothing stands in them.
+class Ground final : public RigidShape {
+ public:
+  explicit Ground(const shapes::HeightField& field) {
+    const files::HeightGrid& grid = field.grid();
+    const shapes::Bounds& box = field.bounds();
+    const double deep = box.min.y() - (box.max - box.min).norm();
+    for (std::size_t row = 0; row < grid.rows; ++row)
+      for (std::size_t column = 0; column < grid.columns; ++column) {
+        const double height = field.height_of(column, row);
+        heights_.push_back(std::isfinite(height) ? height : deep);
+      }
+    const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
+    auto shape = std::make_unique<btHeightfieldTerrainShape>(
+        static_cast<int>(grid.columns), static_cast<int>(grid.rows), heights_.data(), *low, *high,
+        1, false);
+    shape->setLocalScaling(btVector3(grid.spacing, 1, grid.spacing));
+    // Bullet has the middle of its box at the origin.
+    const auto middle = [](double first, double last) { return 0.5 * (first + last); };
+    const btVector3 to(middle(field.x_of(0), field.x_of(grid.columns - 1)), middle(*low, *high),
+                       middle(field.z_of(0), field.z_of(grid.rows - 1)));
+    shape_.addChildShape(btTransform(btMatrix3x3::getIdentity(), to), shape.get());
+    field_ = std::move(shape);
+  }
+  btCollisionShape* get() override { return &shape_; }
+
+ private:
+  std::vector<double> heights_;
+  std::unique_ptr<btHeightfieldTerrainShape> field_;
+  btCompoundShape shape_;
+};
+
+template <class Shape, class... Args>
+std::unique_ptr<RigidShape> single(double smallest, Args&&... args) {
+  return std::make_unique<Single<Shape>>(smallest, std::forward<Args>(args)...);
+}
+
+/// Capsules from point to point of the ring.
+std::unique_ptr<RigidShape> ring(const shapes::Torus& s) {
+  auto out = std::make_unique<Compound>();
+  const double turn = 2 * std::numbers::pi / pieces_of_ring;
+  // As far inside of the ring in their middles as outside of it at their ends.
+  const double middle = s.major_radius * 0.5 * (1 + std::cos(0.5 * turn));
+  const double length = 2 * s.major_radius * std::sin(0.5 * turn);
+  for (int k = 0; k < pieces_of_ring; ++k) {
+    const double angle = turn * k;
+    const btVector3 outward(std::cos(angle), 0, std::sin(angle)), up(0, 1, 0);
+    const btVector3 along = outward.cross(up);
+    // Capsules lie along y.
+    const btMatrix3x3 axes(outward.x(), along.x(), up.x(), outward.y(), along.y(), up.y(),
+                           outward.z(), along.z(), up.z());
+    out->add(single<btCapsuleShape>(0, s.minor_radius, length),
+             btTransform(axes, middle * outward));
+  }
+  return out;
+}
+
+/// Forms that are the same whether they stand or move.
+struct MakeForm {
+  std::unique_ptr<RigidShape> operator()(const shapes::Sphere& s) const {
+    return single<btSphereShape>(0, s.radius);
+  }
+  std::unique_ptr<RigidShape> operator()(const shapes::Box& s) const {
+    return single<btBoxShape>(0.5 * s.size.minCoeff(), to_bullet(Vec3d(0.5 * s.size)));
+  }
+  std::unique_ptr<RigidShape> operator()(const shapes::Capsule& s) const {
+    return single<btCapsuleShape>(0, s.radius, (s.b - s.a).norm());
+  }
+  std::unique_ptr<RigidShape> operator()(const shapes::Cylinder& s) const {
+    const double half = 0.5 * s.height;
+    return single<btCylinderShape>(std::min(s.radius, half), btVector3(s.radius, half, s.radius));
+  }
+  std::unique_ptr<RigidShape> operator()(const shapes::Cone& s) const {
+    return single<btConeShape>(std::min(s.radius, 0.5 * s.height), s.radius, s.height);
+  }
+  std::unique_ptr<RigidShape> operator()(const shapes::Torus& s) const { return ring(s); }
+  template <class Form>
+  std::unique_ptr<RigidShape> operator()(const Form&) const {
+    throw std::invalid_argument("bodies that move cannot meet this kind of shape");
+  }
+};
+
+struct MakeFixed : MakeForm {
+  using MakeForm::operator();
+  std::unique_ptr<RigidShape> operator()(const shapes::Plane& s) const {
+    return single<btStaticPlaneShape>(0, to_bullet(Vec3d(s.normal.normalized())), 0.0);
+  }
+  std::unique_ptr<RigidShape> operator()(const shapes::Mesh& s) const {
+    return std::make_unique<Triangles>(shapes::mesh_surface(s));
+  }
+  std::unique_ptr<RigidShape> operator()(const shapes::Terrain& s) const {
+    return std::make_unique<Ground>(*shapes::height_field(s));
+  }
+};
+
+struct MakeBody : MakeForm {
+  using MakeForm::operator();
+  std::unique_ptr<RigidShape> operator()(const shapes::Mesh& s) const {
+    const std::vector<Vec3d>& vertices = shapes::mesh_surface(s)->mesh().vertices;
+    std::vector<double> numbers;
+    for (const Vec3d& x : vertices) numbers.insert(numbers.end(), {x[0], x[1], x[2]});
+    btConvexHullComputer hull;
+    hull.compute(numbers.data(), 3 * sizeof(double), static_cast<int>(vertices.size()), 0, 0);
+    auto out = std::make_unique<Single<btConvexHullShape>>(0.0);
+    auto* shape = static_cast<btConvexHullShape*>(out->get());
+    for (int k = 0; k < hull.vertices.size(); ++k) shape->addPoint(hull.vertices[k], false);
+    shape->recalcLocalAabb();
+    btVector3 low, high;
+    shape->getAabb(btTransform::getIdentity(), low, high);
+    // Beyond the hull.
+    shape->setMargin(1e-3 * (high - low)[(high - low).minAxis()]);
+    return out;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape) {
+  return std::visit(MakeFixed{}, shape.form);
+}
+
+std::unique_ptr<RigidShape> body_shape(const shapes::Shape& shape, const MassProperties& mass,
+                                       const Mat3d& principal) {
+  std::unique_ptr<RigidShape> form = std::visit(MakeBody{}, shape.form);
+  if (principal.isIdentity(0) && mass.centre.isZero(0)) return form;
+  auto out = std::make_unique<Compound>();
+  const Mat3d axes = principal.transpose();
+  out->add(std::move(form), btTransform(to_bullet(axes), to_bullet(Vec3d(-axes * mass.centre))));
+  return out;
+}
+
+btVector3 to_bullet(const Vec3d& v) {
+  return {v[0], v[1], v[2]};
+}
+
+btMatrix3x3 to_bullet(const Mat3d& m) {
+  return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
+}
+
+Vec3d from_bullet(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Mat3d from_bullet(const btMatrix3x3& m) {
+  Mat3d out;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) out(a, b) = m[a][b];
+  return out;
+}
+
+}  // namespace neve::sim::rigid

@@ -1,0 +1,35 @@
+#pragma once
+/// Shapes as Bullet wants them.
+
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
+#include <memory>
+
+#include "sim/rigid/mass.h"
+
+namespace neve::sim::rigid {
+
+/// A shape with the memory that it reads.
+class RigidShape {
+ public:
+  virtual ~RigidShape() = default;
+  virtual btCollisionShape* get() = 0;
+};
+
+/// A collider that the scene moves, in the axes of its form about the shape's centre. Meshes and
+/// terrain are their triangles.
+/// @throws ShapeError, std::invalid_argument for what deforms
+std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape);
+
+/// A body, in principal axes about its centre of mass. A mesh is its convex hull: other bodies and
+/// colliders cannot enter its hollows, snow can.
+/// @param principal  columns are those axes in the axes of the form
+std::unique_ptr<RigidShape> body_shape(const shapes::Shape& shape, const MassProperties& mass,
+                                       const Mat3d& principal);
+
+btVector3 to_bullet(const Vec3d& v);
+btMatrix3x3 to_bullet(const Mat3d& m);
+Vec3d from_bullet(const btVector3& v);
+Mat3d from_bullet(const btMatrix3x3& m);
+
+}  // namespace neve::sim::rigid

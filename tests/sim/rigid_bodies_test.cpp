@@ -1,0 +1,283 @@
+/// Bodies without snow: masses of shapes, motion, contact, joints and springs against closed
+/// formulas.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "sim/shapes/solid.h"
+#include "tests/support/bodies.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using namespace neve::sim;
+using namespace neve::test;
+
+/// Mass, centre and inertia summed over a lattice of points inside.
+rigid::MassProperties counted(const shapes::Shape& shape) {
+  const shapes::Solid solid(shape);
+  const shapes::Bounds box = solid.local_bounds();
+  constexpr int n = 160;
+  const Vec3d step = (box.max - box.min) / n;
+  double count = 0;
+  Vec3d first = Vec3d::Zero();
+  Mat3d second = Mat3d::Zero();
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        const Vec3d y = box.min + step.cwiseProduct(Vec3d(i + 0.5, j + 0.5, k + 0.5));
+        if (!solid.contains_local(y)) continue;
+        ++count;
+        first += y;
+        second += y * y.transpose();
+      }
+  const double part = step.prod();
+  const Vec3d centre = first / count;
+  const Mat3d about = part * (second - count * centre * centre.transpose());
+  return {part * count, centre, about.trace() * Mat3d::Identity() - about};
+}
+
+TEST(RigidMass, OfEveryFormIsThatOfItsPoints) {
+  const std::vector<shapes::Shape> all = {{shapes::Sphere{{1, 2, 3}, 0.3}, {}},
+                                          {shapes::Box{{1, 2, 3}, {0.2, 0.5, 0.9}}, {}},
+                                          {shapes::Capsule{{0, 0, 0}, {0, 0.4, 0}, 0.1}, {}},
+                                          {shapes::Cylinder{{1, 2, 3}, 0.2, 0.5}, {}},
+                                          {shapes::Cone{{1, 2, 3}, 0.3, 0.5}, {}},
+                                          {shapes::Torus{{1, 2, 3}, 0.3, 0.1}, {}}};
+  for (const shapes::Shape& shape : all) {
+    SCOPED_TRACE(shape.form.index());
+    const rigid::MassProperties exact = rigid::mass_properties(shape, 1), found = counted(shape);
+    // A lattice of 160 points a side.
+    EXPECT_NEAR(found.mass / exact.mass, 1, 5e-3);
+    EXPECT_LE((found.centre - exact.centre).norm(), 2e-3);
+    EXPECT_LE((found.inertia - exact.inertia).norm(), 1e-2 * exact.inertia.norm());
+  }
+}
+
+/// A box of triangles, far from the origin of its file and turned in it.
+TEST(RigidMass, OfAMeshIsThatOfItsPolyhedron) {
+  const TemporaryFolder folder;
+  const Vec3d size(0.2, 0.5, 0.9), at(10, -20, 30);
+  const Mat3d turned = rotation_from_degrees({20, 30, 40});
+  const std::string file = (folder.path() / "box.obj").string();
+  std::ofstream out(file);
+  for (int k = 0; k < 8; ++k) {
+    const Vec3d corner(k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5);
+    out << "v " << (at + turned * corner.cwiseProduct(size)).transpose() << '\n';
+  }
+  for (const char* face : {"1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"})
+    out << "f " << face << '\n';
+  out.close();
+  const rigid::MassProperties box = rigid::mass_properties({shapes::Box{{0, 0, 0}, size}, {}}, 400);
+  const rigid::MassProperties mesh = rigid::mass_properties({shapes::Mesh{file}, {}}, 400);
+  // Six digits in the file, of numbers up to 30.
+  EXPECT_NEAR(mesh.mass / box.mass, 1, 1e-3);
+  EXPECT_LE((mesh.centre - at).norm(), 1e-3);
+  EXPECT_LE((mesh.inertia - turned * box.inertia * turned.transpose()).norm(),
+            3e-3 * box.inertia.norm());
+}
+
+/// Steps of bodies alone.
+class World {
+ public:
+  explicit World(std::vector<shapes::Collider> colliders, const Vec3d& gravity = {0, -9.81, 0})
+      : list(std::move(colliders)), bodies_(list), gravity_(gravity) {}
+
+  void run(double seconds, double dt) {
+    const auto steps = static_cast<int>(std::lround(seconds / dt));
+    for (int k = 0; k < steps; ++k) step(dt);
+  }
+  void step(double dt, const std::vector<rigid::Push>& pushes = {}) {
+    bodies_.begin(list, time);
+    bodies_.respond(dt, gravity_,
+                    pushes.empty() ? std::vector<rigid::Push>(bodies_.size()) : pushes);
+    time += dt;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      bodies_.move(b, dt, time, list[bodies_.collider(b)]);
+  }
+  shapes::Pose pose(std::size_t k) const { return shapes::pose_at(list[k], time); }
+
+  std::vector<shapes::Collider> list;
+  double time = 0;
+
+ private:
+  rigid::RigidBodies bodies_;
+  Vec3d gravity_;
+};
+
+TEST(RigidBodies, FallsAndSpinsFreely) {
+  shapes::Collider ball = ball_of(700, {0, 1, 0}, 0.1, {1, 2, 0});
+  ball.angular_velocity = {0, 3, 0};
+  World world({ball});
+  world.run(0.5, 1e-4);
+  // Symplectic Euler is late by half a step: g t dt / 2.
+  EXPECT_LE((world.pose(0).point - Vec3d(0.5, 1 + 1 - 9.81 * 0.125, 0)).norm(), 3e-4);
+  EXPECT_LE((world.pose(0).velocity - Vec3d(1, 2 - 9.81 * 0.5, 0)).norm(), 1e-9);
+  const Mat3d turned = rotation_from_vector(Vec3d(0, 1.5, 0));
+  EXPECT_LE((world.pose(0).rotation - turned).norm(), 1e-9);
+}
+
+/// An uneven body that turns about no principal axis keeps its angular momentum and its energy.
+TEST(RigidBodies, ATumblingBodyKeepsItsAngularMomentum) {
+  shapes::Collider brick = box_of(700, {0, 0, 0}, {0.1, 0.2, 0.4}, {10, 20, 30});
+  brick.angular_velocity = {2, 3, 1};
+  World world({brick}, Vec3d::Zero());
+  const BodyMomentum before = momentum_of(world.list[0], 0);
+  world.run(2, 1e-3);
+  const BodyMomentum after = momentum_of(world.list[0], world.time);
+  // First order in dt: the gyroscopic term is implicit.
+  EXPECT_LE((after.angular - before.angular).norm(), 0.01 * before.angular.norm());
+  EXPECT_NEAR(after.kinetic / before.kinetic, 1, 0.01);
+  EXPECT_GT((world.pose(0).angular_velocity - Vec3d(2, 3, 1)).norm(), 0.3) << "it does not tumble";
+}
+
+/// Bullet's own case: two equal balls that do not bounce go on together.
+TEST(RigidBodies, BallsThatMeetGoOnTogether) {
+  World world({ball_of(700, {-0.3, 0, 0}, 0.1, {2, 0, 0}), ball_of(2100, {0, 0, 0}, 0.1)},
+              Vec3d::Zero());
+  world.run(0.3, 1e-4);
+  EXPECT_NEAR(world.pose(0).velocity.x(), 0.5, 1e-6);
+  EXPECT_NEAR(world.pose(1).velocity.x(), 0.5, 1e-6);
+  EXPECT_NEAR((world.pose(1).point - world.pose(0).point).norm(), 0.2, 2e-4);
+}
+
+/// Three boxes on each other, on every kind of ground that there is: they stay.
+TEST(RigidBodies, AStackStands) {
+  shapes::Collider floor = plane({0, 0, 0}, {0, 1, 0}, 0.5), block = floor;
+  block.name = "block";
+  block.shape.form = shapes::Box{{0, -0.5, 0}, {2, 1, 2}};
+  for (const shapes::Collider& ground : {floor, block}) {
+    std::vector<shapes::Collider> list{ground};
+    for (int k = 0; k < 3; ++k) {
+      list.push_back(box_of(700, {0.01 * k, 0.1 + 0.2 * k, 0}, {0.2, 0.2, 0.2}));
+      list.back().name += std::to_string(k);
+    }
+    World world(list);
+    world.run(1, 1e-3);
+    for (int k = 0; k < 3; ++k) {
+      const shapes::Pose pose = world.pose(static_cast<std::size_t>(k) + 1);
+      EXPECT_LE((pose.point - Vec3d(0.01 * k, 0.1 + 0.2 * k, 0)).norm(), 2e-3) << k;
+      EXPECT_LE((pose.rotation - Mat3d::Identity()).norm(), 0.01) << k;
+    }
+  }
+}
+
+/// A block on a slope stays below the friction angle and slides with g (sin - mu cos) above it.
+TEST(RigidBodies, ABlockSlidesBeyondTheFrictionAngle) {
+  for (const double degrees : {25.0, 35.0}) {
+    const double a = degrees * std::numbers::pi / 180, mu = std::tan(30 * std::numbers::pi / 180);
+    const Vec3d normal(-std::sin(a), std::cos(a), 0), down(-std::cos(a), -std::sin(a), 0);
+    shapes::Collider box = box_of(700, 0.1 * normal, {0.4, 0.2, 0.4}, {0, 0, degrees});
+    box.friction = mu;
+    World world({plane({0, 0, 0}, normal, mu), box});
+    world.run(0.5, 2e-4);
+    const double way = (world.pose(1).point - 0.1 * normal).dot(down);
+    const double exact = 0.5 * 9.81 * (std::sin(a) - mu * std::cos(a)) * 0.25;
+    if (degrees < 30)
+      EXPECT_NEAR(way, 0, 2e-3);
+    else
+      EXPECT_NEAR(way / exact, 1, 0.02);
+  }
+}
+
+TEST(RigidBodies, APendulumSwingsInItsTime) {
+  // A bar hung by its end: T = 2 pi sqrt(2 L / 3 g), times 1 + a^2/16 for a swing of a.
+  shapes::Collider bar = box_of(700, {0, -0.25, 0}, {0.02, 0.5, 0.02});
+  bar.body.joint = shapes::Joint::hinge;
+  bar.body.joint_axis = {0, 0, 1};
+  bar.angular_velocity = {0, 0, 0.5};
+  bar.velocity = {0.125, 0, 0};
+  World world({bar});
+  std::vector<double> crossings;
+  for (double before = 1; world.time < 3;) {
+    world.step(2e-4);
+    const double x = world.pose(0).point.x();
+    if (before < 0 && x >= 0) crossings.push_back(world.time);
+    before = x;
+  }
+  ASSERT_GE(crossings.size(), 2u);
+  const double period = (crossings.back() - crossings.front()) / double(crossings.size() - 1);
+  const double inertia = (0.5 * 0.5 + 0.02 * 0.02) / 12 + 0.25 * 0.25;
+  const double exact = 2 * std::numbers::pi * std::sqrt(inertia / (9.81 * 0.25));
+  const double angle = 0.5 * std::sqrt(inertia / (9.81 * 0.25));
+  EXPECT_NEAR(period / (exact * (1 + angle * angle / 16)), 1, 2e-3);
+  EXPECT_LE(std::abs(world.pose(0).point.z()), 1e-6);
+  EXPECT_NEAR(world.pose(0).point.norm(), 0.25, 1e-3) << "the hinge came off";
+}
+
+/// However stiff, it comes to rest where the load is the spring's.
+TEST(RigidBodies, SpringsHoldTheirLoad) {
+  for (const double stiffness : {1e2, 1e4, 1e8}) {
+    SCOPED_TRACE(stiffness);
+    shapes::Collider ball = ball_of(700, {0, 0, 0}, 0.1);
+    const double mass = rigid::mass_properties(ball).mass;
+    ball.body.spring_stiffness = stiffness;
+    ball.body.spring_damping = 2 * std::sqrt(stiffness * mass);
+    World world({ball});
+    world.run(2, 1e-3);
+    EXPECT_NEAR(world.pose(0).point.y() / (-mass * 9.81 / stiffness), 1, 1e-3);
+
+    shapes::Collider door = box_of(700, {0.25, 0, 0}, {0.5, 0.1, 0.05});
+    const double weight = rigid::mass_properties(door).mass * 9.81;
+    door.body.joint = shapes::Joint::hinge;
+    door.body.joint_axis = {0, 0, 1};
+    door.body.joint_stiffness = stiffness;
+    const double inertia = rigid::mass_properties(door).mass * (0.25 + 0.01) / 12 +
+                           rigid::mass_properties(door).mass * 0.0625;
+    door.body.joint_damping = 2 * std::sqrt(stiffness * inertia);
+    World hung({door});
+    hung.run(2, 1e-3);
+    const Vec3d along = hung.pose(0).rotation.col(0);
+    const double angle = std::atan2(-along.y(), along.x());
+    EXPECT_NEAR(angle * stiffness / (weight * 0.25 * std::cos(angle)), 1, 0.01);
+  }
+}
+
+TEST(RigidBodies, WhatIsHeldStays) {
+  shapes::Collider box = box_of(700, {0, 1, 0}, {0.1, 0.1, 0.1});
+  box.velocity = {1, 1, 1};
+  box.angular_velocity = {1, 2, 3};
+  box.body.hold = {shapes::HeldAxis::y, shapes::HeldAxis::turn_x, shapes::HeldAxis::turn_z};
+  World world({box});
+  world.run(0.5, 1e-3);
+  EXPECT_NEAR(world.pose(0).point.y(), 1, 2e-3);
+  EXPECT_NEAR(world.pose(0).point.x(), 0.5, 2e-3);
+  EXPECT_NEAR(world.pose(0).rotation(1, 1), 1, 1e-4) << "it turned about another axis than y";
+
+  shapes::Collider slider = box_of(700, {0, 0, 0}, {0.1, 0.1, 0.1});
+  slider.body.joint = shapes::Joint::slider;
+  slider.body.joint_axis = Vec3d(1, -1, 0);
+  World slide({slider});
+  slide.run(0.5, 1e-4);
+  const Vec3d axis = Vec3d(1, -1, 0).normalized();
+  const double exact = 0.5 * 9.81 * std::sqrt(0.5) * 0.25;
+  EXPECT_NEAR(slide.pose(0).point.dot(axis) / exact, 1, 1e-3);
+  EXPECT_LE((slide.pose(0).point - axis * slide.pose(0).point.dot(axis)).norm(), 1e-6);
+}
+
+/// A can in a hollow of a mesh, and on a terrain; every form of body falls on a floor and stays.
+TEST(RigidBodies, EveryFormComesToRestOnTheFloor) {
+  std::vector<shapes::Shape> all = {{shapes::Sphere{{0, 0.5, 0}, 0.1}, {}},
+                                    {shapes::Box{{0, 0.5, 0}, {0.2, 0.1, 0.3}}, {10, 20, 30}},
+                                    {shapes::Capsule{{0, 0.5, 0}, {0.2, 0.6, 0}, 0.05}, {}},
+                                    {shapes::Cylinder{{0, 0.5, 0}, 0.1, 0.2}, {20, 0, 0}},
+                                    {shapes::Cone{{0, 0.5, 0}, 0.1, 0.2}, {10, 0, 0}},
+                                    {shapes::Torus{{0, 0.5, 0}, 0.2, 0.05}, {10, 0, 0}}};
+  for (const shapes::Shape& shape : all) {
+    SCOPED_TRACE(shape.form.index());
+    shapes::Collider body = box_of(700, {0, 0, 0}, {1, 1, 1});
+    body.shape = shape;
+    World world({plane({0, 0, 0}, {0, 1, 0}, 0.5), body});
+    world.run(3, 1e-3);
+    const shapes::Pose pose = world.pose(1);
+    const shapes::Bounds box = shapes::bounds_at(world.list[1], world.time);
+    EXPECT_NEAR(box.min.y(), 0, 5e-3);
+    EXPECT_LE(pose.velocity.norm(), 0.05);
+  }
+}
+
+}  // namespace
