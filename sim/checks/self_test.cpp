@@ -35,6 +35,7 @@ constexpr Test tests_of_bodies[] = {
     {"drivers", "the fused and the staged driver give the same step", self_test::drivers},
     {"contact", "nodes, particles and the solve keep the law of contact, impulses close and last",
      self_test::contact},
+    {"bodies", "get what snow loses, follow it and carry it", self_test::bodies},
     {"time_step", "the limits of dt see hardening, density, shear and colliders",
      self_test::time_step},
     {"sums", "mass, momenta and energies are those of the particles", self_test::sums},

@@ -20,6 +20,9 @@ void yield(const laws::Law& law, const SelfTestCase& test, self_test::Measure& m
 // Colliders: self_test_contact.cpp.
 void contact(const SelfTestCase& test, self_test::Measure& measure);
 
+// Colliders that snow moves: self_test_rigid.cpp.
+void bodies(const SelfTestCase& test, self_test::Measure& measure);
+
 // The semi-implicit step: self_test_implicit.cpp.
 void solve(const SelfTestCase& test, self_test::Measure& measure);
 

@@ -1,5 +1,6 @@
 #include "sim/engine/body_contact.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 

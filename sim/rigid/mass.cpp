@@ -1,5 +1,6 @@
 #include "sim/rigid/mass.h"
 
+#include <Eigen/Geometry>
 #include <numbers>
 #include <stdexcept>
 
@@ -69,13 +70,13 @@ Unit unit(const shapes::Torus& s) {
 
 Unit unit(const shapes::Mesh& s) {
   const std::shared_ptr<const shapes::MeshSurface> surface = shapes::mesh_surface(s);
-  const auto& [vertices, triangles] = std::tie(surface->mesh().vertices, surface->mesh().triangles);
+  const std::vector<Vec3d>& vertices = surface->mesh().vertices;
   // From a vertex, not from the file's origin, which may be far away.
   const Vec3d from = vertices.front();
   double volume = 0;
   Vec3d first = Vec3d::Zero();
   Mat3d second = Mat3d::Zero();
-  for (const auto& t : triangles) {
+  for (const auto& t : surface->mesh().triangles) {
     const Vec3d a = vertices[t[0]] - from, b = vertices[t[1]] - from, c = vertices[t[2]] - from;
     const double part = a.dot(b.cross(c)) / 6;
     const Vec3d sum = a + b + c;

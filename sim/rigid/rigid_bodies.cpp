@@ -7,12 +7,14 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "sim/rigid/held.h"
 #include "sim/rigid/rigid_shape.h"
+#include "sim/shapes/solid.h"
 
 namespace neve::sim::rigid {
 
@@ -270,12 +272,21 @@ class RigidBodies::World {
 
 RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
   for (std::size_t k = 0; k < colliders.size(); ++k) {
-    if (!colliders[k].body.moves()) continue;
+    const shapes::Collider& c = colliders[k];
+    if (!c.body.moves()) continue;
     try {
-      bodies_.push_back(
-          {k, mass_properties(colliders[k]), shapes::form_axes(colliders[k].shape), {}, {}});
+      const MassProperties mass = mass_properties(c);
+      const shapes::Bounds box = shapes::Solid(c.shape).local_bounds();
+      const Vec3d far = (box.max - mass.centre).cwiseMax(mass.centre - box.min);
+      bodies_.push_back({k,
+                         mass,
+                         shapes::form_axes(c.shape),
+                         (box.max - box.min).minCoeff(),
+                         far.norm(),
+                         {},
+                         {}});
     } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("collider " + colliders[k].name + ": " + error.what());
+      throw std::invalid_argument("collider " + c.name + ": " + error.what());
     }
   }
 }
@@ -313,6 +324,17 @@ Vec3d RigidBodies::centre(std::size_t body, const shapes::Pose& pose) const {
 Mat3d RigidBodies::inertia(std::size_t body) const {
   const Mat3d form = bodies_[body].before.rotation * bodies_[body].axes;
   return form * bodies_[body].mass.inertia * form.transpose();
+}
+
+int RigidBodies::parts_of_step(double dt, const Vec3d& gravity) const {
+  double parts = 1;
+  for (const Body& body : bodies_) {
+    const double speed =
+        body.before.velocity.norm() + dt * gravity.norm() + body.before.spin.norm() * body.furthest;
+    parts = std::max(parts, std::ceil(4 * speed * dt / body.thickness));
+  }
+  // Beyond, a body is faster than anything that neve shows: a step ends in any case.
+  return static_cast<int>(std::min(parts, 1000.0));
 }
 
 void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& collider) const {

@@ -138,9 +138,20 @@ void MovingColliders::move_bodies(double time, double dt, const Vec3d& gravity,
   if (bodies_.empty()) return;
   if (!has_begun_) bodies_.begin(list_, time);
   has_begun_ = false;
-  bodies_.respond(dt, gravity, pushes);
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    bodies_.move(b, dt, time + dt, list_[bodies_.collider(b)]);
+  const int parts = bodies_.parts_of_step(dt, gravity);
+  std::vector<rigid::Push> shares = pushes;
+  for (rigid::Push& push : shares) {
+    push.impulse /= parts;
+    push.moment /= parts;
+  }
+  const double part = dt / parts;
+  for (int n = 0; n < parts; ++n) {
+    const double start = time + n * part;
+    if (n > 0) bodies_.begin(list_, start);
+    bodies_.respond(part, gravity, shares);
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      bodies_.move(b, part, start + part, list_[bodies_.collider(b)]);
+  }
 }
 
 double MovingColliders::fastest_near(const std::vector<kernels::BlockRange>& blocks,

@@ -1,5 +1,6 @@
 #include "sim/state/state.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

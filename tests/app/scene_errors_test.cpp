@@ -322,6 +322,38 @@ TEST(SceneErrors, DegenerateShapesAreRefused) {
       "solver.cell_size");
 }
 
+TEST(SceneErrors, BodiesThatCannotMoveAreLocated) {
+  const auto error_with = [](const std::string& lines) {
+    return error_of(with_ball("[[collider]]\n" + lines));
+  };
+  const std::string box = "shape = { box = { size = [0.2, 0.2, 0.2] } }\n";
+  EXPECT_EQ(error_with(box + "density = 400"), "no error");
+  EXPECT_EQ(error_with(box + "density = 400\nmass = 2"),
+            "s.toml:7:8: error: the body has a mass and a density; give one of the two");
+  EXPECT_EQ(error_with("shape = { plane = {} }\ndensity = 400"),
+            "s.toml:6:11: error: a shape of this kind cannot move by itself; give a mass to a "
+            "sphere, box, capsule, cylinder, cone, torus or mesh");
+  EXPECT_EQ(error_with(box + "mass = 2\nkeyframes = [{ time = 1 }]"),
+            "s.toml:6:8: error: keyframes and a mass both move the collider; omit the one or the "
+            "other");
+  EXPECT_EQ(error_with(box + "joint = \"hinge\""),
+            "s.toml:6:9: error: joint is of a body that moves by itself; give collider.1 a density "
+            "in kg/m3, or a mass in kg");
+  EXPECT_EQ(error_with(box + "mass = 2\njoint_stiffness = 3"),
+            "s.toml:7:19: error: only a hinge or a slider has a spring or a damper; give joint = "
+            "\"hinge\" or \"slider\"");
+  EXPECT_EQ(error_with(box + "mass = 2\njoint = \"hinge\"\njoint_axis = [0, 0, 0]"),
+            "s.toml:8:14: error: the axis of the joint has no direction; give a vector, as [0, 0, "
+            "1]");
+  EXPECT_EQ(error_with(box + "mass = 2\ninertia = [1, 1, 3]"),
+            "s.toml:7:11: error: no body has these moments of inertia; give three above 0, none "
+            "larger than the other two together");
+  EXPECT_EQ(error_with(box + "mass = 2\nhold = [\"w\"]").find("s.toml:7:"), 0u);
+  EXPECT_EQ(error_with(box + "mass = 2\n[solver]\ncontact_at = \"nodes\""),
+            "s.toml:6:8: error: snow does not move bodies with solver.contact_at = \"nodes\"; use "
+            "contact_at = \"particles\", the default");
+}
+
 TEST(SceneErrors, KeyframesOfCollidersAreLocated) {
   const auto error_with = [](const std::string& line) {
     return error_of(

@@ -111,8 +111,9 @@ Finding Laboratory::examine(const Mistake& mistake) const {
     std::vector<std::string> link = objects;
     // Where the build compiles many files as one, the library has all of a file that was changed a
     // second time; the first is taken.
-    link.insert(link.end(), {NEVE_PROBE, NEVE_SIM, "-Wl,-z,muldefs", "-pthread", "-lz", "-o",
-                             (copies / "probe").string()});
+    link.insert(link.end(),
+                {NEVE_PROBE, NEVE_SIM, "-Wl,-z,muldefs", "-pthread", "-lz", NEVE_BULLET,
+                 NEVE_BULLET_COLLISION, NEVE_BULLET_MATH, "-o", (copies / "probe").string()});
     run(NEVE_COMPILER, link, copies);
     std::vector<std::string> arguments{"60", (copies / "probe").string()};
     arguments.insert(arguments.end(), mistake.arguments.begin(), mistake.arguments.end());

@@ -8,6 +8,7 @@ std::vector<Mistake> contact_mistakes() {
   constexpr const char* contact = "sim/kernels/contact.h";
   constexpr const char* of_nodes = "sim/kernels/stages.h";
   constexpr const char* at_particles = "sim/kernels/particle_contact_sweeps.h";
+  constexpr const char* bodies = "sim/engine/body_contact.cpp";
   return {
       {"contact_half_a_cell_off",
        "surface of colliders half a cell outside",
@@ -58,6 +59,23 @@ std::vector<Mistake> contact_mistakes() {
        "contact at particles: torque from the cell of a particle, not from its place",
        {{at_particles, "(static_cast<double>(c.offset[x][l]) - pose.offset[x])",
          "(0.0 - pose.offset[x])"}}},
+      {"body_whole_at_each_contact",
+       "bodies that snow moves: each contact pushes the whole mass, not its part of it",
+       {{bodies, "seen.gives * static_cast<double>(std::max<std::size_t>(seen.count, 1));",
+         "seen.gives * 1.0;"}}},
+      {"body_does_not_answer",
+       "bodies that snow moves: their surfaces keep the velocity of the start of the step",
+       {{bodies, "contact.surface[x] = static_cast<Real>(surface[x]);", ""}}},
+      {"body_seems_free",
+       "bodies that snow moves: what holds them up does not count in contact",
+       {{bodies, "seen.gives = std::clamp(done / free, 0.0, 1.0);", "seen.gives = 1;"},
+        {bodies, "after.velocity + after.spin.cross(arm)",
+         "(seen.free_velocity + pushes_[b].impulse / bodies_->mass(b).mass + "
+         "(seen.free_spin + seen.inverse_inertia * pushes_[b].moment).cross(arm)).eval()"}}},
+      {"moment_about_the_point",
+       "bodies that snow moves: turned about the shape's centre, not the centre of mass",
+       {{"sim/state/state.cpp",
+         "M + (point - colliders.centre_of_body(b, progress.colliders_time)).cross(J)", "M"}}},
   };
 }
 

@@ -18,7 +18,7 @@ using namespace neve::sim;
 using namespace neve::test;
 
 /// Mass, centre and inertia summed over a lattice of points inside.
-rigid::MassProperties counted(const shapes::Shape& shape) {
+rigid::MassProperties counted_mass(const shapes::Shape& shape) {
   const shapes::Solid solid(shape);
   const shapes::Bounds box = solid.local_bounds();
   constexpr int n = 160;
@@ -50,7 +50,8 @@ TEST(RigidMass, OfEveryFormIsThatOfItsPoints) {
                                           {shapes::Torus{{1, 2, 3}, 0.3, 0.1}, {}}};
   for (const shapes::Shape& shape : all) {
     SCOPED_TRACE(shape.form.index());
-    const rigid::MassProperties exact = rigid::mass_properties(shape, 1), found = counted(shape);
+    const rigid::MassProperties exact = rigid::mass_properties(shape, 1),
+                                found = counted_mass(shape);
     // A lattice of 160 points a side.
     EXPECT_NEAR(found.mass / exact.mass, 1, 5e-3);
     EXPECT_LE((found.centre - exact.centre).norm(), 2e-3);
@@ -82,9 +83,10 @@ TEST(RigidMass, OfAMeshIsThatOfItsPolyhedron) {
 }
 
 /// Steps of bodies alone.
-class World {
+class BodiesAlone {
  public:
-  explicit World(std::vector<shapes::Collider> colliders, const Vec3d& gravity = {0, -9.81, 0})
+  explicit BodiesAlone(std::vector<shapes::Collider> colliders,
+                       const Vec3d& gravity = {0, -9.81, 0})
       : list(std::move(colliders)), bodies_(list), gravity_(gravity) {}
 
   void run(double seconds, double dt) {
@@ -112,7 +114,7 @@ class World {
 TEST(RigidBodies, FallsAndSpinsFreely) {
   shapes::Collider ball = ball_of(700, {0, 1, 0}, 0.1, {1, 2, 0});
   ball.angular_velocity = {0, 3, 0};
-  World world({ball});
+  BodiesAlone world({ball});
   world.run(0.5, 1e-4);
   // Symplectic Euler is late by half a step: g t dt / 2.
   EXPECT_LE((world.pose(0).point - Vec3d(0.5, 1 + 1 - 9.81 * 0.125, 0)).norm(), 3e-4);
@@ -125,7 +127,7 @@ TEST(RigidBodies, FallsAndSpinsFreely) {
 TEST(RigidBodies, ATumblingBodyKeepsItsAngularMomentum) {
   shapes::Collider brick = box_of(700, {0, 0, 0}, {0.1, 0.2, 0.4}, {10, 20, 30});
   brick.angular_velocity = {2, 3, 1};
-  World world({brick}, Vec3d::Zero());
+  BodiesAlone world({brick}, Vec3d::Zero());
   const BodyMomentum before = momentum_of(world.list[0], 0);
   world.run(2, 1e-3);
   const BodyMomentum after = momentum_of(world.list[0], world.time);
@@ -137,8 +139,8 @@ TEST(RigidBodies, ATumblingBodyKeepsItsAngularMomentum) {
 
 /// Bullet's own case: two equal balls that do not bounce go on together.
 TEST(RigidBodies, BallsThatMeetGoOnTogether) {
-  World world({ball_of(700, {-0.3, 0, 0}, 0.1, {2, 0, 0}), ball_of(2100, {0, 0, 0}, 0.1)},
-              Vec3d::Zero());
+  BodiesAlone world({ball_of(700, {-0.3, 0, 0}, 0.1, {2, 0, 0}), ball_of(2100, {0, 0, 0}, 0.1)},
+                    Vec3d::Zero());
   world.run(0.3, 1e-4);
   EXPECT_NEAR(world.pose(0).velocity.x(), 0.5, 1e-6);
   EXPECT_NEAR(world.pose(1).velocity.x(), 0.5, 1e-6);
@@ -156,7 +158,7 @@ TEST(RigidBodies, AStackStands) {
       list.push_back(box_of(700, {0.01 * k, 0.1 + 0.2 * k, 0}, {0.2, 0.2, 0.2}));
       list.back().name += std::to_string(k);
     }
-    World world(list);
+    BodiesAlone world(list);
     world.run(1, 1e-3);
     for (int k = 0; k < 3; ++k) {
       const shapes::Pose pose = world.pose(static_cast<std::size_t>(k) + 1);
@@ -173,7 +175,7 @@ TEST(RigidBodies, ABlockSlidesBeyondTheFrictionAngle) {
     const Vec3d normal(-std::sin(a), std::cos(a), 0), down(-std::cos(a), -std::sin(a), 0);
     shapes::Collider box = box_of(700, 0.1 * normal, {0.4, 0.2, 0.4}, {0, 0, degrees});
     box.friction = mu;
-    World world({plane({0, 0, 0}, normal, mu), box});
+    BodiesAlone world({plane({0, 0, 0}, normal, mu), box});
     world.run(0.5, 2e-4);
     const double way = (world.pose(1).point - 0.1 * normal).dot(down);
     const double exact = 0.5 * 9.81 * (std::sin(a) - mu * std::cos(a)) * 0.25;
@@ -191,7 +193,7 @@ TEST(RigidBodies, APendulumSwingsInItsTime) {
   bar.body.joint_axis = {0, 0, 1};
   bar.angular_velocity = {0, 0, 0.5};
   bar.velocity = {0.125, 0, 0};
-  World world({bar});
+  BodiesAlone world({bar});
   std::vector<double> crossings;
   for (double before = 1; world.time < 3;) {
     world.step(2e-4);
@@ -217,7 +219,7 @@ TEST(RigidBodies, SpringsHoldTheirLoad) {
     const double mass = rigid::mass_properties(ball).mass;
     ball.body.spring_stiffness = stiffness;
     ball.body.spring_damping = 2 * std::sqrt(stiffness * mass);
-    World world({ball});
+    BodiesAlone world({ball});
     world.run(2, 1e-3);
     EXPECT_NEAR(world.pose(0).point.y() / (-mass * 9.81 / stiffness), 1, 1e-3);
 
@@ -229,7 +231,7 @@ TEST(RigidBodies, SpringsHoldTheirLoad) {
     const double inertia = rigid::mass_properties(door).mass * (0.25 + 0.01) / 12 +
                            rigid::mass_properties(door).mass * 0.0625;
     door.body.joint_damping = 2 * std::sqrt(stiffness * inertia);
-    World hung({door});
+    BodiesAlone hung({door});
     hung.run(2, 1e-3);
     const Vec3d along = hung.pose(0).rotation.col(0);
     const double angle = std::atan2(-along.y(), along.x());
@@ -242,7 +244,7 @@ TEST(RigidBodies, WhatIsHeldStays) {
   box.velocity = {1, 1, 1};
   box.angular_velocity = {1, 2, 3};
   box.body.hold = {shapes::HeldAxis::y, shapes::HeldAxis::turn_x, shapes::HeldAxis::turn_z};
-  World world({box});
+  BodiesAlone world({box});
   world.run(0.5, 1e-3);
   EXPECT_NEAR(world.pose(0).point.y(), 1, 2e-3);
   EXPECT_NEAR(world.pose(0).point.x(), 0.5, 2e-3);
@@ -251,7 +253,7 @@ TEST(RigidBodies, WhatIsHeldStays) {
   shapes::Collider slider = box_of(700, {0, 0, 0}, {0.1, 0.1, 0.1});
   slider.body.joint = shapes::Joint::slider;
   slider.body.joint_axis = Vec3d(1, -1, 0);
-  World slide({slider});
+  BodiesAlone slide({slider});
   slide.run(0.5, 1e-4);
   const Vec3d axis = Vec3d(1, -1, 0).normalized();
   const double exact = 0.5 * 9.81 * std::sqrt(0.5) * 0.25;
@@ -271,7 +273,7 @@ TEST(RigidBodies, EveryFormComesToRestOnTheFloor) {
     SCOPED_TRACE(shape.form.index());
     shapes::Collider body = box_of(700, {0, 0, 0}, {1, 1, 1});
     body.shape = shape;
-    World world({plane({0, 0, 0}, {0, 1, 0}, 0.5), body});
+    BodiesAlone world({plane({0, 0, 0}, {0, 1, 0}, 0.5), body});
     world.run(3, 1e-3);
     const shapes::Pose pose = world.pose(1);
     const shapes::Bounds box = shapes::bounds_at(world.list[1], world.time);

@@ -33,7 +33,7 @@ inline constexpr Folder folders[] = {
     {"sim/engine",
      "sim/base sim/types sim/shapes sim/rigid sim/seeding sim/kernels sim/laws sim/health sim/state"},
     {"sim", "sim/base sim/types sim/shapes sim/seeding sim/laws sim/engine", "neve::sim"},
-    {"sim/checks", "sim/base sim/types sim/shapes sim/seeding sim/laws sim/health sim"},
+    {"sim/checks", "sim/base sim/types sim/shapes sim/rigid sim/seeding sim/laws sim/health sim"},
     {"render/image", "sim/base", "neve::render"},
     {"render/frame", "sim/base render/image", "neve::render"},
     {"render/shapes", "sim/base render/frame"},

@@ -1,6 +1,8 @@
 #pragma once
 /// Bodies that move by themselves, and snow for them.
 
+#include <Eigen/Geometry>
+
 #include "sim/rigid/rigid_bodies.h"
 #include "tests/support/snow.h"
 
