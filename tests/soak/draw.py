@@ -108,6 +108,8 @@ class Draw:
                   if parameter["live"] and not any(part in address for part in ("[", ".shape.", ".camera."))
                   and parameter["type"] in ("number", "integer", "boolean", "choice", "vector")
                   and address.split(".")[0] in ("solver", "light", *names)
+                  # Springs and dampers are of colliders that have them.
+                  and not address.endswith(("_stiffness", "_damping"))
                   and address not in ("solver.dt", "solver.max_dt", "solver.time_step")]
         address = self.random.choice(ranges)
         value = self.value(address)

@@ -12,6 +12,9 @@ import files
 from draw import Draw, as_text
 
 G = 9.81
+# Of a collider that moves by itself.
+BODY = ("density", "mass", "inertia", "hold", "joint", "joint_point", "joint_axis", "joint_stiffness",
+        "joint_damping", "spring_place", "spring_stiffness", "spring_damping")
 
 
 class Scene:
@@ -124,7 +127,7 @@ class Scene:
 
     def collider(self, number):
         draw = self.draw
-        table = {"name": f"collider{number}", **draw.table("collider.NAME.", 0.3, ("name", "velocity", "angular_velocity"))}
+        table = {"name": f"collider{number}", **draw.table("collider.NAME.", 0.3, ("name", "velocity", "angular_velocity", *BODY))}
         if number == 0 and draw.chance(0.2):
             suffix, content, keys = files.terrain(draw, self.h)
             table["shape"] = {"terrain": {"file": self.file(suffix, content), **keys}}
@@ -141,6 +144,27 @@ class Scene:
                                    "rotation": [draw.within(-40, 40) for _ in range(3)]}
                                   for k in range(draw.random.randint(1, 3))]
         return table
+
+    def let_move(self, colliders, solver):
+        """Some colliders become bodies that move by themselves."""
+        draw = self.draw
+        if solver.get("contact_at") == "nodes" or any("mesh_sequence" in c["shape"] for c in colliders):
+            return
+        for collider in colliders:
+            if "plane" in collider["shape"] or "terrain" in collider["shape"] or draw.chance(0.5):
+                continue
+            collider.pop("keyframes", None)
+            collider["density"] = 10 ** draw.within(0, 4)
+            if draw.chance(0.3):
+                collider["hold"] = draw.value("collider.NAME.hold")
+            collider["joint"] = joint = draw.one("none", "none", "ball", "hinge", "slider")
+            if joint != "none":
+                collider.update(joint_point=self.place(6, -3, 3), joint_axis=[draw.within(-1, 1), draw.within(-1, 1), 1])
+            weight = collider["density"] * (3 * self.h) ** 3 * G
+            if joint in ("hinge", "slider") and draw.chance(0.5):
+                collider.update(joint_stiffness=weight * draw.within(0, 10), joint_damping=weight * draw.within(0, 1))
+            if draw.chance(0.2):
+                collider.update(spring_place=self.place(), spring_stiffness=min(weight / self.h * draw.within(0, 10), 1e15))
 
     def camera(self, bodies):
         draw = self.draw
@@ -196,7 +220,7 @@ class Scene:
         emitters = [self.snow("emitter", k) for k in range(draw.one(0, 0, 0, 1, 2))]
         sinks = [{"name": "sink", "shape": self.shape("sink", 5, self.place(6, -8, 0)),
                   **draw.table("sink.NAME.", 0.2, ("name",))}] * draw.chance(0.2)
-        return {
+        scene = {
             "title": draw.value("title"), "frames": self.frames, "fps": self.fps,
             "first_frame": draw.one(0, 0, 1001, -3), "handles": self.handles, "seed": draw.random.randint(0, 2 ** 40),
             "solver": self.solver(), "material": {name: self.material() for name in self.materials},
@@ -207,6 +231,8 @@ class Scene:
             "sink": sinks, "collider": colliders, "view": views, "mosaic": [mosaic] * (len(views) > 1),
             "export": [self.export(k, emitters) for k in range(draw.one(0, 0, 1, 2))],
         }
+        self.let_move(colliders, scene["solver"])
+        return scene
 
     def first(self):
         return self.scene["first_frame"] - self.handles
