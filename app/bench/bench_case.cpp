@@ -108,6 +108,17 @@ BenchCase stream_case(int cells_a_side, BenchMethod method, bool flows) {
   return c;
 }
 
+BenchCase plate_case(int cells_a_side, BenchMethod method, bool moves) {
+  BenchCase c = packed_case(cells_a_side, method, sim::Precision::single);
+  const double h = c.settings.cell_size, side = cells_a_side * h, thickness = 4 * h;
+  sim::shapes::Collider plate;
+  plate.shape.form =
+      sim::shapes::Box{{0.5 * side, -0.5 * thickness, 0.5 * side}, {side, thickness, side}};
+  if (moves) plate.body.density = c.material.density * side / thickness;
+  c.colliders.push_back(plate);
+  return c;
+}
+
 int packed_cells_a_side(double particles) {
   return std::max(1, static_cast<int>(std::lround(std::cbrt(particles / particles_a_cell))));
 }

@@ -13,6 +13,7 @@ struct BenchCase {
   sim::Material material;
   sim::ParticleArrays particles;  ///< with volumes
   sim::seeding::Flow flow{};
+  std::vector<sim::shapes::Collider> colliders{};
 };
 
 enum class BenchMethod { mls_quadratic, flip_cubic, apic_cubic, asflip_cubic };
@@ -41,6 +42,10 @@ BenchCase spray_case(int particles_a_side, double cells_apart, SprayPlaces place
 /// The packed cube falling through a place of its size at a tenth of a cell per step.
 /// @param flows  it is emitted above and removed below, as much as passes; false: it only falls
 BenchCase stream_case(int cells_a_side, BenchMethod method, bool flows);
+
+/// The packed cube lies on a plate of its size.
+/// @param moves  the plate is a body that snow moves, as heavy as the snow
+BenchCase plate_case(int cells_a_side, BenchMethod method, bool moves);
 
 /// Cells on a side of the packed cube whose particle count is nearest.
 int packed_cells_a_side(double particles);

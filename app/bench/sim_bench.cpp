@@ -92,6 +92,7 @@ class SimBench {
   void measure_variants();
   void measure_spray();
   void measure_flow();
+  void measure_body();
   void measure_scaling();
   void measure_naive(int round);
   void gather_rows();
@@ -101,7 +102,7 @@ class SimBench {
   void add_naive(BenchMethod method);
   void add_scaling(BenchMethod method);
   void add_memory_and_spray(BenchMethod method);
-  void add_flow(BenchMethod method);
+  void add_pair(BenchMethod method, const char* name, const char* with, const char* without);
 
   Progress& progress_;
   int rounds_, threads_, cells_;
@@ -141,6 +142,7 @@ std::vector<BenchRow> SimBench::run() {
     measure_variants();
     measure_spray();
     measure_flow();
+    measure_body();
     measure_scaling();
     measure_naive(round);
     progress_.note("round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
@@ -178,6 +180,13 @@ void SimBench::measure_flow() {
     for (const bool flows : {false, true})
       runs_[name_for(flows ? "flow" : "stream", method)].add(
           time_run(stream_case(cells_, method, flows), threads_, "flow"));
+}
+
+void SimBench::measure_body() {
+  for (const BenchMethod method : main_methods)
+    for (const bool moves : {false, true})
+      runs_[name_for(moves ? "body" : "plate", method)].add(
+          time_run(plate_case(cells_, method, moves), threads_, "body"));
 }
 
 void SimBench::measure_scaling() {
@@ -267,9 +276,10 @@ void SimBench::add_memory_and_spray(BenchMethod method) {
   }
 }
 
-void SimBench::add_flow(BenchMethod method) {
-  BenchRow time = row(name_for("flow_time", method), threads_, "x without");
-  time.value = time_ratio(runs_.at(name_for("flow", method)), runs_.at(name_for("stream", method)));
+void SimBench::add_pair(BenchMethod method, const char* name, const char* with,
+                        const char* without) {
+  BenchRow time = row(name_for(name, method), threads_, "x without");
+  time.value = time_ratio(runs_.at(name_for(with, method)), runs_.at(name_for(without, method)));
   rows_.push_back(time);
 }
 
@@ -281,7 +291,8 @@ void SimBench::gather_rows() {
   if (threads_ > 1)
     for (const BenchMethod method : main_methods) add_scaling(method);
   for (const BenchMethod method : main_methods) add_memory_and_spray(method);
-  for (const BenchMethod method : main_methods) add_flow(method);
+  for (const BenchMethod method : main_methods) add_pair(method, "flow_time", "flow", "stream");
+  for (const BenchMethod method : main_methods) add_pair(method, "body_time", "body", "plate");
 }
 
 }  // namespace

@@ -56,8 +56,8 @@ void check_health(const sim::Simulation& simulation, const std::string& name) {
 TimedRun time_run(const BenchCase& bench_case, int threads, const std::string& name) {
   TimedRun run;
   do {
-    sim::Simulation simulation(bench_case.settings, {bench_case.material}, {}, bench_case.particles,
-                               threads, sim::Vec3i::Zero(), bench_case.flow);
+    sim::Simulation simulation(bench_case.settings, {bench_case.material}, bench_case.colliders,
+                               bench_case.particles, threads, sim::Vec3i::Zero(), bench_case.flow);
     const Stopwatch watch;
     run_steps(simulation, bench_steps);
     run.seconds += watch.wall();

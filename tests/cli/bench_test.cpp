@@ -37,7 +37,7 @@ TEST_F(Cli, BenchSimNamesWhatScriptsDependOn) {
        {"mls_quadratic_float", "flip_cubic_float", "apic_cubic_float", "asflip_cubic_float",
         "mls_quadratic_double", "flip_cubic_double", "memory_per_particle", "spray_time",
         "spray_memory", "spray_lattice_time", "spray_lattice_memory", "spray_thin_time",
-        "spray_thin_memory", "flow_time", "scaling_2_threads"})
+        "spray_thin_memory", "flow_time", "body_time", "scaling_2_threads"})
     ASSERT_TRUE(rows.contains(name)) << name;
   EXPECT_TRUE(rows["flip_cubic_float"].contains("ratio_to_naive"));
   EXPECT_FALSE(rows["apic_cubic_float"].contains("ratio_to_naive")) << "there is no naive APIC";
