@@ -1,6 +1,7 @@
 #include "render/snow/grains.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "render/frame/point_list.h"
@@ -24,9 +25,13 @@ constexpr float covered_share = 0.46f;
 constexpr float buried_share = 0.97f;
 
 /// Spray is drawn as crumbs of small balls, in particle spacings: their radius, and how far from
-/// the particle they lie at most along each axis. Few and large ones look like beads.
-constexpr float ball_radius = 0.18f, ball_offset = 0.42f;
-constexpr std::uint32_t balls_per_grain = 9;
+/// the particle they lie at most along each axis in a crumb of size 1. Few and large ones look like
+/// beads, crumbs of one size like popcorn: sizes differ by a factor of five, small ones are as many
+/// as large ones on a logarithmic scale, and balls of a crumb as many as its area asks for.
+constexpr float ball_radius = 0.17f, ball_offset = 0.42f;
+constexpr float smallest_crumb = 0.32f, largest_crumb = 1.6f, balls_of_crumb = 9;
+/// The most that a crumb has; ids of its balls.
+constexpr std::uint32_t most_balls = 32;
 
 /// Largest distance of the middle of a grain from its particle along each axis, in spacings.
 constexpr float grain_offset = 0.3f;
@@ -108,12 +113,18 @@ LumpPlace lump_place(const Body& body, Vec3f particle, float share) {
   return {particle - outward * (way * sunk * body.field.cell), sunk};
 }
 
-/// The lump of a particle looks the same wherever it flies, and turns with it.
+/// The lump of a particle looks the same wherever it flies, and turns with it. Those along edges
+/// are all of size 1: they make the surface.
 void add_lump(const Points& points, std::size_t p, const LumpPlace& place, Points& spray) {
-  const float reach = ball_offset * (1 - 0.5f * place.sunk) * points.spacing;
   const std::uint32_t id = id_of(points, p);
-  for (std::uint32_t ball = 0; ball < balls_per_grain; ++ball) {
-    const Vec3f random = random_offset(std::uint64_t{id} * balls_per_grain + ball + 1);
+  const float chance = static_cast<float>(mix64(~std::uint64_t{id}) >> 40) * 0x1p-24f;
+  const float loose = smallest_crumb * std::pow(largest_crumb / smallest_crumb, chance);
+  const float size = loose + (1 - loose) * place.sunk;
+  const float reach = ball_offset * (1 - 0.5f * place.sunk) * std::pow(size, 0.8f) * points.spacing;
+  const auto balls = static_cast<std::uint32_t>(
+      std::clamp(balls_of_crumb * size * size, 1.0f, static_cast<float>(most_balls)));
+  for (std::uint32_t ball = 0; ball < balls; ++ball) {
+    const Vec3f random = random_offset(std::uint64_t{id} * most_balls + ball + 1);
     // Denser in the middle.
     const Vec3f offset = random * (reach * length(random));
     spray.position.edit().push_back(place.middle + turned(points, p, offset));
