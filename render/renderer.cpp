@@ -11,6 +11,7 @@
 #include "render/cpu/smoke_march.h"
 #include "render/cpu/surfaces.h"
 #include "render/gl/read_back.h"
+#include "render/image/smooth_edges.h"
 #include "render/light/smoke_cache.h"
 #include "render/overlay/pass_overlay.h"
 #include "render/passes/passes.h"
@@ -144,6 +145,7 @@ struct Renderer::Impl {
   cpu::Surfaces surfaces;
   snow::Layer snow_layer;
   cpu::SmokeMarch smoke_march;
+  SmoothEdges smooth_edges;
   passes::SolidCache solids;
   passes::SmokePass smoke;
   passes::ArrowPass arrows;
@@ -190,11 +192,13 @@ struct Renderer::Impl {
   }
 
   void prepare_targets(const Frame& frame) {
+    const bool has_samples =
+        frame.supersampling > 1 || (frame.has_smooth_edges && path == ParticlePath::gl);
     if (targets && targets->width == frame.width && targets->height == frame.height &&
-        targets->supersampling == frame.supersampling)
+        targets->supersampling == frame.supersampling && targets->has_samples == has_samples)
       return;
     targets.reset();  // frees the memory before the new ones take theirs
-    targets.emplace(gl, frame.width, frame.height, frame.supersampling);
+    targets.emplace(gl, frame.width, frame.height, frame.supersampling, has_samples);
   }
 
   void bind(const gl::Framebuffer& framebuffer, int width, int height) const {
@@ -283,17 +287,23 @@ struct Renderer::Impl {
     else
       draw_by_gl(frame, view, smoke_grid, light, clock);
 
-    bind(targets->shaded_with_depth, view.width, view.height);
+    if (targets->has_samples && frame.supersampling == 1) finish_samples(frame);
+    bind(targets->laid_over_with_depth, view.width, view.height);
     ground.draw_ghosts(frame, view);
     meshes.draw_ghosts(frame.ghosts, light::toward_light(frame.light), view);
-    bind(targets->shaded, view.width, view.height);
+    bind(targets->laid_over, view.width, view.height);
     lines.draw(frame.lines, *targets, view, static_cast<float>(frame.supersampling));
 
+    if (frame.supersampling > 1) finish_samples(frame);
     bind(targets->finished, frame.width, frame.height);
-    if (frame.supersampling > 1) resolve.draw(*targets);
     clock.end("shade");
     overlay.draw(frame, make_view(frame.camera, frame.width, frame.height));
     clock.end("overlay");
+  }
+
+  void finish_samples(const Frame& frame) {
+    bind(targets->finished, frame.width, frame.height);
+    resolve.draw(*targets);
   }
 
   void draw_by_gl(const Frame& frame, const View& view, const light::SmokeGrid& smoke_grid,
@@ -346,7 +356,7 @@ struct Renderer::Impl {
     const bool wants_depth =
         !frame.ghosts.empty() || !frame.ghost_grounds.empty() || !frame.lines.empty();
     surfaces.shade(light, cover ? &*cover : nullptr, wants_depth);
-    upload_surfaces(view, wants_depth);
+    upload_surfaces(view, wants_depth, frame.has_smooth_edges && frame.supersampling == 1);
   }
 
   /// Everything before the light: the surfaces, and the smoke before them.
@@ -474,7 +484,7 @@ struct Renderer::Impl {
     read(GL_COLOR_ATTACHMENT1, GL_RGBA, GL_UNSIGNED_BYTE, samples.albedo.data());
   }
 
-  void upload_surfaces(const View& view, bool has_depth) {
+  void upload_surfaces(const View& view, bool has_depth, bool is_smooth) {
     gl.ActiveTexture(GL_TEXTURE0);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.PixelStorei(GL_UNPACK_ROW_LENGTH, surfaces.pitch());
@@ -483,8 +493,13 @@ struct Renderer::Impl {
       gl.BindTexture(GL_TEXTURE_2D, texture.id());
       gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, view.width, view.height, format, type, from);
     };
-    upload(targets->supersampling > 1 ? targets->samples : targets->picture, GL_RGBA,
-           GL_UNSIGNED_BYTE, surfaces.picture());
+    const std::uint32_t* picture = surfaces.picture();
+    if (is_smooth) {
+      picture = smooth_edges.of(picture, surfaces.pitch(), view.width, view.height, pool);
+      gl.PixelStorei(GL_UNPACK_ROW_LENGTH, view.width);
+    }
+    upload(targets->top(), GL_RGBA, GL_UNSIGNED_BYTE, picture);
+    gl.PixelStorei(GL_UNPACK_ROW_LENGTH, surfaces.pitch());
     if (has_depth) upload(targets->depth, GL_DEPTH_COMPONENT, GL_FLOAT, surfaces.depth());
     gl.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   }

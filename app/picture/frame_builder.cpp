@@ -105,6 +105,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   frame.width = size.width;
   frame.height = size.height;
   frame.supersampling = setup::supersampling(options_.quality);
+  frame.has_smooth_edges = frame.supersampling == 1;
   frame.has_snow_surface = scene::has_layer(view, scene::Layer::snow) && !snapshot.stage_change;
   frame.is_transparent = scene::background_of(scene_, view) == scene::Background::transparent;
   const scene::CameraSettings& camera = settings_of(scene_, view);

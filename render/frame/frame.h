@@ -203,6 +203,7 @@ struct ScaleBar {
 struct Frame {
   int width = 1280, height = 720;  ///< pixels of the finished picture
   int supersampling = 1;           ///< 1 or 2: samples per pixel and axis
+  bool has_smooth_edges = false;   ///< with one sample for each pixel
   bool is_transparent = false;     ///< nothing behind: the picture has an alpha channel
   Camera camera;
   Light light;

@@ -22,8 +22,8 @@ void check_complete(const Gl& gl, const Framebuffer& framebuffer, int width, int
 
 }  // namespace
 
-Targets::Targets(const Gl& gl, int width_, int height_, int supersampling_)
-    : width(width_), height(height_), supersampling(supersampling_) {
+Targets::Targets(const Gl& gl, int width_, int height_, int supersampling_, bool has_samples_)
+    : width(width_), height(height_), supersampling(supersampling_), has_samples(has_samples_) {
   const int w = sample_width(), h = sample_height();
   const auto make = [&](GLint internal, GLenum format, GLenum type, int tw, int th) {
     return make_texture_2d(gl, tw, th, internal, format, type, nullptr, GL_NEAREST);
@@ -42,14 +42,18 @@ Targets::Targets(const Gl& gl, int width_, int height_, int supersampling_)
   check_complete(gl, gbuffer, w, h);
 
   shaded = Framebuffer(gl);
-  if (supersampling > 1) samples = make(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, w, h);
-  attach(gl, shaded, GL_COLOR_ATTACHMENT0, supersampling > 1 ? samples : picture);
+  if (has_samples) samples = make(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, w, h);
+  attach(gl, shaded, GL_COLOR_ATTACHMENT0, has_samples ? samples : picture);
   check_complete(gl, shaded, w, h);
 
-  shaded_with_depth = Framebuffer(gl);
-  attach(gl, shaded_with_depth, GL_COLOR_ATTACHMENT0, supersampling > 1 ? samples : picture);
-  attach(gl, shaded_with_depth, GL_DEPTH_ATTACHMENT, depth);
-  check_complete(gl, shaded_with_depth, w, h);
+  laid_over = Framebuffer(gl);
+  attach(gl, laid_over, GL_COLOR_ATTACHMENT0, top());
+  check_complete(gl, laid_over, w, h);
+
+  laid_over_with_depth = Framebuffer(gl);
+  attach(gl, laid_over_with_depth, GL_COLOR_ATTACHMENT0, top());
+  attach(gl, laid_over_with_depth, GL_DEPTH_ATTACHMENT, depth);
+  check_complete(gl, laid_over_with_depth, w, h);
 
   finished = Framebuffer(gl);
   attach(gl, finished, GL_COLOR_ATTACHMENT0, picture);

@@ -79,12 +79,16 @@ void ShadePass::draw(const gl::Targets& targets, const light::LightVolume& volum
 }
 
 ResolvePass::ResolvePass(const gl::Gl& gl, const gl::ShaderLibrary& library)
-    : gl_(gl), program_(gl, library, "fullscreen.vert", "resolve.frag"), vertex_array_(gl) {}
+    : gl_(gl),
+      mean_program_(gl, library, "fullscreen.vert", "resolve.frag"),
+      smooth_program_(gl, library, "fullscreen.vert", "smooth.frag"),
+      vertex_array_(gl) {}
 
 void ResolvePass::draw(const gl::Targets& targets) {
   gl::set_flat_state(gl_);
-  program_.use();
-  bind(gl_, program_, 0, GL_TEXTURE_2D, targets.samples.id(), "samples");
+  const gl::Program& program = targets.supersampling > 1 ? mean_program_ : smooth_program_;
+  program.use();
+  bind(gl_, program, 0, GL_TEXTURE_2D, targets.samples.id(), "samples");
   gl_.BindVertexArray(vertex_array_.id());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -139,7 +139,8 @@ class ShadePass {
   std::uint64_t uploaded_ = 0;  ///< serial of the volume in the textures
 };
 
-/// Averages the samples of each pixel; see shaders/resolve.frag.
+/// Makes pixels of samples: the mean of several, see shaders/resolve.frag, or one with smooth edges,
+/// see shaders/smooth.frag.
 class ResolvePass {
  public:
   ResolvePass(const gl::Gl& gl, const gl::ShaderLibrary& library);
@@ -147,7 +148,7 @@ class ResolvePass {
 
  private:
   const gl::Gl& gl_;
-  gl::Program program_;
+  gl::Program mean_program_, smooth_program_;
   gl::VertexArray vertex_array_;
 };
 
