@@ -108,6 +108,9 @@ Summary Simulation::summary() const {
 ParticleArrays Simulation::particles() const {
   return stepper_->particles();
 }
+DustArrays Simulation::dust() const {
+  return stepper_->dust();
+}
 std::vector<Mat3d> Simulation::kirchhoff() const {
   return stepper_->kirchhoff();
 }

@@ -10,6 +10,7 @@
 
 #include "sim/seeding/flow.h"
 #include "sim/shapes/collider.h"
+#include "sim/types/dust.h"
 #include "sim/types/energy_account.h"
 #include "sim/types/errors.h"
 #include "sim/types/material.h"
@@ -106,6 +107,10 @@ class Simulation {
   /// All particles in id order. Volumes that are to be estimated are known from the start: they
   /// follow from the mass on the grid before the first step.
   ParticleArrays particles() const;
+
+  /// Dust in the air, and all that there has been. It never changes the snow, unless
+  /// DustSettings::spray_drag asks for it.
+  DustArrays dust() const;
 
   /// Kirchhoff stress tau = P F_E^T in Pa, id order.
   std::vector<Mat3d> kirchhoff() const;

@@ -22,14 +22,14 @@ void check_picture(const std::string& flag, const std::string& file) {
     throw UsageError(flag, "is not the name of a picture", "expected a file that ends in .png");
 }
 
-/// The keys of [[export]] about the surface are flags too, as the scene describes them.
+/// The keys of [[export]] about dust and the surface are flags too, as the scene describes them.
 struct SurfaceFlags {
   Command& visit;
 
   template <class T>
   void operator()(const char* key, T& member, const char*, const scene::Valid& valid, scene::Change,
                   std::string help) const {
-    static const std::set<std::string> keys{"surface", "surface_cell", "surface_smoothing",
+    static const std::set<std::string> keys{"dust", "surface", "surface_cell", "surface_smoothing",
                                             "smallest_piece"};
     if (!keys.contains(key)) return;
     std::string flag = std::string("--") + key;

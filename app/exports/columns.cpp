@@ -23,6 +23,7 @@ struct ColumnSource {
   const State& state;
   Axes axes;
   const std::vector<std::size_t>& rows;  ///< indices of the particles that are written
+  bool is_dust = false;                  ///< instead of snow
 
   double J(std::size_t p) const {
     return state.particles.F_E[p].determinant() * state.particles.J_P[p];
@@ -146,6 +147,7 @@ std::vector<double> values_of(ExportAttribute attribute, const ColumnSource& s) 
     case ExportAttribute::radius:
       return each([&](std::size_t p) { return s.axes.scale() * radius_of(a.V0[p]); });
     case ExportAttribute::age:
+      if (s.is_dust) return each([&](std::size_t p) { return s.state.dust.age[p]; });
       return each([&](std::size_t p) { return s.state.time - s.origins.birth_of(a.id_of(p)); });
   }
   return {};
@@ -199,6 +201,7 @@ Numbers carried_numbers(const ColumnSource& s, const Carried& carried, const std
 std::vector<ExportAttribute> attributes_of(const scene::Export& e) {
   if (has_places_only(e)) return {ExportAttribute::x};
   std::vector<ExportAttribute> list = e.attributes;
+  if (e.dust) std::erase_if(list, [](ExportAttribute a) { return !scene::is_of_dust(a); });
   if (std::find(list.begin(), list.end(), ExportAttribute::x) == list.end())
     list.insert(list.begin(), ExportAttribute::x);
   return list;
@@ -236,7 +239,7 @@ const std::vector<double>& Table::places() const {
 Table make_table(const scene::Scene& scene, const scene::Export& e, const Origins& origins,
                  const Carried& carried, const State& state) {
   const std::vector<std::size_t> rows = rows_of(scene, e, origins, state.particles);
-  const ColumnSource source{scene, origins, state, Axes(scene, e), rows};
+  const ColumnSource source{scene, origins, state, Axes(scene, e), rows, e.dust};
   Table table = empty_table(scene, e, carried);
   table.rows = rows.size();
   for (Column& column : table.columns)

@@ -143,7 +143,7 @@ std::string usd_faces(const MeshRows& mesh, const std::string& time) {
 }  // namespace
 
 std::vector<std::pair<UsdPrim, std::string>> usd_prims(const scene::Export& spec) {
-  if (!spec.surface) return {{UsdPrim::points, "snow"}};
+  if (!spec.surface) return {{UsdPrim::points, spec.dust ? "dust" : "snow"}};
   return {{UsdPrim::mesh, "snow"}, {UsdPrim::points, "spray"}};
 }
 

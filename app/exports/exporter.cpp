@@ -97,12 +97,13 @@ Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int 
   const bool has_pvd = series_name(spec).ends_with(".pvd");
   std::string series = has_pvd ? encode_pvd(spec, job.samples) : std::string();
   return [this, &spec, state = std::move(state), number, series = std::move(series)] {
-    const Table table = make_table(scene_, spec, origins_, carried_, *state);
+    const std::shared_ptr<const State> shown = spec.dust ? state_of_dust(*state) : state;
+    const Table table = make_table(scene_, spec, origins_, carried_, *shown);
     check_capacity(spec, table, static_cast<double>(table.rows));
     const fs::path folder = folder_ / scene::folder_of(spec);
     output::make_own_folder(folder);
     std::vector<output::WrittenFile> written{output::write_hashed(
-        folder / file_name(spec, number), encode({scene_, spec, *state, table}))};
+        folder / file_name(spec, number), encode({scene_, spec, *shown, table}))};
     if (!series.empty())
       written.push_back(output::write_hashed(folder_ / series_name(spec), series));
     return written;

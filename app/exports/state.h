@@ -26,8 +26,12 @@ struct State {
   sim::ParticleArrays particles;              ///< id order
   std::vector<sim::Mat3d> kirchhoff;          ///< Pa; empty unless an export has stress
   std::optional<sim::RasterizedNodes> nodes;  ///< absent unless an export has the grid
+  sim::DustArrays dust;                       ///< empty unless an export has it
   std::vector<PlacedShape> colliders;         ///< of the scene
 };
+
+/// The dust as if it were the snow of a state: `particles`, and `nodes` where there are any.
+std::shared_ptr<const State> state_of_dust(const State& state);
 
 /// True for formats that have the grid instead of particles.
 bool has_grid(const scene::Export& e);

@@ -126,6 +126,7 @@ Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, d
   check_emitters(scene, check.findings, coarsening);
   check_sinks(scene, check.impact_speed, check.findings);
   check_unused(scene, coarsening, check.findings);
+  check_dust(scene, check.impact_speed, check.findings);
   if (plan.particles <= max_seeded && plan.memory <= plan.memory_limit) {
     const setup::SeededScene seeded = setup::seed_scene(scene);
     const sim::ParticleArrays& particles = seeded.particles;

@@ -52,6 +52,10 @@ void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& 
 /// @param coarsening the N of --coarsen
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings);
 
+/// Dust that never flies, that nothing shows, and that it takes time. @param speed m/s, of the
+/// fastest snow
+void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
+
 /// Bodies in one another and in colliders, points that weigh too much.
 void check_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
                     std::vector<Finding>& findings);

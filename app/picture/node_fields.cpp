@@ -49,14 +49,6 @@ std::vector<std::vector<double>> particle_values(const scene::Scene& scene,
   return values;
 }
 
-std::shared_ptr<const render::NodeLattice> lattice_of(const sim::RasterizedNodes& nodes) {
-  auto lattice = std::make_shared<render::NodeLattice>();
-  lattice->spacing = static_cast<float>(nodes.spacing);
-  for (const sim::Vec3i& block : nodes.block)
-    lattice->block.push_back({block.x(), block.y(), block.z()});
-  return lattice;
-}
-
 const std::vector<Vec3d>& field_of_step(const sim::NodeFields& nodes, scene::VectorField field) {
   switch (field) {
     case scene::VectorField::force:
@@ -110,6 +102,14 @@ std::vector<Value> where_dense(const std::vector<float>& density, auto&& value_a
 }
 
 }  // namespace
+
+std::shared_ptr<const render::NodeLattice> lattice_of(const sim::RasterizedNodes& nodes) {
+  auto lattice = std::make_shared<render::NodeLattice>();
+  lattice->spacing = static_cast<float>(nodes.spacing);
+  for (const sim::Vec3i& block : nodes.block)
+    lattice->block.push_back({block.x(), block.y(), block.z()});
+  return lattice;
+}
 
 FieldNeeds field_needs(std::span<const scene::View> views) {
   FieldNeeds needs;

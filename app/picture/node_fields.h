@@ -9,6 +9,7 @@
 
 #include "app/scene/scene.h"
 #include "sim/simulation.h"
+#include "sim/types/grid_fields.h"
 
 namespace neve::app::picture {
 
@@ -30,6 +31,9 @@ struct FieldSamples {
   std::map<scene::ScalarField, std::vector<float>> scalars;
   std::map<scene::VectorField, std::vector<Vec3f>> vectors;
 };
+
+/// The blocks of nodes as a picture has them.
+std::shared_ptr<const render::NodeLattice> lattice_of(const sim::RasterizedNodes& nodes);
 
 /// Rasterises the particles as they are. Fields that belong to a step (force, v_free, v_star,
 /// v_new) are those of the step which follows, done on a copy.

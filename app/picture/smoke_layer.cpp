@@ -1,12 +1,18 @@
 #include "app/picture/smoke_layer.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "app/setup/snow_pieces.h"
+#include "sim/dust_grid.h"
 
 namespace neve::app::picture {
 
 namespace {
+
+/// m2/kg, what dust takes out of a beam: of ice, drops of 0.15 mm have 3 / (2 rho r) = 11.
+constexpr double dust_cross_section = 11;
 
 /// Density of packed snow: that of the densest material in use.
 double full_density(const scene::Scene& scene) {
@@ -34,6 +40,22 @@ void add_smoke(const scene::Scene& scene, const scene::View& view, const FieldSa
   smoke.colormap = style.colormap;
   smoke.range_min = static_cast<float>(range.min);
   smoke.range_max = static_cast<float>(range.max);
+}
+
+void add_dust(const scene::View& view, const sim::DustArrays& dust, render::Frame& frame) {
+  const sim::RasterizedNodes nodes = sim::dust_nodes(dust);
+  if (nodes.block.empty()) return;
+  render::Smoke& smoke = frame.smoke;
+  smoke.nodes = lattice_of(nodes);
+  const double cell = nodes.spacing * nodes.spacing * nodes.spacing;
+  std::vector<float> density;
+  density.reserve(nodes.mass.size());
+  for (const double mass : nodes.mass) density.push_back(static_cast<float>(mass / cell));
+  smoke.density = std::move(density);
+  // Where dust is this dense, three nodes pass 40 % of the light, as three of packed snow do.
+  smoke.full_density = static_cast<float>(0.3054 / (dust_cross_section * nodes.spacing));
+  smoke.density_scale = static_cast<float>(view.smoke.density_scale);
+  if (frame.supersampling > 1) smoke.samples_per_ray = frame.supersampling;
 }
 
 }  // namespace neve::app::picture

@@ -22,6 +22,7 @@ struct Snapshot {
   sim::ParticleArrays particles;        ///< id order
   std::vector<sim::Mat3d> kirchhoff;    ///< Pa; empty unless a view shows stress
   FieldSamples fields;                  ///< empty unless a view shows the grid
+  sim::DustArrays dust;                 ///< empty unless a view shows it
   sim::Warnings warnings;               ///< of the steps so far
   sim::AdvanceReport advance;           ///< steps since the frame before; the caller fills it in
   std::span<const PlotSample> history;  ///< of the frames up to this one; the caller keeps it

@@ -88,10 +88,23 @@ Json to_json(const FrameRecord& frame) {
   json["largest_fragment"] = number_or_null(frame.metrics.largest_fragment);
   json["powder"] = number_or_null(frame.metrics.powder);
   json["crumbs"] = number_or_null(frame.metrics.crumbs);
+  if (s.dust.born > 0) json["dust"] = to_json(s.dust);
   json["forces"] = Json::array();
   for (const ColliderForce& force : frame.forces) json["forces"].push_back(to_json(force));
   json["state_hash"] = hash_text(frame.state_hash);
   return json;
+}
+
+Json to_json(const sim::DustTotals& dust) {
+  return {{"mass_is", "decoration: taken from no snow"},
+          {"particles", dust.airborne()},
+          {"mass", number_or_null(dust.airborne_mass())},
+          {"born", dust.born},
+          {"settled", dust.settled},
+          {"faded", dust.faded},
+          {"born_mass", number_or_null(dust.born_mass)},
+          {"settled_mass", number_or_null(dust.settled_mass)},
+          {"faded_mass", number_or_null(dust.faded_mass)}};
 }
 
 double particle_steps(const FrameRecord& frame) {
@@ -128,6 +141,19 @@ void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame) {
 std::string picture_name(const std::string& view, int frame) {
   return output::frame_path({}, view, frame).generic_string();
 }
+
+namespace {
+
+sim::DustTotals dust_totals(const Json& json) {
+  return {whole_number<std::uint64_t>(json.at("born")),
+          whole_number<std::uint64_t>(json.at("settled")),
+          whole_number<std::uint64_t>(json.at("faded")),
+          output::number_or_nan(json.at("born_mass")),
+          output::number_or_nan(json.at("settled_mass")),
+          output::number_or_nan(json.at("faded_mass"))};
+}
+
+}  // namespace
 
 FrameRecord frame_record(const Json& json) {
   FrameRecord frame;
@@ -166,6 +192,7 @@ FrameRecord frame_record(const Json& json) {
   s.max_J_P = output::number_or_nan(json.at("max_J_P"));
   if (json.contains("denser_than_ice"))
     s.denser_than_ice = output::number_or_nan(json.at("denser_than_ice"));
+  if (json.contains("dust")) s.dust = dust_totals(json.at("dust"));
   frame.state_hash = std::stoull(json.at("state_hash").get<std::string>(), nullptr, 16);
   // Runs of earlier versions have none.
   if (!json.contains("spread")) return frame;

@@ -93,6 +93,7 @@ std::string hash_text(std::uint64_t hash);
 std::string hash_of(const std::string& text);
 
 Json to_json(const FrameRecord& frame);
+Json to_json(const sim::DustTotals& dust);
 /// Reads the output of to_json; the rest of advance and summary has its defaults.
 /// @throws nlohmann::json::exception
 FrameRecord frame_record(const Json& json);

@@ -28,7 +28,7 @@ void check_exports(const scene::Scene& scene) {
   const std::optional<scene::Problem> problem = scene::find_problem(scene);
   if (!problem) return;
   std::string flag = "--body";
-  for (const char* key : {"attributes", "format", "surface"})
+  for (const char* key : {"attributes", "format", "surface", "dust"})
     if (problem->address.ends_with(std::string(".") + key)) flag = std::string("--") + key;
   if (problem->address.ends_with(".carried")) flag = "--attributes";
   throw UsageError(flag, problem->message, problem->hint);

@@ -385,6 +385,22 @@ bool holds_meshes(ExportFormat format) {
          format == ExportFormat::usda || format == ExportFormat::obj || format == ExportFormat::vdb;
 }
 
+Found dust_export_problem(const Export& e) {
+  const std::string at = "export." + e.name;
+  if (e.surface) return Problem{at + ".surface", "dust has no surface", "remove surface, or dust"};
+  if (!e.bodies.empty())
+    return Problem{at + ".bodies", "dust is of no body", "remove bodies, or dust"};
+  if (!e.carried.empty())
+    return Problem{at + ".carried", "dust carries no columns of files", "remove carried, or dust"};
+  if (e.attributes == Export{}.attributes) return {};
+  for (const ExportAttribute attribute : e.attributes)
+    if (!is_of_dust(attribute))
+      return Problem{at + ".attributes",
+                     std::string("dust has no ") + toml::toml_string(name(attribute)),
+                     "expected some of id, x, v, m, radius, age"};
+  return {};
+}
+
 Found export_format_problem(const Export& e) {
   const std::string at = "export." + e.name;
   if (e.surface && !holds_meshes(e.format))
@@ -471,6 +487,7 @@ Found carried_problem(const Scene& scene, const Export& e) {
 Found export_problem(const Scene& scene, const Export& e) {
   const std::string at = "export." + e.name;
   if (Found found = export_format_problem(e)) return found;
+  if (Found found = e.dust ? dust_export_problem(e) : Found{}) return found;
   if (Found found = carried_problem(scene, e)) return found;
   for (const Export& other : scene.exports) {
     if (&other == &e) break;
@@ -484,7 +501,7 @@ Found export_problem(const Scene& scene, const Export& e) {
     return Problem{at + ".bodies", "there is no body or emitter " + toml::toml_string(name),
                    advice::suggest_one_of(name, {"", names})};
   }
-  if (scene.emitters.size() < 2) return {};
+  if (e.dust || scene.emitters.size() < 2) return {};
   const bool needs_origin =
       names_attribute(e, ExportAttribute::body) || names_attribute(e, ExportAttribute::age);
   if (!needs_origin && e.bodies.empty()) return {};
@@ -666,6 +683,9 @@ std::optional<Problem> find_problem(const Scene& scene) {
     if (view.camera && (found = camera_problem(*view.camera, at + ".camera"))) return found;
     if (view.camera && (found = follow_problem(scene, view.camera->follow, at + ".camera")))
       return found;
+    if (has_layer(view, Layer::smoke) && has_layer(view, Layer::dust))
+      return Problem{at + ".layers", "smoke and dust are both drawn as smoke",
+                     "give each a view of its own; dust goes with snow or particles"};
     if (view.clip && view.clip->normal.norm() <= negligible)
       return Problem{at + ".clip.normal", "normal is zero",
                      "it must point towards the side to cut away"};

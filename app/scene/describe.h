@@ -27,10 +27,11 @@ namespace neve::app::scene {
 
 namespace unit {
 inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second = "1/s",
-                            *velocity = "m/s", *acceleration = "m/s2", *spin = "rad/s",
-                            *density = "kg/m3", *mass_rate = "kg/s", *pascal = "Pa",
-                            *degrees = "degrees", *pixels = "px", *bytes = "B", *joule = "J",
-                            *newton = "N", *kilogram = "kg", *inertia = "kg m2", *stiffness = "N/m",
+                            *per_metre = "1/m", *diffusivity = "m2/s", *velocity = "m/s",
+                            *acceleration = "m/s2", *spin = "rad/s", *density = "kg/m3",
+                            *mass_rate = "kg/s", *pascal = "Pa", *degrees = "degrees",
+                            *pixels = "px", *bytes = "B", *joule = "J", *newton = "N",
+                            *kilogram = "kg", *inertia = "kg m2", *stiffness = "N/m",
                             *damping = "N s/m";
 }
 
@@ -138,6 +139,35 @@ void describe(V& visit, sim::SolverSettings& s) {
 }
 
 template <class V>
+void describe(V& visit, sim::DustSettings& d) {
+  using enum Change;
+  visit("speed", d.speed, unit::velocity, at_least(0).at_most(1e6), live,
+        "Speed in still air below which snow sheds no dust; all of it from twice that on.");
+  visit("strain_rate", d.strain_rate, unit::per_second, at_least(0).at_most(1e6), live,
+        "Rate of strain below which snow sheds no dust; all of it from twice that on.");
+  visit("min_J_P", d.min_J_P, unit::none, between(0, 20), live,
+        "Plastic volume ratio below which snow is too packed to shed dust.");
+  visit("settling_speed", d.settling_speed, unit::velocity, between(0, 100), live,
+        "Speed at which dust sinks in still air; it gives the dust's drag too.");
+  visit("buoyancy", d.buoyancy, unit::none, within(100), live,
+        "Lift of dusty air, in weights of its dust; -1: it sinks by that weight.");
+  visit("diffusion", d.diffusion, unit::diffusivity, between(0, 1e4), live,
+        "Diffusivity of dust in air.");
+  visit("turbulence", d.turbulence, unit::none, between(0, 2), live,
+        "Gusts smaller than the cells of the air, as a share of its speed.");
+  visit("wind", d.wind, unit::velocity, within(1000), live, "Velocity of the air far away.");
+  visit("life", d.life, unit::second, at_least(1e-3).at_most_or_0(1e6), live,
+        "Mean time until dust that does not settle has faded; 0: for ever.");
+  visit("air_cell", d.air_cell, unit::none, between(1, 100), restart,
+        "Edge of the air's cells, in cells of the snow's grid.");
+  visit("particles", d.particles, unit::none, between(1, 20'000'000), live,
+        "Largest number of dust particles; near it fewer are born, each of more mass.");
+  visit("spray_drag", d.spray_drag, unit::per_metre, between(0, 1e4), live,
+        "Drag of loose snow in the air, k in dv/dt = k |u - v| (u - v); 0: none. All else of dust "
+        "changes no snow.");
+}
+
+template <class V>
 void describe(V& visit, Limits& l) {
   using enum Change;
   visit("memory", l.memory, unit::bytes, between(0, max_count), restart,
@@ -192,6 +222,9 @@ void describe(V& visit, sim::Material& m) {
         "Largest plastic volume ratio: how loose torn snow becomes before it is packed again.");
   visit("max_hardening", m.max_hardening, unit::none, between(1, 1e12), Change::live,
         "Largest factor by which packed snow stiffens: e^(xi (1 - J_P)) ends there.");
+  visit("dust", m.dust, unit::none, between(0, 10), Change::live,
+        "Dust that it sheds where it breaks fast, as a share of its mass per unit of strain; "
+        "decoration: the snow keeps its mass.");
   visit.section("variation", "Unevenness of the snow.", [&](auto& v) { describe(v, m.variation); });
 }
 
@@ -668,6 +701,10 @@ void describe(V& visit, Export& e) {
         "Axis that points up in the files: (x, y, z) becomes (x, -z, y) for z.");
   visit("scale", e.scale, unit::none, at_least(1e-6).at_most(1e6), restart,
         "Units per metre in the files, for lengths and velocities; all else stays in SI units.");
+  visit(
+      "dust", e.dust, unit::none, anything, restart,
+      "Write the dust in the place of the snow: its particles (ply, vtp, bgeo, usda, npz, csv), or "
+      "its density (vdb, vti).");
   visit("surface", e.surface, unit::none, anything, restart,
         "Write a closed mesh around the particles instead of the particles (ply, vtp, usda, obj), "
         "or its "
@@ -735,6 +772,8 @@ void describe(V& visit, Scene& s) {
   visit.section("limits", "Limits of a run; a run that would exceed one is refused.",
                 [&](auto& v) { describe(v, s.limits); });
   visit.named("material", s.materials, "A named material.");
+  visit.section("dust", "Dust of snow that breaks fast, and the air that carries it.",
+                [&](auto& v) { describe(v, s.solver.dust); });
   visit.list("body", s.bodies, "A piece of snow.");
   visit.list("emitter", s.emitters, "Adds snow during the run.");
   visit.list("sink", s.sinks, "A region that removes snow.");

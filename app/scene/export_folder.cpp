@@ -11,6 +11,12 @@ std::string folder_of(const Export& e) {
   return has_name ? e.name : name(e.format);
 }
 
+bool is_of_dust(ExportAttribute attribute) {
+  using enum ExportAttribute;
+  return attribute == id || attribute == x || attribute == v || attribute == m ||
+         attribute == radius || attribute == age;
+}
+
 std::vector<std::string> snow_sources(const Scene& scene) {
   std::vector<std::string> names;
   for (const sim::seeding::Body& body : scene.bodies) names.push_back(body.name);

@@ -210,7 +210,8 @@ bool is_live(std::string_view address) {
 
 Concern concern_of(std::string_view address) {
   if (address.starts_with("collider.") && address.ends_with(".style")) return Concern::pictures;
-  for (const char* part : {"solver.", "material.", "body.", "emitter.", "sink.", "collider."})
+  for (const char* part :
+       {"solver.", "dust.", "material.", "body.", "emitter.", "sink.", "collider."})
     if (address.starts_with(part)) return Concern::simulation;
   if (address == "fps" || address == "seed") return Concern::simulation;
   if (address == "frames" || address == "handles" || address.starts_with("limits.") ||

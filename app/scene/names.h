@@ -151,13 +151,23 @@ constexpr auto names(render::ColorMap) {
 }
 constexpr auto names(Layer) {
   using enum Layer;
-  return std::array{
-      Name{ground, "ground"},   Name{colliders, "colliders"}, Name{particles, "particles"},
-      Name{snow, "snow"},       Name{arrows, "arrows"},       Name{heatmap, "heatmap"},
-      Name{smoke, "smoke"},     Name{blocks, "blocks"},       Name{bounds, "bounds"},
-      Name{legend, "legend"},   Name{caption, "caption"},     Name{plots, "plots"},
-      Name{counter, "counter"}, Name{slate, "slate"},         Name{streamlines, "streamlines"},
-      Name{scale, "scale"}};
+  return std::array{Name{ground, "ground"},
+                    Name{colliders, "colliders"},
+                    Name{particles, "particles"},
+                    Name{snow, "snow"},
+                    Name{arrows, "arrows"},
+                    Name{heatmap, "heatmap"},
+                    Name{smoke, "smoke"},
+                    Name{blocks, "blocks"},
+                    Name{bounds, "bounds"},
+                    Name{legend, "legend"},
+                    Name{caption, "caption"},
+                    Name{plots, "plots"},
+                    Name{counter, "counter"},
+                    Name{slate, "slate"},
+                    Name{streamlines, "streamlines"},
+                    Name{scale, "scale"},
+                    Name{dust, "dust"}};
 }
 constexpr auto names(ExportFormat) {
   using enum ExportFormat;

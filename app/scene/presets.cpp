@@ -12,17 +12,11 @@ namespace {
 
 /// Parameters that presets set: those of any material, and those of laws that mean snow. A law
 /// reads some of them; those that it does not read do not tell its presets apart.
-constexpr std::size_t of_any_law = 3;
-constexpr const char* keys[] = {"density",
-                                "youngs_modulus",
-                                "poisson_ratio",
-                                "hardening",
-                                "critical_compression",
-                                "critical_stretch",
-                                "friction_angle",
-                                "cohesion",
-                                "consolidation_pressure",
-                                "consolidation_hardening"};
+constexpr std::size_t of_any_law = 4;
+constexpr const char* keys[] = {
+    "density",   "youngs_modulus",         "poisson_ratio",          "dust",
+    "hardening", "critical_compression",   "critical_stretch",       "friction_angle",
+    "cohesion",  "consolidation_pressure", "consolidation_hardening"};
 
 /// The six of the paper are those of its figure of parameter variations. The other four follow what
 /// the paper says of its parameters: small thresholds make dry powder and large ones wet, chunky
@@ -31,24 +25,25 @@ constexpr const char* keys[] = {"density",
 /// of Meteorology, "snow density"), dense snow about 500, as wet snow of late spring, and glacier
 /// ice 917; icy snow lies between. Their stiffness goes with the density, but within about ten
 /// times of the paper's, like all stiffnesses that it shows: real snow is stiffer, and time steps
-/// are as short as sound is fast.
+/// are as short as sound is fast. Powder alone sheds dust.
 struct Row {
   Preset preset;
   double numbers[std::size(keys)];
 };
 constexpr std::array rows{
-    Row{Preset::paper, {400, 1.4e5, 0.2, 10, 0.025, 0.0075, 39, 0.4, 4500, 1}},
-    Row{Preset::lower_hardening, {400, 1.4e5, 0.2, 5, 0.025, 0.0075, 39, 0.4, 4500, 1}},
-    Row{Preset::lower_youngs_modulus, {400, 4.8e4, 0.2, 10, 0.025, 0.0075, 39, 0.4, 4500, 1}},
-    Row{Preset::lower_critical_compression, {400, 1.4e5, 0.2, 10, 0.019, 0.0075, 39, 0.4, 4500, 1}},
-    Row{Preset::lower_critical_stretch, {400, 1.4e5, 0.2, 10, 0.025, 0.005, 39, 0.4, 4500, 1}},
+    Row{Preset::paper, {400, 1.4e5, 0.2, 0, 10, 0.025, 0.0075, 39, 0.4, 4500, 1}},
+    Row{Preset::lower_hardening, {400, 1.4e5, 0.2, 0, 5, 0.025, 0.0075, 39, 0.4, 4500, 1}},
+    Row{Preset::lower_youngs_modulus, {400, 4.8e4, 0.2, 0, 10, 0.025, 0.0075, 39, 0.4, 4500, 1}},
+    Row{Preset::lower_critical_compression,
+        {400, 1.4e5, 0.2, 0, 10, 0.019, 0.0075, 39, 0.4, 4500, 1}},
+    Row{Preset::lower_critical_stretch, {400, 1.4e5, 0.2, 0, 10, 0.025, 0.005, 39, 0.4, 4500, 1}},
     Row{Preset::lower_compression_and_stretch,
-        {400, 1.4e5, 0.2, 10, 0.019, 0.005, 39, 0.4, 4500, 1}},
-    Row{Preset::powder, {150, 4e4, 0.2, 7, 0.015, 0.002, 39, 0.2, 500, 1}},
-    Row{Preset::wet, {500, 1e5, 0.2, 5, 0.04, 0.015, 45, 0.8, 4000, 1}},
-    Row{Preset::packed, {500, 4e5, 0.2, 10, 0.025, 0.0075, 39, 0.5, 8000, 1}},
-    Row{Preset::icy, {700, 1.4e6, 0.3, 20, 0.02, 0.004, 39, 0.3, 30000, 3}},
-    Row{Preset::quick, {400, 5e4, 0.2, 10, 0.025, 0.0075, 39, 0.4, 4500, 1}},
+        {400, 1.4e5, 0.2, 0, 10, 0.019, 0.005, 39, 0.4, 4500, 1}},
+    Row{Preset::powder, {150, 4e4, 0.2, 0.02, 7, 0.015, 0.002, 39, 0.2, 500, 1}},
+    Row{Preset::wet, {500, 1e5, 0.2, 0, 5, 0.04, 0.015, 45, 0.8, 4000, 1}},
+    Row{Preset::packed, {500, 4e5, 0.2, 0, 10, 0.025, 0.0075, 39, 0.5, 8000, 1}},
+    Row{Preset::icy, {700, 1.4e6, 0.3, 0, 20, 0.02, 0.004, 39, 0.3, 30000, 3}},
+    Row{Preset::quick, {400, 5e4, 0.2, 0, 10, 0.025, 0.0075, 39, 0.4, 4500, 1}},
 };
 
 const sim::laws::Parameter* parameter(std::span<const sim::laws::Parameter> all,
@@ -60,7 +55,7 @@ const sim::laws::Parameter* parameter(std::span<const sim::laws::Parameter> all,
 
 double& number_of(sim::Material& m, std::size_t k) {
   if (k >= of_any_law) return parameter(sim::laws::all_parameters(), keys[k])->of(m);
-  return k == 0 ? m.density : k == 1 ? m.youngs_modulus : m.poisson_ratio;
+  return k == 0 ? m.density : k == 1 ? m.youngs_modulus : k == 2 ? m.poisson_ratio : m.dust;
 }
 
 }  // namespace

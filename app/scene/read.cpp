@@ -31,7 +31,7 @@ std::vector<View> built_in_views() {
   slice.slice.scalar = ScalarField::density;
   slice.slice.scalar_colormap = render::ColorMap::coolwarm;
   return {View{}, view("smoke", {ground, colliders, smoke, legend, caption}), slice,
-          view("snow", {ground, colliders, snow, legend, caption})};
+          view("snow", {ground, colliders, snow, dust, legend, caption})};
 }
 
 namespace {

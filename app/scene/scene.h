@@ -37,7 +37,8 @@ enum class Layer {
   counter,
   slate,
   streamlines,
-  scale
+  scale,
+  dust
 };
 
 /// Absent range: "auto". Resolving a scene fills it in.
@@ -196,6 +197,7 @@ struct Export {
   std::vector<std::string> bodies;   ///< bodies and emitters by name; empty: all
   UpAxis up = UpAxis::y;
   double scale = 1;              ///< units of the file per metre, of lengths and velocities
+  bool dust = false;             ///< the dust instead of the snow
   bool surface = false;          ///< a closed mesh around the particles instead of them
   double surface_cell = 0.5;     ///< particle spacings
   double surface_smoothing = 1;  ///< particle spacings
@@ -266,6 +268,9 @@ inline int frame_of(const Scene& scene, int number) {
 inline Background background_of(const Scene& scene, const View& view) {
   return view.background.value_or(scene.background);
 }
+
+/// True for an attribute of an export that dust has too.
+bool is_of_dust(ExportAttribute attribute);
 
 /// The folder of an export, in the folder of all: its name, or the format where it has none but
 /// its number.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
+#include "sim/engine/dust_feed.h"
 #include "sim/engine/live_changes.h"
 #include "sim/engine/load.h"
 #include "sim/engine/rasterize.h"
@@ -35,8 +37,30 @@ Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>
 
 template <class Real>
 void Engine<Real>::step(double dt) {
+  take_whole_step(dt);
+  run_dust(false);
+}
+
+template <class Real>
+void Engine<Real>::take_whole_step(double dt) {
   take_step(dt);
   if (!divergence()) flow_.run(state_, watch_.start);
+}
+
+/// Dust that is there flies on, also where no snow sheds any more.
+template <class Real>
+bool Engine<Real>::has_dust() const {
+  return wants_dust(state_.method) || !dust_.cloud().motes.empty();
+}
+
+/// Its steps are longer than those of the snow, and one ends with each frame.
+template <class Real>
+void Engine<Real>::run_dust(bool is_frame_end) {
+  if (!has_dust() || divergence()) return;
+  const SolverSettings& settings = state_.method.settings;
+  const double time = state_.progress.time;
+  if (!is_frame_end && !dust_.is_due(time, settings.dust, settings.cell_size)) return;
+  timed(parts_.seconds.dust, [&] { advance_dust(time, state_, dust_); });
 }
 
 template <class Real>
@@ -163,11 +187,12 @@ void Engine<Real>::advance_frame(const DtChoice& choice, AdvanceReport& report) 
   const double whole = frame.end - frame.start;
   const std::uint64_t steps_before = progress.steps;
   watch_.set_limit(choice.limit);
-  step(choice.dt);
+  take_whole_step(choice.dt);
   frame.done += choice.dt;
   const bool is_last = choice.limit == DtLimit::frame_end && !(frame.done < whole * (1 - 1e-12));
   if (is_last) frame.done = whole;
   progress.time = frame.start + frame.done;
+  run_dust(is_last);
 
   if (settings.is_implicit()) {
     if (!report.solve) report.solve.emplace();
@@ -193,23 +218,31 @@ void Engine<Real>::apply(const SolverSettings& settings, const std::vector<Mater
     throw std::logic_error(
         "this run has diverged: reset it, or go back to an earlier frame, for the change to take "
         "effect");
+  const bool had_dust = has_dust();
   engine::apply(settings, materials, colliders, state_);
+  if (!had_dust) dust_.start_at(state_.progress.time);
 }
 
 template <class Real>
 std::vector<std::uint8_t> Engine<Real>::save() const {
-  return engine::save(state_, flow_);
+  return joined(engine::save(state_, flow_),
+                has_dust() ? dust_.save() : std::vector<std::uint8_t>());
 }
 
 template <class Real>
 void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
-  engine::restore(bytes, state_, flow_);
+  const SplitState parts = split(bytes);
+  dust::Dust dust;
+  if (!parts.dust.empty()) dust.restore(parts.dust);
+  engine::restore(parts.snow, state_, flow_);
   watch_.forget();
+  if (parts.dust.empty()) dust.start_at(state_.progress.time);
+  dust_ = std::move(dust);
 }
 
 template <class Real>
 void Engine<Real>::require_healthy(std::span<const std::uint8_t> bytes) const {
-  engine::require_healthy(bytes, state_, flow_);
+  engine::require_healthy(split(bytes).snow, state_, flow_);
 }
 
 // ---- queries ------------------------------------------------------------------------------------
@@ -222,7 +255,8 @@ const char* Engine<Real>::simd() const {
 template <class Real>
 std::uint64_t Engine<Real>::memory_bytes() const {
   return state_.colliders.memory_bytes() + state_.particles.memory_bytes() +
-         state_.grid.memory_bytes() + parts_.contact.memory_bytes() + parts_.solver.memory_bytes();
+         state_.grid.memory_bytes() + dust_.memory_bytes() + parts_.contact.memory_bytes() +
+         parts_.solver.memory_bytes();
 }
 
 template <class Real>
@@ -232,7 +266,9 @@ std::vector<shapes::Collider> Engine<Real>::colliders() const {
 
 template <class Real>
 Summary Engine<Real>::summary() const {
-  return StateReader<Real>(state_).summary();
+  Summary summary = StateReader<Real>(state_).summary();
+  summary.dust = dust_.cloud().totals;
+  return summary;
 }
 
 template <class Real>
@@ -243,6 +279,11 @@ EnergyAccount Engine<Real>::energy_account() const {
 template <class Real>
 ParticleArrays Engine<Real>::particles() const {
   return StateReader<Real>(state_).particles();
+}
+
+template <class Real>
+DustArrays Engine<Real>::dust() const {
+  return has_dust() ? dust_.arrays() : DustArrays{};
 }
 
 template <class Real>

@@ -1,6 +1,7 @@
 #pragma once
 /// A simulation in one precision: steps, and all that happens between them.
 
+#include "sim/dust/dust.h"
 #include "sim/engine/snow_flow.h"
 #include "sim/engine/step.h"
 #include "sim/engine/stepper.h"
@@ -42,6 +43,7 @@ class Engine final : public Stepper {
   Summary summary() const override;
   EnergyAccount energy_account() const override;
   ParticleArrays particles() const override;
+  DustArrays dust() const override;
   std::vector<Mat3d> kirchhoff() const override;
   std::vector<Vec3i> cells() const override;
   std::uint64_t state_hash() const override;
@@ -50,7 +52,10 @@ class Engine final : public Stepper {
   RasterizedNodes rasterize(const std::vector<std::vector<double>>& values) const override;
 
  private:
+  void take_whole_step(double dt);
   void take_step(double dt);
+  bool has_dust() const;
+  void run_dust(bool is_frame_end);
   void take_implicit(double dt, int halvings);
   bool take_fused(double dt, bool is_implicit);
   void take_stages(double dt);
@@ -66,6 +71,7 @@ class Engine final : public Stepper {
   bool took_explicit_ = false;       ///< in place of a semi-implicit part of it
   SnowFlow<Real> flow_;
   HealthWatch watch_;
+  dust::Dust dust_;
 };
 
 }  // namespace neve::sim::engine

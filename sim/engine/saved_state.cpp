@@ -12,7 +12,7 @@ namespace neve::sim::engine {
 namespace {
 
 /// The last sign is the version of the layout.
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'E'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'F'};
 
 /// At the beginning: it says what follows. Then come Progress, the records, the offsets of the
 /// colliders, the emitters, the contacts and the velocities of bodies that move by themselves.
@@ -158,6 +158,25 @@ SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<R
 }
 
 }  // namespace
+
+/// The length of the dust comes last.
+std::vector<std::uint8_t> joined(std::vector<std::uint8_t> snow,
+                                 const std::vector<std::uint8_t>& dust) {
+  snow.insert(snow.end(), dust.begin(), dust.end());
+  const std::uint64_t length = dust.size();
+  const auto* digits = reinterpret_cast<const std::uint8_t*>(&length);
+  snow.insert(snow.end(), digits, digits + sizeof length);
+  return snow;
+}
+
+SplitState split(std::span<const std::uint8_t> bytes) {
+  std::uint64_t length = 0;
+  if (bytes.size() < sizeof(SavedHead) + sizeof length) refuse_saved("is truncated");
+  const std::size_t rest = bytes.size() - sizeof length;
+  std::memcpy(&length, bytes.data() + rest, sizeof length);
+  if (length > rest - sizeof(SavedHead)) refuse_saved("has a different length than it says");
+  return {bytes.first(rest - length), bytes.subspan(rest - length, length)};
+}
 
 template <class Real>
 std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& flow) {

@@ -13,6 +13,15 @@ namespace neve::sim::engine {
 template <class Real>
 std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& flow);
 
+/// A state's snow, and its dust: empty where it has none.
+struct SplitState {
+  std::span<const std::uint8_t> snow, dust;
+};
+/// The two as one, and back. @throws SavedStateError
+std::vector<std::uint8_t> joined(std::vector<std::uint8_t> snow,
+                                 const std::vector<std::uint8_t>& dust);
+SplitState split(std::span<const std::uint8_t> bytes);
+
 /// @throws SavedStateError; state and flow are then as they were
 template <class Real>
 void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<Real>& flow);

@@ -51,6 +51,7 @@ class Stepper {
   virtual Summary summary() const = 0;
   virtual EnergyAccount energy_account() const = 0;
   virtual ParticleArrays particles() const = 0;
+  virtual DustArrays dust() const = 0;
   virtual std::vector<Mat3d> kirchhoff() const = 0;
   virtual std::vector<Vec3i> cells() const = 0;
   virtual std::uint64_t state_hash() const = 0;

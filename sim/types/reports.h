@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/types/dust.h"
 #include "sim/types/math.h"
 
 namespace neve::sim {
@@ -51,6 +52,7 @@ struct Summary {
   /// Pa, per collider: the most that snow within a cell of its surface presses on it, -n sigma n
   /// with the Cauchy stress sigma of a particle; 0 where it only pulls.
   std::vector<double> max_pressure;
+  DustTotals dust;  ///< of no part in the sums above
 };
 
 /// Accuracy of the velocities of semi-implicit steps.
@@ -158,6 +160,7 @@ struct PhaseSeconds {
   double solve = 0;              ///< implicit_solve
   double grid_to_particles = 0;  ///< deformation to advection
   double checks = 0;             ///< limits of the next dt, rules of a healthy run
+  double dust = 0;               ///< air and dust, where there is any
 };
 
 }  // namespace neve::sim

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "sim/types/dust.h"
 #include "sim/types/math.h"
 #include "sim/types/stage.h"
 
@@ -57,6 +58,7 @@ struct SolverSettings {
   Vec3d gravity{0.0, -9.81, 0.0};  ///< m/s2
   Precision precision = Precision::single;
   OnDivergence on_divergence = OnDivergence::stop;
+  DustSettings dust;
   /// Stages to skip while debugging; the run then takes the staged driver, and its energy is not
   /// watched. Without rasterize the grid stays empty; explicit steps have no solve to skip.
   std::vector<Stage> bypass;

@@ -1,0 +1,75 @@
+/// Findings about dust before a run.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "app/health/findings.h"
+#include "app/support/text.h"
+
+namespace neve::app::health {
+
+namespace {
+
+bool is_used(const scene::Scene& scene, const sim::Material& material) {
+  const auto is_of = [&](const auto& source) { return source.material == material.name; };
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), is_of) ||
+         std::any_of(scene.emitters.begin(), scene.emitters.end(), is_of);
+}
+
+bool is_usual(const sim::DustSettings& d) {
+  const sim::DustSettings usual;
+  return d.speed == usual.speed && d.strain_rate == usual.strain_rate &&
+         d.min_J_P == usual.min_J_P && d.settling_speed == usual.settling_speed &&
+         d.buoyancy == usual.buoyancy && d.diffusion == usual.diffusion &&
+         d.turbulence == usual.turbulence && d.wind == usual.wind && d.life == usual.life &&
+         d.air_cell == usual.air_cell && d.particles == usual.particles;
+}
+
+bool is_shown(const scene::Scene& scene) {
+  return std::any_of(
+             scene.views.begin(), scene.views.end(),
+             [](const scene::View& view) { return scene::has_layer(view, scene::Layer::dust); }) ||
+         std::any_of(scene.exports.begin(), scene.exports.end(),
+                     [](const scene::Export& e) { return e.dust; });
+}
+
+}  // namespace
+
+void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& findings) {
+  const sim::DustSettings& d = scene.solver.dust;
+  const sim::Material* dusty = nullptr;
+  for (const sim::Material& material : scene.materials)
+    if (material.dust > 0 && is_used(scene, material)) dusty = &material;
+  if (!dusty) {
+    if (!is_usual(d) && d.spray_drag == 0)
+      findings.push_back({Severity::warning, "dust",
+                          "it has no effect: no snow of the scene sheds dust",
+                          "material." + scene.materials.front().name + ".dust = 0.02"});
+    return;
+  }
+  const std::string address = "material." + dusty->name + ".dust";
+  if (speed + d.wind.norm() <= d.speed)
+    findings.push_back(
+        {Severity::warning, "dust.speed",
+         fmt::format("snow gets no faster than about {} m/s, and sheds dust from {} m/s on",
+                     rough_text(speed), rough_text(d.speed)),
+         fmt::format("dust.speed = {}", rough_text(0.3 * speed))});
+  if (d.min_J_P > dusty->max_J_P)
+    findings.push_back({Severity::warning, "dust.min_J_P",
+                        fmt::format("{} gets no looser than J_P = {}: it never sheds dust",
+                                    dusty->name, rough_text(dusty->max_J_P)),
+                        "dust.min_J_P = 0.9"});
+  if (!is_shown(scene))
+    findings.push_back({Severity::note, address, "dust flies, and no view and no export shows it",
+                        scene.views.empty()
+                            ? "add \"dust\" to the layers of a view"
+                            : "add \"dust\" to view." + scene.views.front().name + ".layers"});
+  findings.push_back(
+      {Severity::note, address,
+       fmt::format("up to {} particles of dust, and the air around them, take time beside the snow",
+                   about_count_text(d.particles)),
+       "material." + dusty->name + ".dust = 0 is the same snow without it"});
+}
+
+}  // namespace neve::app::health

@@ -1,0 +1,191 @@
+/// Dust in scenes, pictures, exports and run.json.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "app/exports/columns.h"
+#include "app/exports/encode.h"
+#include "app/health/check.h"
+#include "app/health/findings.h"
+#include "app/picture/frame_builder.h"
+#include "app/record/run_json.h"
+#include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/resolve.h"
+#include "app/setup/seed_scene.h"
+
+namespace neve::app {
+namespace {
+
+constexpr const char* falling_ball = R"([camera]
+eye = [0, 0.5, 2]
+target = [0, 0.2, 0]
+[material.snow]
+preset = "powder"
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.11, 0], radius = 0.1 } }
+velocity = [2, -6, 0]
+[[collider]]
+name = "floor"
+shape = { plane = { normal = [0, 1, 0] } }
+)";
+
+scene::Scene read(const std::string& more, const std::vector<scene::Override>& overrides = {}) {
+  return scene::read_scene_text(falling_ball + more, "ball.toml", {}, overrides);
+}
+
+std::string error_of(const std::string& more) {
+  try {
+    read(more);
+  } catch (const scene::toml::SceneError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+struct Moment {
+  scene::Scene scene;
+  setup::SeededScene seeded;
+  std::unique_ptr<sim::Simulation> simulation;
+};
+
+/// After the impact, in cells of 2 cm.
+Moment after_impact(scene::Scene scene) {
+  Moment moment{std::move(scene), {}, nullptr};
+  moment.seeded = setup::seed_scene(moment.scene);
+  setup::resolve(moment.scene, moment.seeded.particles.x.size());
+  moment.simulation = std::make_unique<sim::Simulation>(moment.scene.solver, moment.scene.materials,
+                                                        scene::sim_colliders(moment.scene),
+                                                        moment.seeded.particles, 2);
+  moment.simulation->advance_to(1.0 / 24);
+  return moment;
+}
+
+render::Frame frame_of(const Moment& moment) {
+  const picture::FrameBuilder builder(moment.scene, moment.seeded);
+  return builder.build(
+      moment.scene.views.front(),
+      picture::take_snapshot(moment.scene, moment.scene.views, *moment.simulation, 1));
+}
+
+TEST(DustScene, PowderAloneShedsItAndItsSnowIsTheSame) {
+  EXPECT_GT(read("").materials.front().dust, 0);
+  EXPECT_EQ(read("", {{"material.snow.preset", "wet"}}).materials.front().dust, 0);
+  EXPECT_EQ(sim::Material{}.dust, 0);
+  EXPECT_EQ(read("", {{"material.snow.dust", "0"}}).materials.front().dust, 0);
+  EXPECT_EQ(read("", {{"material.snow.dust", "0"}}).materials.front().density, 150);
+}
+
+TEST(DustScene, TableIsReadAndWrittenAndMistakesAreLocated) {
+  const scene::Scene scene = read("[dust]\nsettling_speed = 0.2\nwind = [1, 0, 2]\n");
+  EXPECT_EQ(scene.solver.dust.settling_speed, 0.2);
+  EXPECT_EQ(scene.solver.dust.wind, sim::Vec3d(1, 0, 2));
+  const scene::Scene again = scene::read_scene_text(scene::write_scene(scene), "again.toml");
+  EXPECT_EQ(again.solver.dust.settling_speed, 0.2);
+  EXPECT_EQ(again.solver.dust.wind, sim::Vec3d(1, 0, 2));
+  EXPECT_EQ(error_of("[dust]\nlife = -1\n").substr(0, 26), "ball.toml:14:8: error: dus");
+  EXPECT_NE(error_of("[dust]\nlive = 1\n").find("did you mean \"life\"?"), std::string::npos);
+  EXPECT_NE(error_of("[dust]\nparticles = 0\n").find("expected 1 <= value"), std::string::npos)
+      << error_of("[dust]\nparticles = 0\n");
+  EXPECT_NE(error_of("[[view]]\nlayers = [\"smoke\", \"dust\"]\n").find("give each a view"),
+            std::string::npos);
+}
+
+TEST(DustScene, FindingsSayWhatNobodyWillSee) {
+  const auto findings = [](const scene::Scene& scene, double speed) {
+    std::vector<health::Finding> found;
+    health::check_dust(scene, speed, found);
+    std::string text;
+    for (const health::Finding& finding : found) text += health::sentence(finding) + "\n";
+    return text;
+  };
+  const scene::Scene shown = read("[[view]]\nlayers = [\"snow\", \"dust\"]\n");
+  EXPECT_EQ(findings(shown, 6).find("no view"), std::string::npos);
+  EXPECT_NE(findings(shown, 6).find("100 000 particles of dust"), std::string::npos)
+      << findings(shown, 6);
+  EXPECT_NE(findings(shown, 0.5).find("dust.speed"), std::string::npos);
+  EXPECT_NE(findings(read("[[view]]\nlayers = [\"snow\"]\n"), 6).find("no view"),
+            std::string::npos);
+  scene::Scene none = shown;
+  none.materials.front().dust = 0;
+  EXPECT_EQ(findings(none, 6), "");
+  none.solver.dust.life = 3;
+  EXPECT_NE(findings(none, 6).find("it has no effect"), std::string::npos);
+}
+
+TEST(DustLayer, DrawsTheDustAsSmokeWhereAViewShowsIt) {
+  const Moment moment = after_impact(read("[[view]]\nlayers = [\"snow\", \"dust\"]\n"));
+  const render::Frame frame = frame_of(moment);
+  ASSERT_NE(frame.smoke.nodes, nullptr);
+  EXPECT_FALSE(frame.points.position.empty());
+  double mass = 0, expected = 0;
+  for (const float density : frame.smoke.density)
+    mass +=
+        static_cast<double>(density) * std::pow(static_cast<double>(frame.smoke.nodes->spacing), 3);
+  const sim::DustArrays dust = moment.simulation->dust();
+  for (const double m : dust.m) expected += m;
+  ASSERT_GT(dust.x.size(), 50u);
+  EXPECT_NEAR(mass, expected, 1e-4 * expected);
+  EXPECT_EQ(frame_of(after_impact(read("[[view]]\nlayers = [\"snow\"]\n"))).smoke.nodes, nullptr);
+}
+
+TEST(DustExport, HasTheDustInThePlaceOfTheSnow) {
+  Moment moment =
+      after_impact(read("[[export]]\nname = \"cloud\"\nformat = \"ply\"\ndust = true\n"
+                        "[[export]]\nname = \"fog\"\nformat = \"vdb\"\ndust = true\n"
+                        "[[export]]\nname = \"snow\"\nformat = \"ply\"\n"));
+  const std::vector<scene::Export>& specs = moment.scene.exports;
+  const auto state = exports::read_state(specs, moment.scene.colliders, *moment.simulation);
+  const auto cloud = exports::state_of_dust(*state);
+  const exports::Origins origins(moment.scene, moment.seeded.body_end);
+  const exports::Carried carried(moment.scene, moment.seeded.body_end);
+  const exports::Table table =
+      exports::make_table(moment.scene, specs[0], origins, carried, *cloud);
+  EXPECT_EQ(table.rows, moment.simulation->dust().x.size());
+  std::vector<std::string> names;
+  for (const exports::Column& column : table.columns) names.push_back(column.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"id", "x", "v", "m", "radius"}));
+  const sim::Vec3d first = moment.simulation->dust().x.front();
+  EXPECT_EQ(table.places()[0], first.x());
+  EXPECT_EQ(table.places()[1], first.y());
+  const std::string fog =
+      exports::encode({moment.scene, specs[1], *cloud,
+                       exports::make_table(moment.scene, specs[1], origins, carried, *cloud)});
+  EXPECT_NE(fog.find("density"), std::string::npos);
+  double mass = 0, expected = 0;
+  for (const double m : cloud->nodes->mass) mass += m;
+  for (const double m : state->dust.m) expected += m;
+  EXPECT_NEAR(mass, expected, 1e-9 * expected);
+  EXPECT_EQ(exports::make_table(moment.scene, specs[2], origins, carried, *state).rows,
+            moment.seeded.particles.x.size());
+}
+
+TEST(DustExport, MistakesAreLocated) {
+  const auto with = [](const std::string& keys) {
+    return error_of("[[export]]\nname = \"cloud\"\ndust = true\n" + keys);
+  };
+  EXPECT_EQ(with("attributes = [\"x\", \"age\"]\n"), "no error");
+  EXPECT_NE(with("attributes = [\"x\", \"J_P\"]\n").find("dust has no \"J_P\""), std::string::npos);
+  EXPECT_NE(with("surface = true\n").find("dust has no surface"), std::string::npos);
+  EXPECT_NE(with("bodies = [\"ball\"]\n").find("dust is of no body"), std::string::npos);
+}
+
+TEST(DustRecord, SaysWhatItsMassIsAndReadsBack) {
+  const Moment moment = after_impact(read(""));
+  record::FrameRecord frame;
+  frame.summary = moment.simulation->summary();
+  const Json json = record::to_json(frame);
+  ASSERT_TRUE(json.contains("dust"));
+  EXPECT_EQ(json["dust"]["mass_is"], "decoration: taken from no snow");
+  EXPECT_EQ(json["dust"]["particles"], moment.simulation->dust().x.size());
+  const record::FrameRecord again = record::frame_record(json);
+  EXPECT_EQ(again.summary.dust.born, frame.summary.dust.born);
+  EXPECT_EQ(again.summary.dust.settled_mass, frame.summary.dust.settled_mass);
+  EXPECT_FALSE(record::to_json(record::FrameRecord{}).contains("dust"));
+}
+
+}  // namespace
+}  // namespace neve::app
