@@ -11,7 +11,7 @@ namespace {
 /// e^-drag of the difference is left.
 constexpr double snow_drag = 10;
 /// Sweeps of successive over-relaxation from a pressure of 0, and its factor.
-constexpr int pressure_sweeps = 30;
+constexpr int pressure_sweeps = 24;
 constexpr float over_relaxation = 1.7f;
 
 /// Trilinear, of a field whose first value lies at `offset` cells from the lower corner.
@@ -93,8 +93,9 @@ void Air::restore(const AirBox& box, FaceVelocities faces) {
   box_ = box;
   u_ = std::move(faces);
   solids_key_ = 0;
+  pressure_.assign(box.count() + (box.is_empty() ? 0 : 2 * box.step(2)), 0);
   for (std::vector<float>* field :
-       {&pressure_, &divergence_, &fill_, &strain_, &snow_v_[0], &snow_v_[1], &snow_v_[2]})
+       {&divergence_, &per_open_, &fill_, &strain_, &snow_v_[0], &snow_v_[1], &snow_v_[2]})
     field->assign(box.count(), 0);
   distance_.clear();
 }
@@ -208,28 +209,52 @@ void Air::step(double dt, const Vec3d& wind, const Vec3d& up, std::span<const fl
   hold_at_solids(pool);
 }
 
-/// Backwards along the flow, by the midpoint rule.
+/// The velocity at the face of component a: the others are means of the four faces around.
+Vec3d Air::velocity_at_face(int a, int i, int j, int k) const {
+  const int at[3] = {i, j, k};
+  const std::size_t n = box_.index(i, j, k);
+  // The cells on its two sides; at the ends of the box the one that there is.
+  const std::size_t above = at[a] < box_.size[a] ? n : n - box_.step(a),
+                    below = at[a] > 0 ? n - box_.step(a) : n;
+  Vec3d v;
+  for (int b = 0; b < 3; ++b) {
+    const std::vector<float>& u = u_[static_cast<std::size_t>(b)];
+    if (b == a) {
+      v[b] = static_cast<double>(u[n]);
+      continue;
+    }
+    const std::size_t high = box_.step(b);
+    v[b] = 0.25 * static_cast<double>(u[above] + u[above + high] + u[below] + u[below + high]);
+  }
+  return v;
+}
+
+/// Backwards along the flow. Air that stays within a hundredth of a cell stays as it is.
 void Air::advect(double dt, const Vec3d& wind, ThreadPool& pool) {
   for (std::vector<float>& field : next_) field.resize(box_.count());
   const double cells = dt / box_.spacing;
-  pool.ranges(
-      static_cast<std::size_t>(box_.size.z() + 1), pool.thread_count(),
-      [&](std::size_t begin, std::size_t end) {
-        for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
-          for (int j = 0; j <= box_.size.y(); ++j)
-            for (int i = 0; i <= box_.size.x(); ++i)
-              for (int a = 0; a < 3; ++a) {
-                const Vec3d place = Vec3d(i, j, k) + face_offset(a);
-                const Vec3d half = place - 0.5 * cells * velocity_in(box_, u_, place);
-                const Vec3d from = place - cells * velocity_in(box_, u_, half);
-                const bool is_inside = (from.array() >= 0).all() &&
-                                       (from.array() <= box_.size.cast<double>().array()).all();
-                next_[static_cast<std::size_t>(a)][box_.index(i, j, k)] =
-                    static_cast<float>(is_inside ? sample(box_, u_[static_cast<std::size_t>(a)],
-                                                          from, face_offset(a), last_face(box_, a))
-                                                 : wind[a]);
-              }
-      });
+  const Vec3d size = box_.size.cast<double>();
+  pool.ranges(static_cast<std::size_t>(box_.size.z() + 1), pool.thread_count(),
+              [&](std::size_t begin, std::size_t end) {
+                for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
+                  for (int j = 0; j <= box_.size.y(); ++j)
+                    for (int i = 0; i <= box_.size.x(); ++i)
+                      for (int a = 0; a < 3; ++a) {
+                        const auto axis = static_cast<std::size_t>(a);
+                        const std::size_t n = box_.index(i, j, k);
+                        if (!is_face(a, i, j, k)) continue;
+                        const Vec3d way = cells * velocity_at_face(a, i, j, k);
+                        next_[axis][n] = u_[axis][n];
+                        if (way.cwiseAbs().maxCoeff() < 0.01) continue;
+                        const Vec3d from = Vec3d(i, j, k) + face_offset(a) - way;
+                        const bool is_inside =
+                            (from.array() >= 0).all() && (from.array() <= size.array()).all();
+                        next_[axis][n] = static_cast<float>(
+                            is_inside
+                                ? sample(box_, u_[axis], from, face_offset(a), last_face(box_, a))
+                                : wind[a]);
+                      }
+              });
   std::swap(u_, next_);
 }
 
@@ -276,18 +301,28 @@ void Air::hold_at_solids(ThreadPool& pool) {
   });
 }
 
-/// Makes the flow free of divergence. Outside the box the pressure is 0.
+/// Makes the flow free of divergence. The pressure is 0 outside the box, where places of the field
+/// that are no cells, and the pad around it, stay 0; and in solids, which count as no neighbours.
 void Air::project(ThreadPool& pool) {
+  std::fill(pressure_.begin(), pressure_.end(), 0.0f);
   each_cell(pool, [&](int i, int j, int k) {
+    const int at[3] = {i, j, k};
     const std::size_t n = box_.index(i, j, k);
-    pressure_[n] = 0;
-    divergence_[n] = 0;
+    divergence_[n] = per_open_[n] = 0;
     if (is_solid(n)) return;
-    for (std::size_t a = 0; a < 3; ++a)
-      divergence_[n] += u_[a][n + box_.step(static_cast<int>(a))] - u_[a][n];
+    float open = 0;
+    for (int a = 0; a < 3; ++a) {
+      const std::size_t step = box_.step(a);
+      const std::vector<float>& u = u_[static_cast<std::size_t>(a)];
+      divergence_[n] += u[n + step] - u[n];
+      open += at[a] == 0 || !is_solid(n - step) ? 1.0f : 0.0f;
+      open += at[a] + 1 == box_.size[a] || !is_solid(n + step) ? 1.0f : 0.0f;
+    }
+    if (open > 0) per_open_[n] = 1 / open;
   });
   for (int sweep = 0; sweep < pressure_sweeps; ++sweep)
     for (int color = 0; color < 2; ++color) relax(color, pool);
+  const float* p = pressure_.data() + box_.step(2);
   pool.ranges(static_cast<std::size_t>(box_.size.z() + 1), pool.thread_count(),
               [&](std::size_t begin, std::size_t end) {
                 for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
@@ -296,13 +331,12 @@ void Air::project(ThreadPool& pool) {
                       const int at[3] = {i, j, k};
                       const std::size_t n = box_.index(i, j, k);
                       for (int a = 0; a < 3; ++a) {
-                        const int b = (a + 1) % 3, c = (a + 2) % 3;
-                        if (at[b] == box_.size[b] || at[c] == box_.size[c]) continue;
-                        const std::size_t low = n - (at[a] > 0 ? box_.step(a) : 0);
+                        if (!is_face(a, i, j, k)) continue;
                         const bool has_low = at[a] > 0, has_high = at[a] < box_.size[a];
-                        if ((has_low && is_solid(low)) || (has_high && is_solid(n))) continue;
+                        if ((has_low && is_solid(n - box_.step(a))) || (has_high && is_solid(n)))
+                          continue;
                         u_[static_cast<std::size_t>(a)][n] -=
-                            (has_high ? pressure_[n] : 0) - (has_low ? pressure_[low] : 0);
+                            p[n] - *(p + n - static_cast<std::ptrdiff_t>(box_.step(a)));
                       }
                     }
               });
@@ -310,34 +344,22 @@ void Air::project(ThreadPool& pool) {
 
 /// One colour of a chess board reads the other alone: the same bits on any number of threads.
 void Air::relax(int color, ThreadPool& pool) {
+  const auto row = static_cast<std::ptrdiff_t>(box_.step(1)),
+             slab = static_cast<std::ptrdiff_t>(box_.step(2));
   pool.ranges(static_cast<std::size_t>(box_.size.z()), pool.thread_count(),
               [&](std::size_t begin, std::size_t end) {
-                const std::size_t steps[3] = {box_.step(0), box_.step(1), box_.step(2)};
                 for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
-                  for (int j = 0; j < box_.size.y(); ++j)
+                  for (int j = 0; j < box_.size.y(); ++j) {
+                    const std::size_t first = box_.index(0, j, k);
+                    float* p = pressure_.data() + slab + first;
+                    const float *divergence = divergence_.data() + first,
+                                *per_open = per_open_.data() + first;
                     for (int i = (j + k + color) & 1; i < box_.size.x(); i += 2) {
-                      const std::size_t n = box_.index(i, j, k);
-                      if (is_solid(n)) continue;
-                      const int at[3] = {i, j, k};
-                      float around = 0, open = 0;
-                      for (int a = 0; a < 3; ++a) {
-                        if (at[a] == 0) {
-                          open += 1;
-                        } else if (!is_solid(n - steps[a])) {
-                          open += 1;
-                          around += pressure_[n - steps[a]];
-                        }
-                        if (at[a] + 1 == box_.size[a]) {
-                          open += 1;
-                        } else if (!is_solid(n + steps[a])) {
-                          open += 1;
-                          around += pressure_[n + steps[a]];
-                        }
-                      }
-                      if (open > 0)
-                        pressure_[n] +=
-                            over_relaxation * ((around - divergence_[n]) / open - pressure_[n]);
+                      const float around =
+                          p[i - 1] + p[i + 1] + p[i - row] + p[i + row] + p[i - slab] + p[i + slab];
+                      p[i] += over_relaxation * ((around - divergence[i]) * per_open[i] - p[i]);
                     }
+                  }
               });
 }
 
@@ -393,7 +415,7 @@ std::size_t Air::memory_bytes() const {
   std::size_t bytes = 0;
   for (const auto* fields : {&u_, &next_, &snow_v_, &solid_v_})
     for (const std::vector<float>& field : *fields) bytes += 4 * field.capacity();
-  for (const auto* field : {&pressure_, &divergence_, &fill_, &strain_, &distance_})
+  for (const auto* field : {&pressure_, &divergence_, &per_open_, &fill_, &strain_, &distance_})
     bytes += 4 * field->capacity();
   for (const std::vector<std::int64_t>& sum : sums_) bytes += 8 * sum.capacity();
   return bytes;

@@ -56,6 +56,13 @@ class Air {
   void hold_at_solids(ThreadPool& pool);
   void project(ThreadPool& pool);
   void relax(int color, ThreadPool& pool);
+  /// True if a cell has this place as its lower face along axis a, or would have it beyond the end.
+  bool is_face(int a, int i, int j, int k) const {
+    const Vec3i at(i, j, k);
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    return at[b] < box_.size[b] && at[c] < box_.size[c];
+  }
+  Vec3d velocity_at_face(int a, int i, int j, int k) const;
   bool is_solid(std::size_t n) const { return !distance_.empty() && distance_[n] < 0; }
   /// body(i, j, k) for every cell, slabs on all threads.
   template <class Body>
@@ -65,7 +72,8 @@ class Air {
 
   AirBox box_;
   FaceVelocities u_, next_;
-  std::vector<float> pressure_, divergence_;
+  std::vector<float> pressure_;                    ///< with a slab of zeros before and after
+  std::vector<float> divergence_, per_open_;       ///< per cell; 1 / its neighbours, 0 in solids
   std::vector<float> fill_, strain_;               ///< per cell
   std::array<std::vector<float>, 3> snow_v_;       ///< per cell, m/s
   std::array<std::vector<std::int64_t>, 5> sums_;  ///< see see_snow

@@ -7,7 +7,7 @@ namespace neve::sim::dust {
 namespace {
 
 /// Cells of air beyond the outermost places, and the steps in which a box grows.
-constexpr int margin = 5, stride = 8;
+constexpr int margin = 4, stride = 4;
 
 int floor_to(double cells, int step) {
   return step * static_cast<int>(std::floor(cells / step));

@@ -106,12 +106,17 @@ struct Flight {
 
 /// What a particle of snow sheds in a step: all of its dust for so much strain.
 struct Shed {
-  std::uint32_t id;
   double strain;
   std::size_t grain;
 };
 
-/// In the order of ids.
+/// A particle of dust about to be born, of a mass in kg.
+struct Birth {
+  std::uint32_t id;  ///< of the snow
+  std::size_t grain;
+  double m;
+};
+
 std::vector<Shed> sheds_of(std::span<const SnowGrain> snow, const Air& air,
                            const Surroundings& around) {
   const DustSettings& s = around.settings;
@@ -123,9 +128,8 @@ std::vector<Shed> sheds_of(std::span<const SnowGrain> snow, const Air& air,
     if (!(speed > s.speed)) continue;
     const double rate = air.strain_rate(grain.x);
     const double strain = rate * around.dt * shedding(s, speed, rate, grain.J_P, air.fill(grain.x));
-    if (strain > 0) sheds.push_back({grain.id, strain, k});
+    if (strain > 0) sheds.push_back({strain, k});
   }
-  std::sort(sheds.begin(), sheds.end(), [](const Shed& a, const Shed& b) { return a.id < b.id; });
   return sheds;
 }
 
@@ -161,20 +165,26 @@ void Cloud::shed(std::span<const SnowGrain> snow, const Air& air, const Surround
   const auto left = static_cast<double>(most - motes.size());
   const double allowed = left * left / static_cast<double>(most);
   const double thinned = expected > allowed ? allowed / expected : 1;
+  std::vector<Birth> births;
   for (const Shed& shed : sheds) {
-    if (motes.size() >= most) break;
     const SnowGrain& grain = snow[shed.grain];
     const double chance = 1 - std::exp(-births_per_strain * thinned * shed.strain);
-    if (!(unit_double(mix64(mix64(around.step, 77), grain.id)) < chance)) continue;
-    const std::uint64_t key = ++totals.born;
     // So that the mass is what the strain asks for, however few are born.
-    const double m = grain.m * grain.dust * shed.strain / chance;
+    if (unit_double(mix64(mix64(around.step, 77), grain.id)) < chance)
+      births.push_back({grain.id, shed.grain, grain.m * grain.dust * shed.strain / chance});
+  }
+  std::sort(births.begin(), births.end(),
+            [](const Birth& a, const Birth& b) { return a.id < b.id; });
+  for (const Birth& birth : births) {
+    if (motes.size() >= most) break;
+    const SnowGrain& grain = snow[birth.grain];
+    const std::uint64_t key = ++totals.born;
     const Vec3d x = place_of_birth(grain, around.solids, snow_spacing, key);
     const double mean_life = around.settings.life;
     const double life = mean_life > 0 ? -mean_life * std::log(1 - unit_double(mix64(key, 200))) : 0;
-    totals.born_mass += m;
+    totals.born_mass += birth.m;
     motes.push_back(
-        {{x.x(), x.y(), x.z()}, {grain.v.x(), grain.v.y(), grain.v.z()}, m, 0, life, key});
+        {{x.x(), x.y(), x.z()}, {grain.v.x(), grain.v.y(), grain.v.z()}, birth.m, 0, life, key});
   }
 }
 

@@ -15,7 +15,7 @@ namespace neve::sim::dust {
 namespace {
 
 /// Cells of air that anything may cross in a step.
-constexpr double cells_per_step = 1;
+constexpr double cells_per_step = 1.5;
 /// kg/m3, of air: the weight of dust over it lifts or sinks it.
 constexpr double air_density = 1.2;
 
@@ -94,10 +94,12 @@ AirBox checked_box(const SavedHead& head) {
 
 }  // namespace
 
-bool Dust::is_due(double time, const DustSettings& settings, double cell_size) const {
-  const double longest = cells_per_step * spacing_of(settings, cell_size) /
-                         std::max({progress_.fastest, settings.speed, 1e-9});
-  return time - progress_.time >= std::min(max_step, longest);
+bool Dust::is_due(double time, double end, const DustSettings& settings, double cell_size) const {
+  const double crossing = cells_per_step * spacing_of(settings, cell_size) /
+                          std::max({progress_.fastest, settings.speed, 1e-9});
+  const double longest = std::min(max_step, crossing), rest = end - progress_.time;
+  const double step = rest > 0 ? rest / std::ceil(rest / longest - 1e-6) : longest;
+  return time - progress_.time >= step * (1 - 1e-9);
 }
 
 void Dust::advance(double time, std::span<const SnowGrain> snow, const DustScene& scene) {

@@ -30,9 +30,9 @@ struct DustScene {
 
 class Dust {
  public:
-  /// True if a step is due at a time: air and dust cross no more than about a cell in one, and none
-  /// is longer than max_step.
-  bool is_due(double time, const DustSettings& settings, double cell_size) const;
+  /// True if a step is due at a time: no step is longer than max_step, or than what air and snow
+  /// take for a cell and a half. Steps up to `end`, of a frame, are about as long as each other.
+  bool is_due(double time, double end, const DustSettings& settings, double cell_size) const;
   /// A step up to a time. @param snow  all of it
   void advance(double time, std::span<const SnowGrain> snow, const DustScene& scene);
 
@@ -50,7 +50,7 @@ class Dust {
   /// @throws SavedStateError; nothing has changed then
   void restore(std::span<const std::uint8_t> bytes);
 
-  static constexpr double max_step = 0.04;  ///< s
+  static constexpr double max_step = 0.05;  ///< s
 
  private:
   DustProgress progress_;

@@ -23,7 +23,7 @@ class Gusts {
     Vec3d a, b;   ///< across k
     double rate;  ///< 1/s
   };
-  std::array<Wave, 12> waves_;
+  std::array<Wave, 8> waves_;
 };
 
 }  // namespace neve::sim::dust

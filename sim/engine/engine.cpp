@@ -59,7 +59,8 @@ void Engine<Real>::run_dust(bool is_frame_end) {
   if (!has_dust() || divergence()) return;
   const SolverSettings& settings = state_.method.settings;
   const double time = state_.progress.time;
-  if (!is_frame_end && !dust_.is_due(time, settings.dust, settings.cell_size)) return;
+  const double end = state_.progress.frame.end;
+  if (!is_frame_end && !dust_.is_due(time, end, settings.dust, settings.cell_size)) return;
   timed(parts_.seconds.dust, [&] { advance_dust(time, state_, dust_); });
 }
 
