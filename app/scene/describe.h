@@ -214,6 +214,9 @@ void describe(V& visit, sim::Material& m) {
         "Stiffness of undeformed snow.");
   visit("poisson_ratio", m.poisson_ratio, unit::none, at_least(0).below(0.5), Change::live,
         "Sideways bulge under compression.");
+  visit("dust", m.dust, unit::none, between(0, 10), Change::live,
+        "Dust that it sheds where it breaks fast, as a share of its mass per strain; it keeps its "
+        "mass.");
   for (const sim::laws::Parameter& p : sim::laws::all_parameters())
     visit(p.key, p.of(m), unit_of(p.unit), valid_of(p.bounds), Change::live, p.help);
   visit("min_J_P", m.min_J_P, unit::none, above(0).at_most(1), Change::live,
@@ -222,9 +225,6 @@ void describe(V& visit, sim::Material& m) {
         "Largest plastic volume ratio: how loose torn snow becomes before it is packed again.");
   visit("max_hardening", m.max_hardening, unit::none, between(1, 1e12), Change::live,
         "Largest factor by which packed snow stiffens: e^(xi (1 - J_P)) ends there.");
-  visit("dust", m.dust, unit::none, between(0, 10), Change::live,
-        "Dust that it sheds where it breaks fast, as a share of its mass per unit of strain; "
-        "decoration: the snow keeps its mass.");
   visit.section("variation", "Unevenness of the snow.", [&](auto& v) { describe(v, m.variation); });
 }
 

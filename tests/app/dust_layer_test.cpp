@@ -19,7 +19,7 @@
 namespace neve::app {
 namespace {
 
-constexpr const char* falling_ball = R"([camera]
+constexpr const char* dusty_ball = R"([camera]
 eye = [0, 0.5, 2]
 target = [0, 0.2, 0]
 [material.snow]
@@ -33,28 +33,29 @@ name = "floor"
 shape = { plane = { normal = [0, 1, 0] } }
 )";
 
-scene::Scene read(const std::string& more, const std::vector<scene::Override>& overrides = {}) {
-  return scene::read_scene_text(falling_ball + more, "ball.toml", {}, overrides);
+scene::Scene read_dusty(const std::string& more,
+                        const std::vector<scene::Override>& overrides = {}) {
+  return scene::read_scene_text(dusty_ball + more, "ball.toml", {}, overrides);
 }
 
-std::string error_of(const std::string& more) {
+std::string dust_error(const std::string& more) {
   try {
-    read(more);
+    read_dusty(more);
   } catch (const scene::toml::SceneError& error) {
     return error.what();
   }
   return "no error";
 }
 
-struct Moment {
+struct DustyMoment {
   scene::Scene scene;
   setup::SeededScene seeded;
   std::unique_ptr<sim::Simulation> simulation;
 };
 
 /// After the impact, in cells of 2 cm.
-Moment after_impact(scene::Scene scene) {
-  Moment moment{std::move(scene), {}, nullptr};
+DustyMoment after_dusty_impact(scene::Scene scene) {
+  DustyMoment moment{std::move(scene), {}, nullptr};
   moment.seeded = setup::seed_scene(moment.scene);
   setup::resolve(moment.scene, moment.seeded.particles.x.size());
   moment.simulation = std::make_unique<sim::Simulation>(moment.scene.solver, moment.scene.materials,
@@ -64,7 +65,7 @@ Moment after_impact(scene::Scene scene) {
   return moment;
 }
 
-render::Frame frame_of(const Moment& moment) {
+render::Frame dusty_frame(const DustyMoment& moment) {
   const picture::FrameBuilder builder(moment.scene, moment.seeded);
   return builder.build(
       moment.scene.views.front(),
@@ -72,25 +73,25 @@ render::Frame frame_of(const Moment& moment) {
 }
 
 TEST(DustScene, PowderAloneShedsItAndItsSnowIsTheSame) {
-  EXPECT_GT(read("").materials.front().dust, 0);
-  EXPECT_EQ(read("", {{"material.snow.preset", "wet"}}).materials.front().dust, 0);
+  EXPECT_GT(read_dusty("").materials.front().dust, 0);
+  EXPECT_EQ(read_dusty("", {{"material.snow.preset", "wet"}}).materials.front().dust, 0);
   EXPECT_EQ(sim::Material{}.dust, 0);
-  EXPECT_EQ(read("", {{"material.snow.dust", "0"}}).materials.front().dust, 0);
-  EXPECT_EQ(read("", {{"material.snow.dust", "0"}}).materials.front().density, 150);
+  EXPECT_EQ(read_dusty("", {{"material.snow.dust", "0"}}).materials.front().dust, 0);
+  EXPECT_EQ(read_dusty("", {{"material.snow.dust", "0"}}).materials.front().density, 150);
 }
 
 TEST(DustScene, TableIsReadAndWrittenAndMistakesAreLocated) {
-  const scene::Scene scene = read("[dust]\nsettling_speed = 0.2\nwind = [1, 0, 2]\n");
+  const scene::Scene scene = read_dusty("[dust]\nsettling_speed = 0.2\nwind = [1, 0, 2]\n");
   EXPECT_EQ(scene.solver.dust.settling_speed, 0.2);
   EXPECT_EQ(scene.solver.dust.wind, sim::Vec3d(1, 0, 2));
   const scene::Scene again = scene::read_scene_text(scene::write_scene(scene), "again.toml");
   EXPECT_EQ(again.solver.dust.settling_speed, 0.2);
   EXPECT_EQ(again.solver.dust.wind, sim::Vec3d(1, 0, 2));
-  EXPECT_EQ(error_of("[dust]\nlife = -1\n").substr(0, 26), "ball.toml:14:8: error: dus");
-  EXPECT_NE(error_of("[dust]\nlive = 1\n").find("did you mean \"life\"?"), std::string::npos);
-  EXPECT_NE(error_of("[dust]\nparticles = 0\n").find("expected 1 <= value"), std::string::npos)
-      << error_of("[dust]\nparticles = 0\n");
-  EXPECT_NE(error_of("[[view]]\nlayers = [\"smoke\", \"dust\"]\n").find("give each a view"),
+  EXPECT_EQ(dust_error("[dust]\nlife = -1\n").substr(0, 26), "ball.toml:14:8: error: dus");
+  EXPECT_NE(dust_error("[dust]\nlive = 1\n").find("did you mean \"life\"?"), std::string::npos);
+  EXPECT_NE(dust_error("[dust]\nparticles = 0\n").find("expected 1 <= value"), std::string::npos)
+      << dust_error("[dust]\nparticles = 0\n");
+  EXPECT_NE(dust_error("[[view]]\nlayers = [\"smoke\", \"dust\"]\n").find("give each a view"),
             std::string::npos);
 }
 
@@ -102,12 +103,12 @@ TEST(DustScene, FindingsSayWhatNobodyWillSee) {
     for (const health::Finding& finding : found) text += health::sentence(finding) + "\n";
     return text;
   };
-  const scene::Scene shown = read("[[view]]\nlayers = [\"snow\", \"dust\"]\n");
+  const scene::Scene shown = read_dusty("[[view]]\nlayers = [\"snow\", \"dust\"]\n");
   EXPECT_EQ(findings(shown, 6).find("no view"), std::string::npos);
-  EXPECT_NE(findings(shown, 6).find("100 000 particles of dust"), std::string::npos)
+  EXPECT_NE(findings(shown, 6).find("100000 particles of dust"), std::string::npos)
       << findings(shown, 6);
   EXPECT_NE(findings(shown, 0.5).find("dust.speed"), std::string::npos);
-  EXPECT_NE(findings(read("[[view]]\nlayers = [\"snow\"]\n"), 6).find("no view"),
+  EXPECT_NE(findings(read_dusty("[[view]]\nlayers = [\"snow\"]\n"), 6).find("no view"),
             std::string::npos);
   scene::Scene none = shown;
   none.materials.front().dust = 0;
@@ -117,8 +118,9 @@ TEST(DustScene, FindingsSayWhatNobodyWillSee) {
 }
 
 TEST(DustLayer, DrawsTheDustAsSmokeWhereAViewShowsIt) {
-  const Moment moment = after_impact(read("[[view]]\nlayers = [\"snow\", \"dust\"]\n"));
-  const render::Frame frame = frame_of(moment);
+  const DustyMoment moment =
+      after_dusty_impact(read_dusty("[[view]]\nlayers = [\"snow\", \"dust\"]\n"));
+  const render::Frame frame = dusty_frame(moment);
   ASSERT_NE(frame.smoke.nodes, nullptr);
   EXPECT_FALSE(frame.points.position.empty());
   double mass = 0, expected = 0;
@@ -129,14 +131,16 @@ TEST(DustLayer, DrawsTheDustAsSmokeWhereAViewShowsIt) {
   for (const double m : dust.m) expected += m;
   ASSERT_GT(dust.x.size(), 50u);
   EXPECT_NEAR(mass, expected, 1e-4 * expected);
-  EXPECT_EQ(frame_of(after_impact(read("[[view]]\nlayers = [\"snow\"]\n"))).smoke.nodes, nullptr);
+  EXPECT_EQ(
+      dusty_frame(after_dusty_impact(read_dusty("[[view]]\nlayers = [\"snow\"]\n"))).smoke.nodes,
+      nullptr);
 }
 
 TEST(DustExport, HasTheDustInThePlaceOfTheSnow) {
-  Moment moment =
-      after_impact(read("[[export]]\nname = \"cloud\"\nformat = \"ply\"\ndust = true\n"
-                        "[[export]]\nname = \"fog\"\nformat = \"vdb\"\ndust = true\n"
-                        "[[export]]\nname = \"snow\"\nformat = \"ply\"\n"));
+  DustyMoment moment =
+      after_dusty_impact(read_dusty("[[export]]\nname = \"cloud\"\nformat = \"ply\"\ndust = true\n"
+                                    "[[export]]\nname = \"fog\"\nformat = \"vdb\"\ndust = true\n"
+                                    "[[export]]\nname = \"snow\"\nformat = \"ply\"\n"));
   const std::vector<scene::Export>& specs = moment.scene.exports;
   const auto state = exports::read_state(specs, moment.scene.colliders, *moment.simulation);
   const auto cloud = exports::state_of_dust(*state);
@@ -165,7 +169,7 @@ TEST(DustExport, HasTheDustInThePlaceOfTheSnow) {
 
 TEST(DustExport, MistakesAreLocated) {
   const auto with = [](const std::string& keys) {
-    return error_of("[[export]]\nname = \"cloud\"\ndust = true\n" + keys);
+    return dust_error("[[export]]\nname = \"cloud\"\ndust = true\n" + keys);
   };
   EXPECT_EQ(with("attributes = [\"x\", \"age\"]\n"), "no error");
   EXPECT_NE(with("attributes = [\"x\", \"J_P\"]\n").find("dust has no \"J_P\""), std::string::npos);
@@ -174,7 +178,7 @@ TEST(DustExport, MistakesAreLocated) {
 }
 
 TEST(DustRecord, SaysWhatItsMassIsAndReadsBack) {
-  const Moment moment = after_impact(read(""));
+  const DustyMoment moment = after_dusty_impact(read_dusty(""));
   record::FrameRecord frame;
   frame.summary = moment.simulation->summary();
   const Json json = record::to_json(frame);

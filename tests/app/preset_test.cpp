@@ -61,7 +61,7 @@ TEST(Preset, PresetSetsEveryNumberOfTheSnowAndNothingElse) {
   m.density = m.youngs_modulus = m.hardening = m.consolidation_pressure = 3;
   m.friction_angle = m.own[sim::laws::cam_clay::cohesion] =
       m.own[sim::laws::cam_clay::consolidation_hardening] = 2;
-  m.poisson_ratio = m.critical_compression = m.critical_stretch = 0.123;
+  m.poisson_ratio = m.dust = m.critical_compression = m.critical_stretch = 0.123;
   m.model = sim::laws::model::corotated;
   app::scene::Scene after = before;
   app::scene::use_preset(after.materials[0], app::scene::Preset::icy);
@@ -69,7 +69,7 @@ TEST(Preset, PresetSetsEveryNumberOfTheSnowAndNothingElse) {
   for (const app::scene::Difference& difference : app::scene::differences(before, after))
     changed.push_back(difference.address);
   EXPECT_EQ(changed, app::scene::addresses_set_by("material.snow.preset"));
-  EXPECT_EQ(changed.size(), 10u);
+  EXPECT_EQ(changed.size(), 11u);
 }
 
 TEST(Preset, NumbersBesideAPresetOverrideIt) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 #include "sim/dust/cloud.h"
 #include "sim/dust/dust.h"
@@ -235,7 +236,7 @@ SolverSettings dusty() {
   return s;
 }
 
-Simulation impact(const SolverSettings& settings, const Material& material, int threads) {
+Simulation dusty_impact(const SolverSettings& settings, const Material& material, int threads) {
   const ParticleArrays p = ball_of_snow({-0.05, 0.16, 0}, 0.1, 0.009, {6, -2, 0});
   return Simulation(settings, {material}, floor_and_post(), p, threads);
 }
@@ -243,7 +244,8 @@ Simulation impact(const SolverSettings& settings, const Material& material, int 
 TEST(DustOfARun, LeavesTheSnowAsItIs) {
   Material without = powder();
   without.dust = 0;
-  Simulation with_dust = impact(dusty(), powder(), 2), plain = impact(dusty(), without, 2);
+  Simulation with_dust = dusty_impact(dusty(), powder(), 2),
+             plain = dusty_impact(dusty(), without, 2);
   for (const double time : {0.02, 0.04, 0.08}) {
     with_dust.advance_to(time);
     plain.advance_to(time);
@@ -258,7 +260,7 @@ TEST(DustOfARun, LeavesTheSnowAsItIs) {
 TEST(DustOfARun, IsAccountedForAndOutsideOfAllSolids) {
   SolverSettings settings = dusty();
   settings.dust.life = 0.5;
-  Simulation simulation = impact(settings, powder(), 2);
+  Simulation simulation = dusty_impact(settings, powder(), 2);
   for (int frame = 1; frame <= 8; ++frame) {
     simulation.advance_to(0.03 * frame);
     const DustArrays dust = simulation.dust();
@@ -276,7 +278,7 @@ TEST(DustOfARun, IsAccountedForAndOutsideOfAllSolids) {
   EXPECT_GT(simulation.dust().totals.faded, 0u);
 }
 
-void expect_same(const DustArrays& a, const DustArrays& b) {
+void expect_same_dust(const DustArrays& a, const DustArrays& b) {
   EXPECT_EQ(a.id, b.id);
   EXPECT_EQ(a.m, b.m);
   ASSERT_EQ(a.x.size(), b.x.size());
@@ -291,40 +293,40 @@ TEST(DustOfARun, HasTheSameBitsAtAnyNumberOfThreads) {
   SolverSettings settings = dusty();
   settings.dust.buoyancy = -1;
   settings.dust.wind = {1, 0, 0.5};
-  Simulation one = impact(settings, powder(), 1);
+  Simulation one = dusty_impact(settings, powder(), 1);
   one.advance_to(0.08);
   ASSERT_GT(one.dust().x.size(), 500u);
   for (const int threads : {2, 5}) {
-    Simulation other = impact(settings, powder(), threads);
+    Simulation other = dusty_impact(settings, powder(), threads);
     other.advance_to(0.08);
-    expect_same(other.dust(), one.dust());
+    expect_same_dust(other.dust(), one.dust());
     EXPECT_EQ(other.save(), one.save());
   }
 }
 
 TEST(DustOfARun, ContinuesWithTheSameBitsFromASavedState) {
-  Simulation whole = impact(dusty(), powder(), 2);
+  Simulation whole = dusty_impact(dusty(), powder(), 2);
   whole.advance_to(0.04);
   // In the middle of a frame, and of a step of the dust.
   whole.advance_to(0.08, {}, whole.steps() + 17);
   const std::vector<std::uint8_t> bytes = whole.save();
-  Simulation again = impact(dusty(), powder(), 1);
+  Simulation again = dusty_impact(dusty(), powder(), 1);
   again.restore(bytes);
   EXPECT_EQ(again.save(), bytes);
-  expect_same(again.dust(), whole.dust());
+  expect_same_dust(again.dust(), whole.dust());
   whole.advance_to(0.08);
   again.advance_to(0.08);
   ASSERT_GT(whole.dust().x.size(), 500u);
-  expect_same(again.dust(), whole.dust());
+  expect_same_dust(again.dust(), whole.dust());
   EXPECT_EQ(again.save(), whole.save());
 }
 
 TEST(DustOfARun, StateWithoutItIsTakenAndItStartsThere) {
   Material without = powder();
   without.dust = 0;
-  Simulation plain = impact(dusty(), without, 2);
+  Simulation plain = dusty_impact(dusty(), without, 2);
   plain.advance_to(0.02);
-  Simulation with_dust = impact(dusty(), powder(), 2);
+  Simulation with_dust = dusty_impact(dusty(), powder(), 2);
   with_dust.restore(plain.save());
   EXPECT_EQ(with_dust.dust().totals.born, 0u);
   with_dust.advance_to(0.06);
@@ -334,7 +336,7 @@ TEST(DustOfARun, StateWithoutItIsTakenAndItStartsThere) {
 }
 
 TEST(DustOfARun, DamagedBytesAreRefusedAndNothingChanges) {
-  Simulation simulation = impact(dusty(), powder(), 2);
+  Simulation simulation = dusty_impact(dusty(), powder(), 2);
   simulation.advance_to(0.04);
   const std::vector<std::uint8_t> good = simulation.save();
   const auto refused = [&](const std::vector<std::uint8_t>& bytes) {
@@ -356,7 +358,7 @@ TEST(DustOfARun, DamagedBytesAreRefusedAndNothingChanges) {
 TEST(DustOfARun, StaysBelowItsLargestNumberAndKeepsItsMass) {
   SolverSettings few = dusty(), many = dusty();
   few.dust.particles = 200;
-  Simulation a = impact(few, powder(), 2), b = impact(many, powder(), 2);
+  Simulation a = dusty_impact(few, powder(), 2), b = dusty_impact(many, powder(), 2);
   a.advance_to(0.08);
   b.advance_to(0.08);
   ASSERT_GT(b.dust().x.size(), 500u);
