@@ -155,6 +155,7 @@ Json Exporter::to_json(const std::string& below) const {
         {"up", scene::name(spec.up)},
         {"scale", spec.scale},
         {"attributes", has_grid(spec) ? Json::array() : attributes_json(job.record.columns)}};
+    if (spec.dust) json["dust"] = true;
     json["surface"] = spec.surface ? surface_json(scene_, spec) : Json();
     json["series"] = series.empty() ? Json() : Json(below + series);
     json["files"] = Json::array();

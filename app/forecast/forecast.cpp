@@ -115,7 +115,7 @@ std::optional<scene::Scene> coarse_copy(const scene::Scene& scene, double partic
                                         double wanted) {
   double factor = std::max(1.0, std::cbrt(particles / wanted));
   while (true) {
-    scene::Scene copy = scene;
+    scene::Scene copy = scene::without_dust(scene);
     try {
       scene::coarsen(copy, factor);
       // Forecasts were measured with thresholds that hold in any cell.

@@ -66,7 +66,7 @@ std::string why_not(const scene::Scene& scene) {
 }
 
 scene::Scene copy_of(const scene::Scene& scene, double coarsening, std::uint64_t seed) {
-  scene::Scene copy = scene;
+  scene::Scene copy = scene::without_dust(scene);
   copy.seed = seed;
   scene::coarsen(copy, coarsening);
   return copy;

@@ -90,6 +90,11 @@ std::vector<std::string> coarsen(Scene& scene, double factor) {
   return set;
 }
 
+Scene without_dust(Scene scene) {
+  for (sim::Material& material : scene.materials) material.dust = 0;
+  return scene;
+}
+
 void refine_settings(Scene& scene, double factor) {
   if (factor > 1) scale_settings(scene, 1 / factor);
 }

@@ -20,6 +20,9 @@ namespace neve::app::scene {
 ///         range, or leaves a body without a particle
 std::vector<std::string> coarsen(Scene& scene, double factor);
 
+/// The same snow without its dust, for copies that nobody looks at.
+Scene without_dust(Scene scene);
+
 /// The scene with the numbers that its file and --set take, for panels and messages: coarsen with
 /// the same factor gives it back, within rounding.
 void refine_settings(Scene& scene, double factor);

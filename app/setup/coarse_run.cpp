@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/scene/coarsen.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/interrupt.h"
@@ -25,7 +26,7 @@ enum class Substitute {
 
 /// The scene with few and large cells, and steps as long as are stable.
 scene::Scene coarsened(const scene::Scene& scene, Substitute substitute) {
-  scene::Scene coarse = scene;
+  scene::Scene coarse = scene::without_dust(scene);
   coarse.solver.precision = sim::Precision::single;
   coarse.solver.time_step = sim::TimeStep::adaptive;
   coarse.solver.max_dt = std::max(scene.solver.max_dt, 2e-3);
