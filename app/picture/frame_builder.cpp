@@ -227,8 +227,8 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
     frame.lines.push_back(block_lines(*fields.lattice, fields.density));
   if (scene::has_layer(view, scene::Layer::smoke) && !snapshot.stage_change)
     add_smoke(scene_, view, fields, frame);
-  if (scene::has_layer(view, scene::Layer::dust) && !snapshot.stage_change)
-    add_dust(view, snapshot.dust, frame);
+  if (scene::has_layer(view, scene::Layer::dust) && snapshot.dust && !snapshot.stage_change)
+    add_dust(view, *snapshot.dust, frame);
   const SlicePlane plane = plane_of(view, snapshot);
   add_slice(scene_, view, snapshot, plane, {pixels_on(plane, frame), seeded_.spacing}, frame);
 }

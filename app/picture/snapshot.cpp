@@ -24,6 +24,12 @@ bool needs_stress(std::span<const scene::View> views) {
          });
 }
 
+bool needs_dust(std::span<const scene::View> views) {
+  return std::any_of(views.begin(), views.end(), [](const scene::View& view) {
+    return scene::has_layer(view, scene::Layer::dust);
+  });
+}
+
 Snapshot take_snapshot(const scene::Scene& scene, std::span<const scene::View> views,
                        const sim::Simulation& simulation, int frame) {
   Snapshot snapshot;
@@ -32,10 +38,7 @@ Snapshot take_snapshot(const scene::Scene& scene, std::span<const scene::View> v
   snapshot.particles = simulation.particles();
   snapshot.warnings = simulation.warnings();
   if (needs_stress(views)) snapshot.kirchhoff = simulation.kirchhoff();
-  if (std::any_of(views.begin(), views.end(), [](const scene::View& view) {
-        return scene::has_layer(view, scene::Layer::dust);
-      }))
-    snapshot.dust = simulation.dust();
+  if (needs_dust(views)) snapshot.dust = simulation.dust();
   snapshot.fields = sample_fields(scene, simulation, snapshot, field_needs(views));
   return snapshot;
 }

@@ -22,7 +22,7 @@ struct Snapshot {
   sim::ParticleArrays particles;        ///< id order
   std::vector<sim::Mat3d> kirchhoff;    ///< Pa; empty unless a view shows stress
   FieldSamples fields;                  ///< empty unless a view shows the grid
-  sim::DustArrays dust;                 ///< empty unless a view shows it
+  std::optional<sim::DustArrays> dust;  ///< absent unless a view shows it
   sim::Warnings warnings;               ///< of the steps so far
   sim::AdvanceReport advance;           ///< steps since the frame before; the caller fills it in
   std::span<const PlotSample> history;  ///< of the frames up to this one; the caller keeps it
@@ -36,6 +36,9 @@ std::string ignored_rule_text(const sim::Warnings& warnings);
 
 /// True if one of the views shows stress.
 bool needs_stress(std::span<const scene::View> views);
+
+/// True if one of the views shows dust.
+bool needs_dust(std::span<const scene::View> views);
 
 /// @param views  that will be drawn, not only those of the scene
 Snapshot take_snapshot(const scene::Scene& scene, std::span<const scene::View> views,

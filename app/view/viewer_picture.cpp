@@ -30,6 +30,7 @@ bool has_all(const picture::Snapshot& snapshot, const scene::View& view) {
   const auto& fields = snapshot.fields;
   return (!needs.is_needed || fields.lattice) &&
          (!picture::needs_stress(only) || !snapshot.kirchhoff.empty()) &&
+         (!picture::needs_dust(only) || snapshot.dust) &&
          std::all_of(needs.scalars.begin(), needs.scalars.end(),
                      [&](scene::ScalarField field) { return fields.scalars.contains(field); }) &&
          std::all_of(needs.vectors.begin(), needs.vectors.end(),

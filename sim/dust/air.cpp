@@ -14,6 +14,12 @@ constexpr double snow_drag = 10;
 constexpr int pressure_sweeps = 24;
 constexpr float over_relaxation = 1.7f;
 
+/// False for particles of a run that has diverged and goes on: they have no part in the sums.
+bool is_sound(const SnowGrain& grain) {
+  constexpr double fastest = 1e6;  // m/s
+  return grain.x.allFinite() && grain.v.cwiseAbs().maxCoeff() < fastest && grain.v.allFinite();
+}
+
 /// Trilinear, of a field whose first value lies at `offset` cells from the lower corner.
 double sample(const AirBox& box, const std::vector<float>& field, const Vec3d& place,
               const Vec3d& offset, const Vec3i& last) {
@@ -131,6 +137,7 @@ void Air::see_solids(const Solids& solids, ThreadPool& pool) {
 void Air::see_snow(std::span<const SnowGrain> snow, ThreadPool& pool) {
   double largest_mass = 0, largest_speed = 0, largest_volume = 0;
   for (const SnowGrain& grain : snow) {
+    if (!is_sound(grain)) continue;
     largest_mass = std::max(largest_mass, grain.m);
     largest_volume = std::max(largest_volume, grain.volume);
     largest_speed = std::max(largest_speed, grain.v.cwiseAbs().maxCoeff());
@@ -141,6 +148,7 @@ void Air::see_snow(std::span<const SnowGrain> snow, ThreadPool& pool) {
   const double per_momentum = largest_speed > 0 ? per_mass / largest_speed : 0;
   for (std::vector<std::int64_t>& sum : sums_) sum.assign(box_.count(), 0);
   for (const SnowGrain& grain : snow) {
+    if (!is_sound(grain)) continue;
     const Vec3d q = box_.place(grain.x) - Vec3d::Constant(0.5);
     if (!((q.array() >= 0).all() && (q.array() < (box_.size.cast<double>().array() - 1)).all()))
       continue;
