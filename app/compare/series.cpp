@@ -19,7 +19,10 @@ using record::FrameRecord;
 struct PairMetric {
   const char *name, *title, *unit;
   double (*of)(const FrameRecord&);
+  bool is_of_bodies = false;  ///< that move by themselves
 };
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 constexpr PairMetric pair_metrics[] = {
     {"spread", "spread", "m", [](const FrameRecord& f) { return f.metrics.spread; }},
@@ -39,7 +42,25 @@ constexpr PairMetric pair_metrics[] = {
     {"max_depth_cells", "depth in colliders", "cells",
      [](const FrameRecord& f) { return f.metrics.max_depth_cells; }},
     {"steps", "steps a frame", "",
-     [](const FrameRecord& f) { return static_cast<double>(f.advance.steps); }}};
+     [](const FrameRecord& f) { return static_cast<double>(f.advance.steps); }},
+    {"body_speed", "fastest body", "m/s",
+     [](const FrameRecord& f) { return record::largest_speed(f.bodies).value_or(none); }, true},
+    {"body_height", "lowest body", "m",
+     [](const FrameRecord& f) { return record::lowest(f.bodies).value_or(none); }, true}};
+
+/// Those of bodies only where there are some.
+std::vector<std::size_t> listed_metrics(const std::vector<PairMoment>& moments) {
+  const auto is_told = [&](std::size_t k) {
+    for (const PairMoment& moment : moments)
+      for (const std::vector<double>& side : moment.metrics)
+        if (!side.empty() && std::isfinite(side[k])) return true;
+    return false;
+  };
+  std::vector<std::size_t> listed;
+  for (std::size_t k = 0; k < std::size(pair_metrics); ++k)
+    if (!pair_metrics[k].is_of_bodies || is_told(k)) listed.push_back(k);
+  return listed;
+}
 
 std::vector<double> metrics_at(int frame, const std::vector<FrameRecord>& records) {
   const auto record = std::find_if(records.begin(), records.end(),
@@ -51,10 +72,10 @@ std::vector<double> metrics_at(int frame, const std::vector<FrameRecord>& record
 }
 
 /// Name and value of every number of a moment, in the order of the table.
-std::vector<std::pair<std::string, double>> numbers_of(const PairMoment& m) {
-  const double none = std::numeric_limits<double>::quiet_NaN();
+std::vector<std::pair<std::string, double>> numbers_of(const PairMoment& m,
+                                                       const std::vector<std::size_t>& listed) {
   std::vector<std::pair<std::string, double>> numbers{{"time", m.time}};
-  for (std::size_t k = 0; k < std::size(pair_metrics); ++k)
+  for (const std::size_t k : listed)
     for (std::size_t side = 0; side < 2; ++side)
       numbers.emplace_back(pair_metrics[k].name + std::string(side == 0 ? "_a" : "_b"),
                            m.metrics[side].empty() ? none : m.metrics[side][k]);
@@ -136,11 +157,12 @@ PairMoment moment_of(int frame, const scene::Scene& scene_a,
 std::string series_csv(const std::vector<PairMoment>& moments) {
   std::string text = "frame";
   if (moments.empty()) return text + "\n";
-  for (const auto& [title, value] : numbers_of(moments.front())) text += "," + title;
+  const std::vector<std::size_t> listed = listed_metrics(moments);
+  for (const auto& [title, value] : numbers_of(moments.front(), listed)) text += "," + title;
   text += "\n";
   for (const PairMoment& m : moments) {
     text += std::to_string(m.frame);
-    for (const auto& [title, value] : numbers_of(m))
+    for (const auto& [title, value] : numbers_of(m, listed))
       text += "," + (std::isfinite(value) ? fmt::format("{}", value) : std::string());
     text += "\n";
   }
@@ -149,10 +171,11 @@ std::string series_csv(const std::vector<PairMoment>& moments) {
 
 Json series_json(const std::vector<PairMoment>& moments) {
   Json list = Json::array();
+  const std::vector<std::size_t> listed = listed_metrics(moments);
   for (const PairMoment& m : moments) {
     Json row;
     row["frame"] = m.frame;
-    for (const auto& [title, value] : numbers_of(m)) row[title] = number_or_null(value);
+    for (const auto& [title, value] : numbers_of(m, listed)) row[title] = number_or_null(value);
     list.push_back(row);
   }
   return list;
@@ -161,15 +184,16 @@ Json series_json(const std::vector<PairMoment>& moments) {
 render::Image draw_series(const std::vector<PairMoment>& moments, const std::string& title_a,
                           const std::string& title_b, render::Renderer& renderer) {
   const int each = panel_height - panel_top;
-  const int rows = (static_cast<int>(std::size(pair_metrics)) + panel_columns - 1) / panel_columns;
+  const std::vector<std::size_t> listed = listed_metrics(moments);
+  const int rows = (static_cast<int>(listed.size()) + panel_columns - 1) / panel_columns;
   const int head = 4 * panel_font, width = panel_columns * panel_width,
             height = head + rows * each + panel_font / 2;
   std::vector<render::Tile> tiles;
   // From the lowest row up: each covers the empty part of the one below.
-  for (int k = static_cast<int>(std::size(pair_metrics)) - 1; k >= 0; --k)
+  for (int k = static_cast<int>(listed.size()) - 1; k >= 0; --k)
     tiles.push_back({(k % panel_columns) * panel_width,
                      head + (k / panel_columns) * each - panel_top,
-                     draw_panel(moments, static_cast<std::size_t>(k), renderer)});
+                     draw_panel(moments, listed[static_cast<std::size_t>(k)], renderer)});
   render::Frame words;
   words.width = width;
   words.height = height;

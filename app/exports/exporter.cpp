@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <stdexcept>
 #include <system_error>
 
 #include "app/exports/surface_table.h"
 #include "app/output/atomic_file.h"
 #include "app/output/descriptor.h"
 #include "app/output/file_hash.h"
+#include "app/output/report_json.h"
 #include "app/output/temporary.h"
 #include "app/scene/names.h"
 
@@ -41,6 +43,39 @@ Json surface_json(const scene::Scene& scene, const scene::Export& spec) {
           {"smallest_piece", spec.smallest_piece}};
 }
 
+/// Not where the scene alone says that they are.
+bool has_own_ways(const std::vector<scene::Collider>& colliders) {
+  return std::any_of(colliders.begin(), colliders.end(),
+                     [](const scene::Collider& collider) { return collider.body.moves(); });
+}
+
+/// Exact: a run that is resumed writes the same stage.
+Json places_json(const Sample& sample) {
+  Json list = Json::array();
+  for (const PlacedShape& placed : sample.colliders) {
+    Json matrix = Json::array();
+    for (int row = 0; row < 3; ++row)
+      matrix.push_back(output::vector_json(placed.pose.rotation.row(row)));
+    list.push_back({{"collider", placed.collider},
+                    {"time", placed.time},
+                    {"position", output::vector_json(placed.pose.point)},
+                    {"rotation", std::move(matrix)}});
+  }
+  return list;
+}
+
+/// The inverse. @throws std::exception
+PlacedShape placed_shape(const Json& json) {
+  PlacedShape placed{json.at("collider").get<std::string>(), {}, json.at("time").get<double>()};
+  placed.pose.point = output::vector_of(json.at("position"));
+  for (int row = 0; row < 3; ++row)
+    placed.pose.rotation.row(row) =
+        output::vector_of(json.at("rotation").at(static_cast<std::size_t>(row)));
+  if (!placed.pose.point.allFinite() || !placed.pose.rotation.allFinite())
+    throw std::runtime_error("collider " + placed.collider + " of an export has no finite place");
+  return placed;
+}
+
 /// In the place of the one of the same number, or after all others.
 template <class Item>
 void put(std::vector<Item>& items, Item item) {
@@ -57,6 +92,7 @@ void put(std::vector<Item>& items, Item item) {
 Exporter::Exporter(const scene::Scene& scene, fs::path folder,
                    const std::vector<std::size_t>& body_end)
     : scene_(scene),
+      colliders_(scene.colliders),
       folder_(std::move(folder)),
       origins_(scene, body_end),
       carried_(scene, body_end) {
@@ -83,10 +119,19 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
     if (is_due(job)) due.push_back(job.record.spec);
   std::vector<Work> works;
   if (due.empty()) return works;
+  note_colliders(colliders);
   const std::shared_ptr<const State> state = read_state(due, colliders, simulation);
   for (Job& job : jobs_)
     if (is_due(job)) works.push_back(work(job, state, number));
   return works;
+}
+
+/// Some come and go while a run is made.
+void Exporter::note_colliders(const std::vector<scene::Collider>& colliders) {
+  for (const scene::Collider& collider : colliders)
+    if (std::none_of(colliders_.begin(), colliders_.end(),
+                     [&](const scene::Collider& known) { return known.name == collider.name; }))
+      colliders_.push_back(collider);
 }
 
 Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int number) {
@@ -122,7 +167,7 @@ std::vector<output::WrittenFile> Exporter::finish() const {
     written.push_back(output::write_hashed(folder_ / scene::folder_of(spec) / "manifest.usda",
                                            encode_manifest(scene_, spec, job.record.columns)));
     written.push_back(output::write_hashed(
-        folder_ / series, encode_stage(scene_, spec, job.record.columns, job.samples)));
+        folder_ / series, encode_stage(scene_, colliders_, spec, job.record.columns, job.samples)));
   }
   return written;
 }
@@ -132,16 +177,24 @@ void Exporter::resume(const Json& list, int last_number) {
     const std::string folder = scene::folder_of(job.record.spec);
     for (const Json& e : list) {
       if (e.value("name", "") != folder) continue;
-      for (const Json& file : e.at("files")) {
-        const int number = whole_number<int>(file.at("number"));
-        if (number > last_number) continue;
-        const double time = file.at("time").get<double>();
-        job.record.files.push_back(
-            {number, time, std::stoull(file.at("state_hash").get<std::string>(), nullptr, 16)});
-        job.samples.push_back({number, time, placed_at(scene_.colliders, time)});
-      }
+      for (const Json& file : e.at("files"))
+        if (whole_number<int>(file.at("number")) <= last_number) resume(file, job);
     }
   }
+}
+
+void Exporter::resume(const Json& file, Job& job) const {
+  const int number = whole_number<int>(file.at("number"));
+  const double time = file.at("time").get<double>();
+  job.record.files.push_back(
+      {number, time, std::stoull(file.at("state_hash").get<std::string>(), nullptr, 16)});
+  Sample sample{number, time, placed_at(scene_.colliders, time)};
+  if (file.contains("colliders")) {
+    sample.colliders.clear();
+    for (const Json& placed : file.at("colliders"))
+      sample.colliders.push_back(placed_shape(placed));
+  }
+  job.samples.push_back(std::move(sample));
 }
 
 Json Exporter::to_json(const std::string& below) const {
@@ -159,11 +212,20 @@ Json Exporter::to_json(const std::string& below) const {
     json["surface"] = spec.surface ? surface_json(scene_, spec) : Json();
     json["series"] = series.empty() ? Json() : Json(below + series);
     json["files"] = Json::array();
-    for (const Record::File& file : job.record.files)
+    // The stage tells where colliders are; the scene does not where they move by themselves, or
+    // came later.
+    const bool has_places =
+        spec.format == scene::ExportFormat::usda &&
+        (colliders_.size() > scene_.colliders.size() || has_own_ways(colliders_));
+    for (const Record::File& file : job.record.files) {
       json["files"].push_back({{"file", folder + file_name(spec, file.number)},
                                {"number", file.number},
                                {"time", number_or_null(file.time)},
                                {"state_hash", hash_digits(file.hash)}});
+      for (const Sample& sample : job.samples)
+        if (has_places && sample.number == file.number)
+          json["files"].back()["colliders"] = places_json(sample);
+    }
     list.push_back(std::move(json));
   }
   return list;

@@ -59,8 +59,11 @@ class Exporter {
     std::vector<Sample> samples;
   };
   Work work(Job& job, std::shared_ptr<const State> state, int number);
+  void note_colliders(const std::vector<scene::Collider>& colliders);
+  void resume(const Json& file, Job& job) const;
 
   scene::Scene scene_;
+  std::vector<scene::Collider> colliders_;  ///< all that there were at any moment
   std::filesystem::path folder_;
   Origins origins_;
   Carried carried_;

@@ -1,6 +1,7 @@
 #include "app/exports/series.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -97,48 +98,76 @@ std::string usd_points(const Axes& axes, const std::vector<Vec3d>& places) {
 }
 
 /// The points of a collider, at every sample where it deforms.
-/// @param index  of the collider in the scene
-std::string usd_point_property(const scene::Scene& scene, const Axes& axes, std::size_t index,
-                               const ColliderMesh& surface, const std::vector<Sample>& samples) {
-  const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&scene.colliders[index].shape.form);
+std::string usd_point_property(const scene::Scene& scene, const Axes& axes,
+                               const scene::Collider& collider, const ColliderMesh& surface,
+                               const std::vector<Sample>& samples) {
+  const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form);
   const std::string declared = "            point3f[] points";
   if (!sequence) return declared + " = " + usd_points(axes, surface.points) + "\n";
   const auto mesh = sim::shapes::deforming_mesh(*sequence);
   return declared + ".timeSamples = {\n" +
          stage_times(scene, samples,
                      [&](const Sample& sample) {
-                       return usd_points(axes,
-                                         mesh->mesh_at(sample.colliders[index].time).vertices);
+                       const PlacedShape* placed = sample.find(collider.name);
+                       return usd_points(axes, mesh->mesh_at(placed ? placed->time : 0).vertices);
                      }) +
          "            }\n";
 }
 
-/// @param index  of the collider in the scene
-std::string usd_collider(const scene::Scene& scene, const Axes& axes, std::size_t index,
-                         const std::string& name, const std::vector<Sample>& samples) {
-  const ColliderMesh surface = collider_mesh(scene.colliders[index].shape);
+/// Empty for a collider that there is at every sample.
+std::string usd_visibility(const scene::Scene& scene, const std::string& collider,
+                           const std::vector<Sample>& samples) {
+  if (std::all_of(samples.begin(), samples.end(),
+                  [&](const Sample& sample) { return sample.find(collider) != nullptr; }))
+    return {};
+  return "            token visibility.timeSamples = {\n" +
+         stage_times(
+             scene, samples,
+             [&](const Sample& sample) {
+               return std::string(sample.find(collider) ? "\"inherited\"" : "\"invisible\"");
+             }) +
+         "            }\n";
+}
+
+/// @param samples  at least one of them has it
+std::string usd_transform(const scene::Scene& scene, const Axes& axes, const std::string& collider,
+                          const std::vector<Sample>& samples) {
+  // Before and after its time it is where it is first and last.
+  const PlacedShape* placed = nullptr;
+  for (auto sample = samples.begin(); sample != samples.end() && !placed; ++sample)
+    placed = sample->find(collider);
+  return transform_samples(scene, samples, [&](const Sample& sample) {
+    if (const PlacedShape* now = sample.find(collider)) placed = now;
+    return usd_matrix(axes.turned(placed->pose.rotation), axes.scaled(placed->pose.point));
+  });
+}
+
+std::string usd_collider(const scene::Scene& scene, const Axes& axes,
+                         const scene::Collider& collider, const std::string& name,
+                         const std::vector<Sample>& samples) {
+  const ColliderMesh surface = collider_mesh(collider.shape);
   const std::vector<std::uint32_t> counts(surface.corners.size() / 3, 3);
   return "        def Mesh \"" + name + "\"\n        {\n" +
          "            uniform token subdivisionScheme = \"none\"\n" +
          "            int[] faceVertexCounts = " + joined_numbers(counts) + "\n" +
          "            int[] faceVertexIndices = " + joined_numbers(surface.corners) + "\n" +
-         usd_point_property(scene, axes, index, surface, samples) +
-         transform_samples(scene, samples,
-                           [&](const Sample& sample) {
-                             const sim::shapes::Pose& pose = sample.colliders[index].pose;
-                             return usd_matrix(axes.turned(pose.rotation), axes.scaled(pose.point));
-                           }) +
-         "        }\n";
+         usd_point_property(scene, axes, collider, surface, samples) +
+         usd_visibility(scene, collider.name, samples) +
+         usd_transform(scene, axes, collider.name, samples) + "        }\n";
 }
 
-std::string usd_colliders(const scene::Scene& scene, const Axes& axes,
-                          const std::vector<Sample>& samples) {
+std::string usd_colliders(const scene::Scene& scene, const std::vector<scene::Collider>& colliders,
+                          const Axes& axes, const std::vector<Sample>& samples) {
   std::string text = "    def Xform \"colliders\"\n    {\n";
   std::set<std::string> names;
-  for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
-    std::string name = usd_name(scene.colliders[k].name);
+  for (const scene::Collider& collider : colliders) {
+    const bool is_seen = std::any_of(samples.begin(), samples.end(), [&](const Sample& sample) {
+      return sample.find(collider.name) != nullptr;
+    });
+    if (!is_seen) continue;
+    std::string name = usd_name(collider.name);
     while (!names.insert(name).second) name += "_";
-    text += usd_collider(scene, axes, k, name, samples);
+    text += usd_collider(scene, axes, collider, name, samples);
   }
   return text + "    }\n";
 }
@@ -208,6 +237,13 @@ std::string usd_clips(const scene::Scene& scene, const scene::Export& spec, cons
 
 }  // namespace
 
+const PlacedShape* Sample::find(const std::string& collider) const {
+  const auto found =
+      std::find_if(colliders.begin(), colliders.end(),
+                   [&](const PlacedShape& placed) { return placed.collider == collider; });
+  return found == colliders.end() ? nullptr : &*found;
+}
+
 std::string file_name(const scene::Export& spec, int number) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%04d.", number);
@@ -239,7 +275,8 @@ std::string encode_pvd(const scene::Export& spec, const std::vector<Sample>& sam
   return text + "</Collection>\n</VTKFile>\n";
 }
 
-std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, const Table& columns,
+std::string encode_stage(const scene::Scene& scene, const std::vector<scene::Collider>& colliders,
+                         const scene::Export& spec, const Table& columns,
                          const std::vector<Sample>& samples) {
   const Axes axes(spec);
   const double first = samples.empty() ? 0 : stage_time(scene, samples.front());
@@ -252,7 +289,7 @@ std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, c
             usd_declarations(columns, prim, indent) + "    }\n";
   }
   return usd_header(scene, spec, first, last) + "def Xform \"neve\"\n{\n" + usd_world(scene, spec) +
-         snow + usd_colliders(scene, axes, samples) + usd_camera(scene, axes, samples) +
+         snow + usd_colliders(scene, colliders, axes, samples) + usd_camera(scene, axes, samples) +
          usd_light(scene, axes) + "}\n";
 }
 

@@ -15,6 +15,9 @@ struct Sample {
   int number = 0;   ///< of the file
   double time = 0;  ///< s
   std::vector<PlacedShape> colliders;
+
+  /// Null where there was no such collider.
+  const PlacedShape* find(const std::string& collider) const;
 };
 
 /// "0024.ply"
@@ -29,7 +32,9 @@ std::string encode_pvd(const scene::Export& spec, const std::vector<Sample>& sam
 /// A USD stage: the particles, or their surface, as value clips of the layers, colliders as meshes
 /// that move or deform, the camera of the scene if it has a place, and its light. Source: OpenUSD,
 /// UsdClipsAPI.
-std::string encode_stage(const scene::Scene& scene, const scene::Export& spec, const Table& columns,
+/// @param colliders  that there were at any sample; one that came or went is seen while it existed
+std::string encode_stage(const scene::Scene& scene, const std::vector<scene::Collider>& colliders,
+                         const scene::Export& spec, const Table& columns,
                          const std::vector<Sample>& samples);
 
 /// The layer that tells the stage the names and types of the properties in the clips.

@@ -29,8 +29,8 @@ bool has_grid(const scene::Export& e) {
 std::vector<PlacedShape> placed_at(const std::vector<scene::Collider>& colliders, double time) {
   std::vector<PlacedShape> placed;
   for (const scene::Collider& collider : colliders)
-    placed.push_back(
-        {sim::shapes::pose_at(collider, time), sim::shapes::shape_time(collider, time)});
+    placed.push_back({collider.name, sim::shapes::pose_at(collider, time),
+                      sim::shapes::shape_time(collider, time)});
   return placed;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/scene/scene.h"
@@ -14,6 +15,7 @@ namespace neve::app::exports {
 
 /// Pose of a collider, and the time of its shape (see sim::shapes::shape_time).
 struct PlacedShape {
+  std::string collider;
   sim::shapes::Pose pose;
   double time = 0;  ///< s
 };
@@ -27,7 +29,7 @@ struct State {
   std::vector<sim::Mat3d> kirchhoff;          ///< Pa; empty unless an export has stress
   std::optional<sim::RasterizedNodes> nodes;  ///< absent unless an export has the grid
   sim::DustArrays dust;                       ///< empty unless an export has it
-  std::vector<PlacedShape> colliders;         ///< of the scene
+  std::vector<PlacedShape> colliders;         ///< of that moment
 };
 
 /// The dust as if it were the snow of a state: `particles`, and `nodes` where there are any.

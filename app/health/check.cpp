@@ -42,7 +42,8 @@ sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) 
 bool squeezes_snow(const scene::Scene& scene) {
   const auto is_moving = [](const sim::shapes::Collider& collider) {
     return collider.velocity != sim::Vec3d::Zero() ||
-           collider.angular_velocity != sim::Vec3d::Zero() || !collider.keyframes.empty();
+           collider.angular_velocity != sim::Vec3d::Zero() || !collider.keyframes.empty() ||
+           collider.body.moves();
   };
   return scene.colliders.size() > 1 &&
          std::any_of(scene.colliders.begin(), scene.colliders.end(), is_moving);
@@ -165,7 +166,9 @@ Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, d
   if (plan.emitted > 0 && check.seconds_per_step > 0)
     check.seconds_per_step = check.foreseen.seconds_per_particle_step / used_threads *
                              (check.plan.particles - 0.5 * plan.emitted);
-  check_cameras(scene, setup::coarse_run(scene), check.findings);
+  const std::vector<setup::CoarseMoment> moments = setup::coarse_run(scene);
+  check_cameras(scene, moments, check.findings);
+  check_moving_bodies(scene, moments, check.findings);
   std::stable_sort(check.findings.begin(), check.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return check;

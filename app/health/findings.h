@@ -71,6 +71,13 @@ void check_gravity(const scene::Scene& scene, std::vector<Finding>& findings);
 void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
                              std::vector<Finding>& findings);
 
+/// Colliders that move by themselves: in one another, held by nothing or by everything, of a density
+/// that nothing has, smaller than snow can feel.
+/// @param moments  of a coarse run
+void check_moving_bodies(const scene::Scene& scene,
+                         const std::vector<setup::CoarseMoment>& moments,
+                         std::vector<Finding>& findings);
+
 /// Colliders that cross too much of a cell in a step, or outrun sound in the snow.
 void check_motion(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
 

@@ -3,15 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include "app/health/findings.h"
+#include "app/health/places.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/toml/value.h"
 #include "app/support/text.h"
 #include "sim/shapes/deforming_mesh.h"
-#include "sim/shapes/solid.h"
 
 namespace neve::app::health {
 
@@ -47,52 +46,6 @@ std::string way_out(const scene::Scene& scene, const sim::shapes::Collider& coll
 
 /// Particles of a body: a share needs no more.
 constexpr std::size_t max_looked_at = 20000;
-
-/// Tests if a place is in a collider at a time.
-class Inside {
- public:
-  Inside(const sim::shapes::Collider& collider, double time)
-      : pose_(sim::shapes::pose_at(collider, time)),
-        start_(sim::rotation_from_degrees(collider.shape.rotation)),
-        center_(sim::shapes::center(collider.shape)) {
-    if (const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form))
-      normal_ = pose_.rotation * plane->normal;
-    else if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form))
-      surface_ = sim::shapes::surface_at(*sequence, sim::shapes::shape_time(collider, time));
-    else
-      solid_ = std::make_unique<sim::shapes::Solid>(collider.shape);
-  }
-
-  bool operator()(const Vec3d& x) const {
-    if (surface_) return surface_->contains(pose_.rotation.transpose() * (x - pose_.point));
-    if (!solid_) return (x - pose_.point).dot(normal_) < 0;
-    // Keyframes may have moved it: where the place is from the shape as it is written.
-    return solid_->contains(center_ + start_ * (pose_.rotation.transpose() * (x - pose_.point)));
-  }
-
- private:
-  sim::shapes::Pose pose_;
-  sim::Mat3d start_;
-  Vec3d center_, normal_{0, 1, 0};
-  std::unique_ptr<sim::shapes::Solid> solid_;
-  std::shared_ptr<const sim::shapes::MeshSurface> surface_;  ///< of a mesh that deforms
-};
-
-/// Some hundred places in a shape, regularly.
-std::vector<Vec3d> places_in(const sim::shapes::Shape& shape) {
-  constexpr int parts = 11;
-  std::vector<Vec3d> places;
-  const sim::shapes::Solid solid(shape);
-  const sim::shapes::Bounds box = solid.bounds();
-  for (int i = 0; i < parts; ++i)
-    for (int j = 0; j < parts; ++j)
-      for (int k = 0; k < parts; ++k) {
-        const Vec3d part = (Vec3d(i, j, k) + Vec3d::Constant(0.5)) / parts;
-        const Vec3d x = box.min + part.cwiseProduct(box.max - box.min);
-        if (solid.contains(x)) places.push_back(x);
-      }
-  return places;
-}
 
 void check_emitter_overlaps(const scene::Scene& scene, std::vector<Finding>& findings) {
   constexpr double much = 0.02;  // a nozzle that ends in a wall is none

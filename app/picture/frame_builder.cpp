@@ -25,6 +25,7 @@
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/laws/law.h"
+#include "sim/rigid/rigid_bodies.h"
 
 namespace neve::app::picture {
 
@@ -75,13 +76,20 @@ std::string steps_text(const sim::AdvanceReport& advance) {
   return text;
 }
 
-/// "hardening = 5 since step 120".
+/// "hardening = 5 since step 120", "added collider.ball at step 120".
 std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& changes) {
-  std::vector<std::string> texts;
-  for (const scene::LiveChange& change : changes)
-    texts.push_back(change.address + "=" + change.value + " since step " +
-                    std::to_string(change.step));
-  return override_lines(texts);
+  std::vector<std::string> texts, objects;
+  for (const scene::LiveChange& change : changes) {
+    const std::string step = "step " + std::to_string(change.step);
+    if (scene::is_object_address(change.address))
+      objects.push_back((change.value == "none" ? "removed " : "added ") + change.address + " at " +
+                        step);
+    else
+      texts.push_back(change.address + "=" + change.value + " since " + step);
+  }
+  std::vector<std::string> lines = override_lines(texts);
+  lines.insert(lines.end(), objects.begin(), objects.end());
+  return lines;
 }
 
 /// What the material bears.
@@ -297,6 +305,10 @@ std::optional<sim::Vec3d> centre_of_body(const scene::Scene& scene,
     }
     if (mass > 0) return sim::Vec3d(moment / mass);
   }
+  for (const scene::Collider& collider : scene.colliders)
+    if (collider.name == name)
+      return collider.body.moves() ? sim::rigid::motion_at(collider, snapshot.time).centre
+                                   : sim::shapes::pose_at(collider, snapshot.time).point;
   return std::nullopt;
 }
 

@@ -73,7 +73,7 @@ class FrameBuilder {
   PictureOptions options_;
 };
 
-/// The centre of a body's mass; of a body without particles nothing.
+/// The centre of mass of a body or collider; of a body without particles nothing.
 std::optional<sim::Vec3d> centre_of_body(const scene::Scene& scene,
                                          const setup::SeededScene& seeded, const Snapshot& snapshot,
                                          const std::string& name);

@@ -5,6 +5,7 @@
 
 #include "app/setup/auto_ranges.h"
 #include "app/support/round_number.h"
+#include "sim/rigid/rigid_bodies.h"
 #include "sim/types/time_step.h"
 
 namespace neve::app::picture {
@@ -48,10 +49,21 @@ render::Plot dt_plot(const scene::PlotRanges& ranges, std::span<const PlotSample
 
 }  // namespace
 
+std::vector<BodySample> body_samples(const std::vector<sim::shapes::Collider>& colliders,
+                                     double time) {
+  std::vector<BodySample> bodies;
+  for (const sim::shapes::Collider& collider : colliders) {
+    if (!collider.body.moves()) continue;
+    const sim::rigid::Motion motion = sim::rigid::motion_at(collider, time);
+    bodies.push_back({collider.name, motion.centre.y(), motion.velocity.norm()});
+  }
+  return bodies;
+}
+
 PlotSample plot_sample(double time, double interval, const sim::Summary& summary,
-                       const sim::AdvanceReport& advance) {
+                       const sim::AdvanceReport& advance, const std::vector<BodySample>& bodies) {
   PlotSample sample{time, summary.kinetic_energy, summary.elastic_energy, summary.max_speed,
-                    0,    advance.steps,          advance.limit()};
+                    0,    advance.steps,          advance.limit(),        bodies};
   for (const sim::ColliderLoad& load : advance.loads)
     sample.max_force = std::max(sample.max_force, load.impulse.norm() / interval);
   return sample;
@@ -80,6 +92,17 @@ std::vector<render::Plot> make_plots(const scene::PlotRanges& ranges, bool has_c
     plots.back().series = {
         curve("", pink, history, [](const PlotSample& s) { return s.max_force; })};
   }
+  const auto add_bodies = [&](const char* title, const char* unit,
+                              const std::optional<scene::Range>& range, auto value) {
+    std::vector<render::PlotSeries> curves = body_curves(history, value);
+    if (curves.empty()) return;
+    plots.push_back(plot_of(title, unit, range, now, duration));
+    plots.back().series = std::move(curves);
+  };
+  add_bodies("height of bodies", "m", ranges.body_height,
+             [](const BodySample& body) { return body.height; });
+  add_bodies("speed of bodies", "m/s", ranges.body_speed,
+             [](const BodySample& body) { return body.speed; });
   plots.push_back(dt_plot(ranges, history, now, interval, duration));
   return plots;
 }

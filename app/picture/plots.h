@@ -1,11 +1,14 @@
 #pragma once
-/// Diagnostics over time as plots: energies, largest speed, largest force on a collider, time step
-/// and its limit.
+/// Diagnostics over time as plots: energies, largest speed, largest force on a collider, height
+/// and speed of bodies, time step and its limit.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/scene/scene.h"
@@ -44,6 +47,16 @@ render::PlotSeries curve(const char* name, Rgb color, const auto& samples, auto 
   return series;
 }
 
+/// A body that moves by itself at one moment, its centre of mass.
+struct BodySample {
+  std::string name;
+  double height = 0;  ///< m, along y
+  double speed = 0;   ///< m/s
+};
+/// @param colliders  as they are at that time
+std::vector<BodySample> body_samples(const std::vector<sim::shapes::Collider>& colliders,
+                                     double time);
+
 /// Data of one frame for the plots.
 struct PlotSample {
   double time = 0;                                ///< s
@@ -52,18 +65,49 @@ struct PlotSample {
   double max_force = 0;                       ///< N, on a collider: the mean since the frame before
   std::size_t steps = 0;                      ///< since the frame before
   sim::DtLimit limit = sim::DtLimit::max_dt;  ///< the one that ruled most of them
+  std::vector<BodySample> bodies{};
 };
 
 /// @param interval s, that the advance took
 PlotSample plot_sample(double time, double interval, const sim::Summary& summary,
-                       const sim::AdvanceReport& advance);
+                       const sim::AdvanceReport& advance,
+                       const std::vector<BodySample>& bodies = {});
+
+/// A curve for each body that there is at any of the samples, with its name where there are
+/// several; of many bodies the first ones.
+/// @param samples  each with a time, s, and bodies
+/// @param value    of a BodySample
+std::vector<render::PlotSeries> body_curves(const auto& samples, auto value);
 
 /// @param history one sample per frame, in order; those later than `now` are left out
-/// Without colliders there is no plot of forces.
+/// Without colliders there is no plot of forces, without bodies none of their heights and speeds.
 /// @param interval s, between frames
 /// @param duration s, of the whole scene
 std::vector<render::Plot> make_plots(const scene::PlotRanges& ranges, bool has_colliders,
                                      std::span<const PlotSample> history, double now,
                                      double interval, double duration);
+
+inline constexpr Rgb body_colors[] = {sky_blue, orange, green,      pink,
+                                      yellow,   purple, vermillion, white};
+
+std::vector<render::PlotSeries> body_curves(const auto& samples, auto value) {
+  std::vector<std::string> names;
+  for (const auto& sample : samples)
+    for (const BodySample& body : sample.bodies)
+      if (names.size() < std::size(body_colors) &&
+          std::find(names.begin(), names.end(), body.name) == names.end())
+        names.push_back(body.name);
+  std::vector<render::PlotSeries> list;
+  for (const std::string& name : names) {
+    const auto of_body = [&](const auto& sample) {
+      for (const BodySample& body : sample.bodies)
+        if (body.name == name) return value(body);
+      return std::numeric_limits<double>::quiet_NaN();
+    };
+    list.push_back(
+        curve(names.size() > 1 ? name.c_str() : "", body_colors[list.size()], samples, of_body));
+  }
+  return list;
+}
 
 }  // namespace neve::app::picture

@@ -91,6 +91,8 @@ Json to_json(const FrameRecord& frame) {
   if (s.dust.born > 0) json["dust"] = to_json(s.dust);
   json["forces"] = Json::array();
   for (const ColliderForce& force : frame.forces) json["forces"].push_back(to_json(force));
+  json["bodies"] = Json::array();
+  for (const BodyRecord& body : frame.bodies) json["bodies"].push_back(to_json(body));
   json["state_hash"] = hash_text(frame.state_hash);
   return json;
 }
@@ -212,6 +214,8 @@ FrameRecord frame_record(const Json& json) {
         {f.at("collider").get<std::string>(), output::vector_of(f.at("force")),
          output::vector_of(f.at("torque")),
          f.contains("max_pressure") ? output::number_or_nan(f.at("max_pressure")) : std::nan("")});
+  if (!json.contains("bodies")) return frame;
+  for (const Json& body : json.at("bodies")) frame.bodies.push_back(body_record(body));
   return frame;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/output/report_json.h"
+#include "app/record/bodies.h"
 #include "app/record/metrics.h"
 #include "app/scene/live_change.h"
 #include "app/scene/scene.h"
@@ -39,6 +40,7 @@ struct FrameRecord {
   std::uint64_t state_hash = 0;
   Metrics metrics;
   std::vector<ColliderForce> forces;  ///< of all colliders; empty where there was no step
+  std::vector<BodyRecord> bodies;     ///< at the end, those that move by themselves
 };
 
 /// Steps of the frame times its particles.

@@ -245,6 +245,8 @@ void RenderRun::draw_frame(int frame) {
   sim::Summary summary = timeline_.summary();
   if (kept_blocks_) summary.grid_blocks = *kept_blocks_;
   std::vector<exports::Exporter::Work> exports = ledger_.read_exports(timeline_);
+  std::vector<record::BodyRecord> bodies =
+      record::bodies_of(timeline_.simulation().colliders(), timeline_.simulation().time());
   begin_next(frame);
   Drawing::Files drawn = drawing_.draw(snapshot);
   if (!drawn.pictures.empty()) result_.last_picture = drawn.pictures.front().image;
@@ -253,7 +255,7 @@ void RenderRun::draw_frame(int frame) {
   metrics.max_depth_cells = summary.max_depth / h;
   ledger_.add({scene::number_of(job_.scene, frame), frame / job_.scene.fps, advance, seconds_,
                seconds_since(start), summary, state_hash, metrics,
-               record::forces_of(advance, summary, drawing_.scene().colliders)},
+               record::forces_of(advance, summary, drawing_.scene().colliders), std::move(bodies)},
               std::move(drawn), std::move(exports));
   if (const auto slowdown = slowdown_warning(record().frames); slowdown && !said_slow_) {
     progress_.warning(*slowdown);

@@ -330,13 +330,20 @@ Found light_problem(const LightSettings& light) {
   return Problem{"light.direction", "direction is zero", "it must point towards the light"};
 }
 
-/// Problem of the name of a body that something moves along with.
+/// Problem of the name of a body or collider that something moves along with.
 Found follow_problem(const Scene& scene, const std::string& follow, const std::string& at) {
   if (follow.empty()) return {};
   std::vector<std::string> names;
   for (const sim::seeding::Body& body : scene.bodies) {
     if (body.name == follow) return {};
     names.push_back(body.name);
+  }
+  for (const Collider& collider : scene.colliders) {
+    const bool has_place = !std::holds_alternative<sim::shapes::Plane>(collider.shape.form) &&
+                           !std::holds_alternative<sim::shapes::Terrain>(collider.shape.form);
+    if (!has_place) continue;
+    if (collider.name == follow) return {};
+    names.push_back(collider.name);
   }
   return Problem{at + ".follow", "there is no body " + toml::toml_string(follow),
                  name_advice(follow, names)};

@@ -545,8 +545,8 @@ void describe(V& visit, CameraSettings& c) {
   visit("turntable", c.turntable, unit::second, between(1e-3, 1e6), live,
         "Time of one turn of the eye around the target, about up, at constant speed.");
   visit("follow", c.follow, unit::none, anything, live,
-        "Name of a body that the camera moves along with: eye and target are relative to its "
-        "centre of mass.");
+        "Name of a body or collider that the camera moves along with: eye and target are relative "
+        "to its centre of mass.");
   visit.sequence("keyframes", c.keyframes, "Path of eye, target and fov.");
 }
 
@@ -602,7 +602,7 @@ void describe(V& visit, SliceStyle& s) {
         "Point on the plane; default: the middle of the bodies. With follow, relative to the "
         "body's centre of mass.");
   visit("follow", s.follow, unit::none, anything, live,
-        "Name of a body that moves the plane along.");
+        "Name of a body or collider that moves the plane along.");
   visit("motion", s.motion, unit::velocity, speed, live, "Velocity of the plane.");
   visit("every", s.every, unit::none, between(0, 1000), live,
         "Nodes from one arrow to the next; 0: as close as readable.");
@@ -629,6 +629,10 @@ void describe(V& visit, PlotRanges& p) {
         "Ends of the axis of the largest speed, or \"auto\".");
   visit("force_range", p.force, unit::newton, within(1e30), live,
         "Ends of the axis of the largest force on a collider, or \"auto\".");
+  visit("body_height_range", p.body_height, unit::metre, within(1e30), live,
+        "Ends of the axis of the heights of bodies that move by themselves, or \"auto\".");
+  visit("body_speed_range", p.body_speed, unit::velocity, within(1e30), live,
+        "Ends of the axis of their speeds, or \"auto\".");
   visit("dt_range", p.dt, unit::second, within(1e30), live,
         "Ends of the axis of the time step, or \"auto\".");
 }
@@ -777,7 +781,8 @@ void describe(V& visit, Scene& s) {
   visit.list("body", s.bodies, "A piece of snow.");
   visit.list("emitter", s.emitters, "Adds snow during the run.");
   visit.list("sink", s.sinks, "A region that removes snow.");
-  visit.list("collider", s.colliders, "A solid with a prescribed motion; snow does not move it.");
+  visit.list("collider", s.colliders,
+             "A solid: it moves as the scene says, or with a density by itself.");
   visit.optional("camera", s.camera, "The camera of all views; default: frames the whole scene.");
   visit.section("light", "The sun and the sky.", [&](auto& v) { describe(v, s.light); });
   visit.list("view", s.views, "One picture per frame.");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -155,6 +156,30 @@ std::vector<std::string> item_names_of(const Scene& scene, const std::string& li
   return names;
 }
 
+toml::Value written(Collider collider) {
+  Writer writer;
+  describe(writer, collider);
+  return {std::move(writer.table)};
+}
+
+const Collider* find_collider(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.colliders.begin(), scene.colliders.end(),
+                                  [&](const Collider& collider) { return collider.name == name; });
+  return found == scene.colliders.end() ? nullptr : &*found;
+}
+
+/// Colliders that only one of the scenes has: they may come and go while a simulation runs.
+std::vector<Difference> come_and_gone(const Scene& before, const Scene& after) {
+  std::vector<Difference> found;
+  for (const Collider& gone : before.colliders)
+    if (!find_collider(after, gone.name))
+      found.push_back({"collider." + gone.name, written(gone), std::nullopt, true});
+  for (const Collider& come : after.colliders)
+    if (!find_collider(before, come.name))
+      found.push_back({"collider." + come.name, std::nullopt, written(come), true});
+  return found;
+}
+
 bool is_inside(const std::string& address, const std::string& table) {
   return address.size() > table.size() && address.starts_with(table) &&
          address[table.size()] == '.';
@@ -196,6 +221,7 @@ std::vector<FlatParam> flatten(const Scene& scene) {
 
 bool is_live(std::string_view address) {
   const std::string pattern = pattern_of(address);
+  if (pattern == "collider.NAME") return true;
   bool is_known = false;
   for (auto at = known().lower_bound(pattern); at != known().end(); ++at) {
     const std::string& other = at->first;
@@ -232,6 +258,11 @@ std::vector<Difference> differences(const Scene& before, const Scene& after) {
     const auto old_names = item_names_of(before, list), new_names = item_names_of(after, list);
     // The order counts too: unnamed items are numbered, and materials are known by their place.
     if (old_names == new_names) continue;
+    if (list == std::string_view("collider")) {
+      std::vector<Difference> others = come_and_gone(before, after);
+      std::move(others.begin(), others.end(), std::back_inserter(found));
+      if (!others.empty()) continue;
+    }
     found.push_back({list, to_value(old_names), to_value(new_names), false});
   }
   std::map<std::string, FlatParam> old_params;

@@ -35,7 +35,7 @@ struct FlatParam {
 std::vector<FlatParam> flatten(const Scene& scene);
 
 /// True if the parameter, or the whole table, at this address may change during a run. False for
-/// unknown addresses.
+/// unknown addresses. Whole colliders may come and go.
 bool is_live(std::string_view address);
 
 /// Part of the program that depends on a parameter.

@@ -74,7 +74,7 @@ struct SliceStyle {
   ScalarField scalar = ScalarField::speed;    ///< of the heat map
   sim::Vec3d normal{0, 0, 1};
   std::optional<sim::Vec3d> point;  ///< m; automatic when absent; from the followed body if any
-  std::string follow;               ///< body whose centre of mass the plane moves with
+  std::string follow;               ///< body or collider whose centre of mass the plane moves with
   sim::Vec3d motion{0, 0, 0};       ///< m/s, of the plane
   int every = 0;                    ///< nodes from arrow to arrow; 0: automatic
   double arrow_scale = 1;           ///< factor of all lengths
@@ -95,10 +95,10 @@ struct CameraKeyframe {
 struct CameraSettings {
   std::optional<sim::Vec3d> eye, target;  ///< both or neither; automatic when absent
   sim::Vec3d up{0, 1, 0};
-  double fov = 30;                        ///< vertical, degrees
-  std::optional<double> orbit;            ///< degrees over the whole scene; not with turntable
-  std::optional<double> turntable;        ///< s of a full turn
-  std::string follow;                     ///< body that moves eye and target along; "": none
+  double fov = 30;                  ///< vertical, degrees
+  std::optional<double> orbit;      ///< degrees over the whole scene; not with turntable
+  std::optional<double> turntable;  ///< s of a full turn
+  std::string follow;               ///< body or collider that moves eye and target along; "": none
   std::vector<CameraKeyframe> keyframes;  ///< times increase
 };
 
@@ -114,10 +114,12 @@ struct PictureSize {
 
 /// Axes of the plots; resolving a scene fills in absent ones.
 struct PlotRanges {
-  std::optional<Range> energy;  ///< J
-  std::optional<Range> speed;   ///< m/s
-  std::optional<Range> force;   ///< N
-  std::optional<Range> dt;      ///< s
+  std::optional<Range> energy;       ///< J
+  std::optional<Range> speed;        ///< m/s
+  std::optional<Range> force;        ///< N
+  std::optional<Range> body_height;  ///< m
+  std::optional<Range> body_speed;   ///< m/s
+  std::optional<Range> dt;           ///< s
 };
 
 /// Particles on the side that the normal points to are not drawn.
@@ -282,6 +284,12 @@ std::vector<std::string> snow_sources(const Scene& scene);
 /// The scene's colliders without their looks.
 inline std::vector<sim::shapes::Collider> sim_colliders(const Scene& scene) {
   return {scene.colliders.begin(), scene.colliders.end()};
+}
+
+/// True if a collider moves by itself.
+inline bool has_moving_bodies(const Scene& scene) {
+  return std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                     [](const Collider& collider) { return collider.body.moves(); });
 }
 
 }  // namespace neve::app::scene

@@ -25,6 +25,9 @@ constexpr double largest_growth = 16;  // of the subject's size: snow that falls
 // for it; the rest is the subject.
 constexpr double growth_for_few = 2.2, share_of_few = 0.45;
 
+/// Share of the way to the corners of a box: about the extent of a sphere in it.
+constexpr double towards_sphere = 0.8;
+
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
@@ -105,17 +108,19 @@ std::vector<Vec3d> without_flown(const std::vector<Vec3d>& points, const Box& st
   return is_few && is_large ? near : points;
 }
 
-/// The start of a body that the camera moves along with, and room for it to burst.
+/// The start of what the camera moves along with, and room for it to burst.
 std::vector<Vec3d> followed(const scene::Scene& scene, const std::string& name) {
   constexpr double room = 1.6;
   std::vector<Vec3d> points;
-  for (const sim::seeding::Body& body : scene.bodies) {
-    if (body.name != name) continue;
-    const sim::shapes::Bounds box = sim::shapes::bounds(body.shape);
+  const auto add = [&](const sim::shapes::Bounds& box) {
     const Vec3d center = 0.5 * (box.min + box.max);
     for (const Vec3d& corner : corners(box.min, box.max))
       points.push_back(center + room * (corner - center));
-  }
+  };
+  for (const sim::seeding::Body& body : scene.bodies)
+    if (body.name == name) add(sim::shapes::bounds(body.shape));
+  for (const sim::shapes::Collider& collider : scene.colliders)
+    if (points.empty() && collider.name == name) add(sim::shapes::bounds_at(collider, 0));
   return points;
 }
 
@@ -160,10 +165,28 @@ void add_small_colliders(const scene::Scene& scene, std::vector<Vec3d>& points) 
     const bool is_near = ((bounds.min - margin).array() <= snow.max.array()).all() &&
                          ((bounds.max + margin).array() >= snow.min.array()).all();
     if (!is_near || (bounds.max - bounds.min).norm() > 1.5 * snow.diagonal()) continue;
-    // Half way to the corners: about the extent of a sphere in the box.
-    const Vec3d center = 0.5 * (bounds.min + bounds.max), half = 0.4 * (bounds.max - bounds.min);
+    const Vec3d center = 0.5 * (bounds.min + bounds.max),
+                half = towards_sphere * (bounds.max - center);
     for (const Vec3d& corner : corners(center - half, center + half)) points.push_back(corner);
   }
+}
+
+/// What snow moves is as much the subject, until it is so far away that all else would be small.
+void add_bodies(const std::vector<CoarseMoment>& moments, std::vector<Vec3d>& points) {
+  constexpr double largest_growth_for_bodies = 3;
+  const double largest = largest_growth_for_bodies * box_of(points).diagonal();
+  Box seen = box_of(points);
+  for (const CoarseMoment& moment : moments)
+    for (const sim::shapes::Bounds& body : moment.bodies) {
+      if (!body.min.allFinite() || !body.max.allFinite()) continue;
+      const Vec3d center = 0.5 * (body.min + body.max), half = towards_sphere * (body.max - center);
+      Box grown = seen;
+      grown.add(center - half);
+      grown.add(center + half);
+      if (grown.diagonal() > largest) continue;
+      seen = grown;
+      for (const Vec3d& corner : corners(center - half, center + half)) points.push_back(corner);
+    }
 }
 
 /// The floor below the subject, unless it is farther below than the subject is large: snow falls
@@ -345,6 +368,7 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
       is_following ? followed(scene, settings.follow) : subject(scene, moments);
   if (!is_following && !normal) points = without_flown(points, start_of(scene));
   if (!is_following) add_small_colliders(scene, points);
+  if (!is_following) add_bodies(moments, points);
   // On a plane there is room for the few that fly, since those beside it are not seen.
   const bool is_upright = normal && std::abs(normal->normalized().y()) < 0.1;
   if (is_upright && !is_following) add_floor(scene, points);

@@ -130,13 +130,64 @@ double step_at_rest(const sim::SolverSettings& solver,
   return step;
 }
 
-}  // namespace
-
-double impact_speed(const scene::Scene& scene) {
+double snow_speed(const scene::Scene& scene) {
   double speed = 0;
   for (const SnowPiece& piece : snow_places(scene))
     speed = std::max(speed, impact_speed(scene, piece));
   return speed;
+}
+
+/// Heights and speeds of bodies: until they fall on something, or are stopped by it.
+struct BodyRanges {
+  double low = 1e300, high = -1e300;  ///< m
+  double speed = 0;                   ///< m/s
+};
+
+/// m, along gravity to what is below; until the end of the scene where nothing is.
+double fall_of(const scene::Scene& scene, const sim::shapes::Collider& body, const Vec3d& down) {
+  const double duration = scene::duration(scene);
+  double fall = 0.5 * scene.solver.gravity.norm() * duration * duration;
+  for (const sim::shapes::Collider& collider : scene.colliders) {
+    if (collider.body.moves()) continue;
+    const double distance = distance_to(collider, sim::shapes::center(body.shape), down);
+    if (distance >= 0) fall = std::min(fall, distance);
+  }
+  return fall;
+}
+
+BodyRanges body_ranges(const scene::Scene& scene) {
+  BodyRanges ranges;
+  const double g = scene.solver.gravity.norm();
+  const Vec3d down = g > 0 ? Vec3d(scene.solver.gravity / g) : Vec3d(-Vec3d::UnitY());
+  // What snow hits is at most about as fast.
+  const double snow = snow_speed(scene);
+  for (const sim::shapes::Collider& body : scene.colliders) {
+    if (!body.body.moves()) continue;
+    const sim::shapes::Bounds box = sim::shapes::bounds_at(body, 0);
+    const double size = 0.5 * (box.max - box.min).norm(), y = 0.5 * (box.min + box.max).y();
+    const double up = std::max(0.0, -body.velocity.dot(down));
+    const double rise = g > 0 ? 0.5 * up * up / g : up * scene::duration(scene);
+    const bool is_joined = body.body.joint != sim::shapes::Joint::none;
+    const double fall = is_joined ? 0 : fall_of(scene, body, down);
+    ranges.low = std::min(ranges.low, y - std::max(fall * -down.y(), size));
+    ranges.high = std::max(ranges.high, y + std::max(rise, size));
+    ranges.speed =
+        std::max({ranges.speed, snow,
+                  std::sqrt(body.velocity.squaredNorm() + 2 * g * std::max(fall, size))});
+  }
+  return ranges;
+}
+
+/// Ends that are multiples of a round step.
+scene::Range rounded_range(double low, double high) {
+  const double step = round_up(0.1 * std::max(high - low, 1e-6));
+  return {step * std::floor(low / step), step * std::ceil(high / step)};
+}
+
+}  // namespace
+
+double impact_speed(const scene::Scene& scene) {
+  return scene::has_moving_bodies(scene) ? body_ranges(scene).speed : snow_speed(scene);
 }
 
 double energy_of_impact(const scene::Scene& scene) {
@@ -246,6 +297,11 @@ void resolve_plot_ranges(const scene::Scene& scene, scene::PlotRanges& ranges) {
   if (!ranges.energy) ranges.energy = from_zero(energy_of_impact(scene));
   if (!ranges.speed) ranges.speed = automatic_range(scene, scene::ColorBy::speed, 0);
   if (!ranges.force) ranges.force = from_zero(force_of_impact(scene));
+  if (scene::has_moving_bodies(scene) && !(ranges.body_height && ranges.body_speed)) {
+    const BodyRanges bodies = body_ranges(scene);
+    if (!ranges.body_height) ranges.body_height = rounded_range(bodies.low, bodies.high);
+    if (!ranges.body_speed) ranges.body_speed = from_zero(bodies.speed);
+  }
   if (!ranges.dt) ranges.dt = from_zero(1.05 * step_at_rest(scene.solver, scene.materials));
 }
 

@@ -10,7 +10,8 @@ namespace neve::app::setup {
 scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
                              std::size_t particle_count);
 
-/// m/s: speed of the quickest body when it meets the surface below it, or at the end of the scene.
+/// m/s: speed of the quickest snow, or collider that moves by itself, when it meets the surface
+/// below it, or at the end of the scene.
 double impact_speed(const scene::Scene& scene);
 
 /// Automatic range of a field on nodes.

@@ -78,6 +78,13 @@ sim::Simulation coarse_simulation(const scene::Scene& coarse,
   }
 }
 
+std::vector<sim::shapes::Bounds> boxes_of_bodies(const sim::Simulation& simulation) {
+  std::vector<sim::shapes::Bounds> boxes;
+  for (const sim::shapes::Collider& collider : simulation.colliders())
+    if (collider.body.moves()) boxes.push_back(sim::shapes::bounds_at(collider, simulation.time()));
+  return boxes;
+}
+
 /// A run as far as the budget lasts, or the coarse snow holds together.
 struct Run {
   std::vector<CoarseMoment> seen;
@@ -90,12 +97,11 @@ Run run_within_budget(const scene::Scene& coarse) {
   result.is_whole = true;
   const double emitted = planned_emission(coarse, coarse.frames / coarse.fps);
   if (particles.x.empty() && emitted == 0) return result;
+  sim::Simulation simulation = coarse_simulation(coarse, particles);
   const auto note = [&](double time, const std::vector<sim::Vec3d>& x) {
-    if (!x.empty()) result.seen.push_back({time, x});
+    if (!x.empty()) result.seen.push_back({time, x, boxes_of_bodies(simulation)});
   };
   note(0, particles.x);
-
-  sim::Simulation simulation = coarse_simulation(coarse, particles);
   long steps_left = std::lround(work_budget / (static_cast<double>(particles.x.size()) + emitted));
   const double duration = coarse.frames / coarse.fps;
   for (int k = 1; k <= moments && duration > 0; ++k) {

@@ -7,10 +7,12 @@
 
 namespace neve::app::setup {
 
-/// Positions of the coarse particles at one time.
+/// Positions of the coarse particles at one time, and boxes around the colliders that move by
+/// themselves.
 struct CoarseMoment {
   double time = 0;
   std::vector<sim::Vec3d> x;
+  std::vector<sim::shapes::Bounds> bodies{};
 };
 
 /// Approximate number of particles of the bodies.

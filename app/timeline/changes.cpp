@@ -4,6 +4,7 @@
 #include <set>
 
 #include "app/scene/flat.h"
+#include "app/scene/override.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
@@ -13,14 +14,16 @@ namespace neve::app::timeline {
 
 namespace {
 
-/// Overrides from changes: of two changes to one address, only the later one has an effect.
+/// Overrides from changes: of two changes to one address, only the later one has an effect, and
+/// none inside of an object that comes or goes as a whole later.
 std::vector<scene::Override> overrides_of(const std::vector<scene::LiveChange>& changes,
                                           std::size_t count) {
   std::vector<scene::Override> overrides;
   std::set<std::string> later;
   for (std::size_t k = count; k-- > 0;) {
     const scene::LiveChange& change = changes[k];
-    if (!later.insert(change.address).second) continue;
+    if (later.contains(scene::object_of(change.address)) || !later.insert(change.address).second)
+      continue;
     scene::Override override{change.address, change.value};
     override.flag = "change at step " + std::to_string(change.step) + ":";
     overrides.push_back(std::move(override));
@@ -105,6 +108,18 @@ void require_live(const scene::Scene& before, const scene::Scene& after, const c
   for (const scene::Difference& d : restart) names.push_back(d.address);
   throw UsageError(flag, joined(names, ", ") + " cannot change while a simulation runs",
                    "parameters that can: " + live_addresses());
+}
+
+scene::Scene in_order_of(const scene::Scene& before, scene::Scene after) {
+  const auto place_of = [&](const scene::Collider& collider) {
+    return std::find_if(before.colliders.begin(), before.colliders.end(),
+                        [&](const scene::Collider& other) { return other.name == collider.name; });
+  };
+  std::stable_sort(after.colliders.begin(), after.colliders.end(),
+                   [&](const scene::Collider& a, const scene::Collider& b) {
+                     return place_of(a) < place_of(b);
+                   });
+  return after;
 }
 
 void follow_colliders(const sim::Simulation& simulation, scene::Scene& scene) {

@@ -38,6 +38,10 @@ scene::Scene recorded_scene(const scene::Scene& start, const scene::Scene& now);
 /// parameters that can change
 void require_live(const scene::Scene& before, const scene::Scene& after, const char* flag);
 
+/// With the colliders in the order of an earlier scene, new ones behind: as the list of changes
+/// makes it again, wherever the new ones were put.
+scene::Scene in_order_of(const scene::Scene& before, scene::Scene after);
+
 /// The colliders of the scene where those of the simulation are, to draw or measure them.
 void follow_colliders(const sim::Simulation& simulation, scene::Scene& scene);
 

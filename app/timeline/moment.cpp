@@ -33,12 +33,27 @@ double number_of(const Json& json, const std::string& name) {
   return json.get<double>();
 }
 
+Json bodies_json(const std::vector<picture::BodySample>& bodies) {
+  Json list = Json::array();
+  for (const picture::BodySample& body : bodies)
+    list.push_back({body.name, number_or_null(body.height), number_or_null(body.speed)});
+  return list;
+}
+
+std::vector<picture::BodySample> bodies_of(const Json& list) {
+  std::vector<picture::BodySample> bodies;
+  for (const Json& body : list)
+    bodies.push_back({body.at(0).get<std::string>(), number_of(body.at(1), "history height"),
+                      number_of(body.at(2), "history speed")});
+  return bodies;
+}
+
 Json history_json(std::span<const picture::PlotSample> history) {
   Json rows = Json::array();
   for (const picture::PlotSample& s : history)
     rows.push_back({number_or_null(s.time), number_or_null(s.kinetic_energy),
                     number_or_null(s.elastic_energy), number_or_null(s.max_speed), s.steps,
-                    static_cast<int>(s.limit), number_or_null(s.max_force)});
+                    static_cast<int>(s.limit), number_or_null(s.max_force), bodies_json(s.bodies)});
   return rows;
 }
 
@@ -60,6 +75,7 @@ std::vector<picture::PlotSample> history_of(const Json& rows, int frame, std::si
     // Checkpoints of earlier versions have no forces: their curve has a gap.
     s.max_force = row.size() > 6 && !row.at(6).is_null() ? number_of(row.at(6), "history max_force")
                                                          : std::numeric_limits<double>::quiet_NaN();
+    if (row.size() > 7) s.bodies = bodies_of(row.at(7));
     history.push_back(s);
   }
   return history;

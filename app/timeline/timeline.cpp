@@ -21,6 +21,10 @@ namespace {
 
 constexpr std::size_t no_step = std::numeric_limits<std::size_t>::max();
 
+std::vector<picture::BodySample> body_samples(const sim::Simulation& simulation) {
+  return picture::body_samples(simulation.colliders(), simulation.time());
+}
+
 }  // namespace
 
 Watch watched_by(Progress& progress, double fps) {
@@ -57,7 +61,8 @@ void Timeline::begin() {
   made_ = 0;
   summary_.reset();
   make_due();
-  here_.history.push_back(picture::plot_sample(0, 1 / fps(), summary(), {}));
+  here_.history.push_back(
+      picture::plot_sample(0, 1 / fps(), summary(), {}, body_samples(simulation_)));
 }
 
 Moment Timeline::moment() const {
@@ -115,8 +120,9 @@ void Timeline::make_due() {
   }
 }
 
-void Timeline::change(std::shared_ptr<const scene::Scene> scene) {
+void Timeline::change(std::shared_ptr<const scene::Scene> changed) {
   const std::shared_ptr<const scene::Scene> before = here_.scene;
+  const auto scene = std::make_shared<const scene::Scene>(in_order_of(*before, *changed));
   use(scene);
   fork();
   // Compares the values of the simulation, not the typed ones: they differ in a coarsened scene.
@@ -247,8 +253,8 @@ bool Timeline::end_frame() {
   if (simulation_.divergence() || !is_not_after(frame_end(), simulation_.time())) return false;
   ++here_.frame;
   here_.steps_of_frame = here_.steps;
-  here_.history.push_back(
-      picture::plot_sample(here_.frame / fps(), 1 / fps(), summary(), here_.advance));
+  here_.history.push_back(picture::plot_sample(here_.frame / fps(), 1 / fps(), summary(),
+                                               here_.advance, body_samples(simulation_)));
   if (watch_.after_frame) watch_.after_frame(here_.frame);
   return true;
 }

@@ -57,11 +57,12 @@ std::vector<shapes::Collider> with_offsets(const std::vector<shapes::Collider>& 
   std::vector<shapes::Collider> colliders = after;
   for (std::size_t k = 0; k < colliders.size(); ++k) {
     const shapes::Collider* same = earlier(before, after[k], k);
-    if (same && same->body.moves() && after[k].body.moves())
-      shapes::continue_motion(*same, colliders[k], time);
+    if (!same)
+      colliders[k].pose_offset = {.since = time};
     else
-      colliders[k].pose_offset =
-          same ? shapes::offset_after(*same, after[k], time) : shapes::PoseOffset{.since = time};
+      colliders[k].pose_offset = same->body.moves() && after[k].body.moves()
+                                     ? shapes::body_offset_after(*same, after[k], time)
+                                     : shapes::offset_after(*same, after[k], time);
   }
   return colliders;
 }

@@ -192,10 +192,10 @@ std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& f
   std::vector<SavedMotion> motions;
   const rigid::RigidBodies& bodies = state.colliders.bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const shapes::Collider& body = state.colliders.list()[bodies.collider(b)];
+    const shapes::Pose pose = shapes::pose_at(state.colliders.list()[bodies.collider(b)], 0);
     SavedMotion& motion = motions.emplace_back();
-    Vec3d::Map(motion.velocity) = body.velocity;
-    Vec3d::Map(motion.spin) = body.angular_velocity;
+    Vec3d::Map(motion.velocity) = pose.velocity;
+    Vec3d::Map(motion.spin) = pose.angular_velocity;
   }
   const SavedHead head = head_of(state, emitters.size(), contacts.size());
   std::vector<std::uint8_t> bytes(sizeof head + sizeof state.progress + bytes_in(records) +
@@ -221,11 +221,10 @@ void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<R
   SavedNumbers<Real> saved = read_saved(bytes, state, flow);
   require_consistent(saved, state.method);
   state.progress = saved.progress;
+  for (std::size_t b = 0; b < saved.motions.size(); ++b)
+    saved.offsets[state.colliders.bodies().collider(b)].motion = saved.motions[b];
   for (std::size_t k = 0; k < saved.offsets.size(); ++k)
     state.colliders.set_offset(k, saved.offsets[k]);
-  for (std::size_t b = 0; b < saved.motions.size(); ++b)
-    state.colliders.set_velocities(state.colliders.bodies().collider(b), saved.motions[b][0],
-                                   saved.motions[b][1]);
   state.colliders.place(state.method.lattice, saved.progress.colliders_time, *state.pool);
   flow.restore(saved.emitters);
   state.particles.replace(saved.records);

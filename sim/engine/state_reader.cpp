@@ -144,8 +144,9 @@ std::uint64_t StateReader<Real>::state_hash() const {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const std::size_t k = bodies.collider(b);
     const shapes::Collider& body = state_.colliders.list()[k];
-    std::uint64_t hash = hash_bytes(body.velocity.data(), sizeof(Vec3d));
-    hash = hash_bytes(body.angular_velocity.data(), sizeof(Vec3d), hash);
+    const shapes::Pose pose = shapes::pose_at(body, state_.progress.colliders_time);
+    std::uint64_t hash = hash_bytes(pose.velocity.data(), sizeof(Vec3d));
+    hash = hash_bytes(pose.angular_velocity.data(), sizeof(Vec3d), hash);
     hash = hash_bytes(body.pose_offset.moved.data(), sizeof(Vec3d), hash);
     hash = hash_bytes(body.pose_offset.turned.data(), sizeof(Mat3d), hash);
     // Ids of particles have 32 bits.

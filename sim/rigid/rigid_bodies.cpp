@@ -270,6 +270,22 @@ class RigidBodies::World {
   btSequentialImpulseConstraintSolver solver_;
 };
 
+namespace {
+
+/// @param centre  of mass, from the point of the pose in the axes of the scene
+Motion motion_of(const shapes::Pose& pose, const Vec3d& centre) {
+  const Vec3d arm = pose.rotation * centre;
+  return {pose.point + arm, pose.rotation, pose.velocity + pose.angular_velocity.cross(arm),
+          pose.angular_velocity};
+}
+
+}  // namespace
+
+Motion motion_at(const shapes::Collider& body, double time) {
+  return motion_of(shapes::pose_at(body, time),
+                   shapes::form_axes(body.shape) * mass_properties(body).centre);
+}
+
 RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
   for (std::size_t k = 0; k < colliders.size(); ++k) {
     const shapes::Collider& c = colliders[k];
@@ -304,10 +320,8 @@ RigidBodies& RigidBodies::operator=(const RigidBodies& other) {
 void RigidBodies::begin(const std::vector<shapes::Collider>& colliders, double time) {
   if (!world_) world_ = std::make_unique<World>(bodies_, colliders);
   for (Body& body : bodies_) {
-    const shapes::Pose pose = shapes::pose_at(colliders[body.collider], time);
-    const Vec3d arm = pose.rotation * body.axes * body.mass.centre;
-    body.before = {pose.point + arm, pose.rotation,
-                   pose.velocity + pose.angular_velocity.cross(arm), pose.angular_velocity};
+    body.before =
+        motion_of(shapes::pose_at(colliders[body.collider], time), body.axes * body.mass.centre);
     body.after = body.before;
   }
   world_->place(bodies_, colliders, time);
@@ -345,10 +359,11 @@ void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& 
   const Mat3d rotation = attitude.toRotationMatrix();
   const Vec3d arm = rotation * body.axes * body.mass.centre;
   const Vec3d point = body.after.centre + dt * body.after.velocity - arm;
-  shapes::set_motion(collider, body.after.velocity - body.after.spin.cross(arm), body.after.spin);
-  collider.pose_offset = {time, point - shapes::center(collider.shape),
-                          rotation * rotation_from_degrees(collider.shape.rotation).transpose(),
-                          collider.pose_offset.delay};
+  collider.pose_offset = {
+      time, point - shapes::center(collider.shape),
+      rotation * rotation_from_degrees(collider.shape.rotation).transpose(),
+      collider.pose_offset.delay,
+      std::array{Vec3d(body.after.velocity - body.after.spin.cross(arm)), body.after.spin}};
 }
 
 }  // namespace neve::sim::rigid

@@ -1,7 +1,7 @@
 #pragma once
 /// Colliders that move by themselves: pushed by snow, pulled by gravity, stopped by each other.
 ///
-/// Where a body is and how it moves is what its collider says (velocity, spin and pose offset):
+/// Where a body is and how it moves is what its collider says (its pose offset):
 /// nothing else lasts from step to step, so a run that is resumed takes the same steps to the bit.
 /// A step is staggered: snow meets the surfaces where they are at its start, at velocities that
 /// answer to its impulses pass by pass (sim/engine/body_contact.h); then the bodies get exactly the
@@ -29,6 +29,9 @@ struct Motion {
   Vec3d velocity{0, 0, 0};             ///< m/s
   Vec3d spin{0, 0, 0};                 ///< rad/s
 };
+
+/// Of a collider that moves by itself. @throws as mass_properties
+Motion motion_at(const shapes::Collider& body, double time);
 
 class RigidBodies {
  public:

@@ -201,10 +201,10 @@ Pose pose_at(const Collider& collider, double time) {
                      time - offset.delay);
   const double moving = time - offset.since;
   const Mat3d start = offset.turned * rotation_from_degrees(collider.shape.rotation);
-  return {
-      center(collider.shape) + offset.moved + moving * collider.velocity,
-      turns(collider) ? rotation_from_vector(moving * collider.angular_velocity) * start : start,
-      collider.velocity, collider.angular_velocity};
+  const auto [velocity, spin] =
+      offset.motion.value_or(std::array{collider.velocity, collider.angular_velocity});
+  return {center(collider.shape) + offset.moved + moving * velocity,
+          turns(collider) ? rotation_from_vector(moving * spin) * start : start, velocity, spin};
 }
 
 double shape_time(const Collider& collider, double time) {
@@ -229,23 +229,12 @@ PoseOffset offset_after(const Collider& before, const Collider& after, double ti
   return offset;
 }
 
-void set_motion(Collider& body, const Vec3d& velocity, const Vec3d& spin) {
-  if (!body.body.start) body.body.start = {body.velocity, body.angular_velocity};
-  body.velocity = velocity;
-  body.angular_velocity = spin;
-}
-
-void continue_motion(const Collider& before, Collider& after, double time) {
-  const std::array<Vec3d, 2> start =
-      before.body.start.value_or(std::array{before.velocity, before.angular_velocity});
-  after.pose_offset = before.pose_offset;
-  if (after.velocity == start[0] && after.angular_velocity == start[1])
-    return set_motion(after, before.velocity, before.angular_velocity);
+PoseOffset body_offset_after(const Collider& before, const Collider& after, double time) {
+  if (same_motion(before, after)) return before.pose_offset;
   const Pose now = pose_at(before, time);
-  after.pose_offset.since = time;
-  after.pose_offset.moved = now.point - center(before.shape);
-  after.pose_offset.turned =
-      now.rotation * rotation_from_degrees(before.shape.rotation).transpose();
+  return {time, now.point - center(before.shape),
+          now.rotation * rotation_from_degrees(before.shape.rotation).transpose(),
+          before.pose_offset.delay};
 }
 
 PoseOffset delayed(PoseOffset offset, double seconds) {
@@ -269,7 +258,8 @@ Bounds bounds_at(const Collider& collider, double time) {
 }
 
 double largest_speed(const Collider& collider) {
-  const bool may_turn = !collider.keyframes.empty() || !collider.angular_velocity.isZero(0);
+  const bool may_turn =
+      !collider.keyframes.empty() || !pose_at(collider, 0).angular_velocity.isZero(0);
   const double furthest = may_turn ? std::visit(FurthestPlace{}, collider.shape.form) : 0;
   double speed = collider.keyframes.empty() ? speed_at(collider, furthest, 0) : 0;
   for (std::size_t k = 1; k < collider.keyframes.size(); ++k) {

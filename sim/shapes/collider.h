@@ -21,6 +21,8 @@ struct PoseOffset {
   Vec3d moved{0, 0, 0};              ///< m, until then
   Mat3d turned = Mat3d::Identity();  ///< until then, after the rotation of the shape
   double delay = 0;                  ///< s that steps did not move it: keyframes are so much later
+  /// m/s and rad/s from then on, of a body that moves by itself; absent: as the collider says.
+  std::optional<std::array<Vec3d, 2>> motion{};
 };
 
 /// Directions of the world that a body may not move along or turn about.
@@ -44,8 +46,6 @@ struct RigidBody {
   Vec3d spring_place{0, 0, 0};  ///< m, to which a spring pulls the centre of mass
   double spring_stiffness = 0;  ///< N/m
   double spring_damping = 0;    ///< N s/m
-  /// m/s and rad/s, that its motion began with, once it has another.
-  std::optional<std::array<Vec3d, 2>> start{};
 
   bool moves() const { return density > 0 || mass > 0; }
 };
@@ -78,12 +78,9 @@ double shape_time(const Collider& collider, double time);
 /// the edit alone. Keyframes say themselves where it is.
 PoseOffset offset_after(const Collider& before, const Collider& after, double time);
 
-/// A body that moves by itself has this velocity now, m/s and rad/s.
-void set_motion(Collider& body, const Vec3d& velocity, const Vec3d& spin);
-
-/// Offset of a body that moves by itself and is changed at a time: it continues as it does, unless
-/// it is given another velocity to start with. @param after  gets the motion
-void continue_motion(const Collider& before, Collider& after, double time);
+/// The same for a body that moves by itself: it continues as it does, unless it is given another
+/// velocity to start with.
+PoseOffset body_offset_after(const Collider& before, const Collider& after, double time);
 
 /// Offset of a collider that steps did not move for a while.
 PoseOffset delayed(PoseOffset offset, double seconds);

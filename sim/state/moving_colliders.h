@@ -29,10 +29,6 @@ class MovingColliders {
   void set_offset(std::size_t k, const shapes::PoseOffset& offset) {
     list_[k].pose_offset = offset;
   }
-  /// Of a body that moves by itself.
-  void set_velocities(std::size_t k, const Vec3d& velocity, const Vec3d& spin) {
-    shapes::set_motion(list_[k], velocity, spin);
-  }
   /// Bodies that move by themselves, at the beginning of a step.
   /// @param time  of their poses  @return nothing where there is none
   rigid::RigidBodies* begin_bodies(double time);

@@ -122,9 +122,9 @@ TEST(RigidProof, ABlockOnASlopeOfSnowSlidesBeyondTheFrictionAngle) {
                           {plane({0, 0, 0}, {0, 1, 0}, 0, shapes::Contact::sticky), block},
                           box_of_snow({-0.2, 0, -0.1}, {0.4, 0.1, 0.1}, 0.01), 2);
     simulation.advance_to(0.1);
-    const double start = simulation.colliders()[1].velocity.x();
+    const double start = motion_of(simulation, 1).velocity.x();
     simulation.advance_to(0.3);
-    const double gained = (simulation.colliders()[1].velocity.x() - start) / 0.2;
+    const double gained = (motion_of(simulation, 1).velocity.x() - start) / 0.2;
     const double exact = std::max(0.0, 9.81 * (std::sin(a) - mu * std::cos(a)));
     verify_near({"rigid", "a block on snow at " + in_digits(degrees) + " degrees, friction of 18",
                  "acceleration, m/s2"},

@@ -63,7 +63,7 @@ Hit hit_plate(Method method, double density, double seconds = 0.03) {
   Hit hit;
   while (simulation.time() < seconds && !simulation.divergence()) {
     simulation.step(simulation.choose_dt(1).dt);
-    hit.fastest = std::max(hit.fastest, simulation.colliders()[0].velocity.norm());
+    hit.fastest = std::max(hit.fastest, motion_of(simulation, 0).velocity.norm());
   }
   hit.diverged = simulation.divergence().has_value();
   const shapes::Collider body = simulation.colliders()[0];
@@ -73,7 +73,7 @@ Hit hit_plate(Method method, double density, double seconds = 0.03) {
   const Summary summary = simulation.summary();
   hit.change = summary.momentum + given - before;
   hit.size = given.norm();
-  hit.speed = -body.velocity[1];
+  hit.speed = -motion_of(simulation, 0).velocity[1];
   hit.snow_speed = -summary.momentum[1] / summary.mass;
   return hit;
 }
@@ -138,7 +138,7 @@ TEST(RigidSnow, SameBitsAtAnyNumberOfThreads) {
     EXPECT_EQ(one.state_hash(), three.state_hash());
     EXPECT_LT(shapes::pose_at(one.colliders()[3], one.time()).rotation(1, 0), -0.1)
         << "nothing hit the lever";
-    EXPECT_EQ(one.colliders()[3].angular_velocity, three.colliders()[3].angular_velocity);
+    EXPECT_EQ(motion_of(one, 3).angular_velocity, motion_of(three, 3).angular_velocity);
   }
 }
 
@@ -154,7 +154,7 @@ TEST(RigidSnow, SavedAndRestoredItTakesTheSameSteps) {
   resumed.advance_to(0.06);
   EXPECT_EQ(resumed.state_hash(), whole.state_hash());
   for (std::size_t k = 1; k < 4; ++k) {
-    EXPECT_EQ(resumed.colliders()[k].velocity, whole.colliders()[k].velocity) << k;
+    EXPECT_EQ(motion_of(resumed, k).velocity, motion_of(whole, k).velocity) << k;
     EXPECT_EQ(resumed.colliders()[k].pose_offset.moved, whole.colliders()[k].pose_offset.moved);
   }
 }
@@ -190,13 +190,13 @@ TEST(RigidSnow, ABodyGoesOnWhenParametersChange) {
   const Vec3d place = shapes::pose_at(run.colliders()[2], run.time()).point;
   list[2].velocity = {0, 3, 0};
   run.apply(settings_with_beta(0), {Material{}}, list);
-  EXPECT_EQ(run.colliders()[2].velocity, Vec3d(0, 3, 0));
+  EXPECT_EQ(motion_of(run, 2).velocity, Vec3d(0, 3, 0));
   EXPECT_LE((shapes::pose_at(run.colliders()[2], run.time()).point - place).norm(), 1e-12);
   run.advance_to(0.04);
   // Thrown once: the same parameters again do not throw it again.
-  const Vec3d velocity = run.colliders()[2].velocity;
+  const Vec3d velocity = motion_of(run, 2).velocity;
   run.apply(settings_with_beta(0), {Material{}}, list);
-  EXPECT_EQ(run.colliders()[2].velocity, velocity);
+  EXPECT_EQ(motion_of(run, 2).velocity, velocity);
 }
 
 /// The driver that takes one stage after the other.
@@ -206,8 +206,8 @@ TEST(RigidSnow, BothDriversMoveBodies) {
   s.bypass = {Stage::volumes};
   Simulation staged(s, {Material{}}, things(), falling_snow(), 1);
   for (Simulation* run : {&fused, &staged}) run->advance_to(0.03);
-  EXPECT_LE((fused.colliders()[3].angular_velocity - staged.colliders()[3].angular_velocity).norm(),
-            0.02 * fused.colliders()[3].angular_velocity.norm());
+  EXPECT_LE((motion_of(fused, 3).angular_velocity - motion_of(staged, 3).angular_velocity).norm(),
+            0.02 * motion_of(fused, 3).angular_velocity.norm());
 }
 
 /// Where no snow shortens the step, a quick body takes it in parts: neither a thin wall nor another

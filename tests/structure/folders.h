@@ -61,7 +61,7 @@ inline constexpr Folder folders[] = {
     {"app/output", "sim/base sim/types sim sim/checks render/image app/support"},
     {"app/record",
      "sim/base sim/types sim sim/checks render/image app/support app/scene/toml app/scene "
-     "app/output sim/shapes"},
+     "app/output sim/shapes sim/rigid"},
     {"app/setup",
      "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/laws sim/health sim app/support "
      "app/scene/toml app/advice app/scene app/output"},
@@ -71,10 +71,10 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim/shapes sim/seeding sim/laws sim/health sim app/support "
      "app/scene/toml app/scene app/setup"},
     {"app/health",
-     "sim/base sim/types sim/shapes sim/seeding sim/laws sim/health sim app/support "
+     "sim/base sim/types sim/shapes sim/rigid sim/seeding sim/laws sim/health sim app/support "
      "app/scene/toml app/scene app/output app/setup app/forecast"},
     {"app/picture",
-     "sim/base sim/types sim/shapes sim/laws sim/health sim render/frame render/shapes "
+     "sim/base sim/types sim/shapes sim/rigid sim/laws sim/health sim render/frame render/shapes "
      "render/channels "
      "render app/support app/scene/toml app/scene app/setup app/health"},
     {"app/exports",

@@ -28,6 +28,11 @@ inline sim::shapes::Collider box_of(double density, const Vec3d& centre, const V
   return c;
 }
 
+/// How a collider of a simulation moves now.
+inline sim::shapes::Pose motion_of(const sim::Simulation& simulation, std::size_t k) {
+  return sim::shapes::pose_at(simulation.colliders()[k], simulation.time());
+}
+
 /// Momentum of a body, and its moment of momentum about the origin.
 struct BodyMomentum {
   Vec3d linear, angular;

@@ -159,7 +159,17 @@ void add_prediction(const predict::Prediction& prediction, Rows& rows) {
   }
 }
 
-void add_header(const store::Manifest& manifest, bool has_predictions, bool with_times,
+/// Numbers of the metrics with a column.
+using Listed = std::vector<std::size_t>;
+
+Listed listed_metrics(const std::vector<store::RunResult>& results, bool with_times) {
+  Listed listed = store::listed_metrics(results);
+  if (!with_times)
+    std::erase_if(listed, [](std::size_t metric) { return store::metric_infos()[metric].is_time; });
+  return listed;
+}
+
+void add_header(const store::Manifest& manifest, bool has_predictions, const Listed& listed,
                 Rows& rows) {
   ColumnNames names;
   for (const char* name : {"run", "label"}) rows.add(names.unique(name, "_"));
@@ -167,8 +177,8 @@ void add_header(const store::Manifest& manifest, bool has_predictions, bool with
   // Columns of results give way to columns of settings: frames, frames_done.
   for (const char* name : {"state", "reason", "warnings", "frames"})
     rows.add(names.unique(name, "_done"));
-  for (const store::MetricInfo& metric : store::metric_infos())
-    if (with_times || !metric.is_time) rows.add(names.unique(metric.name, "_done"));
+  for (const std::size_t metric : listed)
+    rows.add(names.unique(store::metric_infos()[metric].name, "_done"));
   if (has_predictions) add_prediction_names(names, rows);
   for (const char* name : {"FILE", "FILE_scene"}) rows.add(name);
   rows.end();
@@ -187,7 +197,7 @@ void add_parameters(const store::Manifest& manifest, const Run& run, Rows& rows)
 
 /// @param prediction  of its point; null without
 void add_row(const store::Manifest& manifest, const Run& run, const store::RunResult& result,
-             const predict::Prediction* prediction, bool with_times, Rows& rows) {
+             const predict::Prediction* prediction, const Listed& listed, Rows& rows) {
   rows.add(std::to_string(run.index));
   rows.add(cell(run.label.empty() ? "run " + std::to_string(run.index) : run.label, "string"));
   add_parameters(manifest, run, rows);
@@ -195,9 +205,8 @@ void add_row(const store::Manifest& manifest, const Run& run, const store::RunRe
   rows.add(result.status.reason.empty() ? "-" : cell(result.status.reason, "string"));
   rows.add(std::to_string(result.warnings.size()));
   rows.add(std::to_string(result.frames.size()));
-  for (std::size_t k = 0; k < store::metric_infos().size(); ++k) {
+  for (const std::size_t k : listed) {
     const store::MetricInfo& metric = store::metric_infos()[k];
-    if (!with_times && metric.is_time) continue;
     // Metrics of a diverged run are not comparable.
     const bool is_told = metric.is_cost || store::is_whole(run, result);
     const std::optional<double> value = is_told ? result.metrics[k] : std::nullopt;
@@ -223,11 +232,10 @@ struct PointColumns {
 };
 
 std::vector<PointColumns> point_columns_of(const std::vector<store::Point>& points,
-                                           bool with_times) {
+                                           const Listed& listed) {
   std::vector<PointColumns> columns;
-  for (std::size_t metric = 0; metric < store::metric_infos().size(); ++metric) {
+  for (const std::size_t metric : listed) {
     const store::MetricInfo& info = store::metric_infos()[metric];
-    if (!with_times && info.is_time) continue;
     const std::vector<store::Summary> summaries = store::summaries_of(points, metric);
     columns.push_back(
         {summaries, store::shared_ranks(summaries), store::close_groups(summaries), info.is_whole});
@@ -235,17 +243,16 @@ std::vector<PointColumns> point_columns_of(const std::vector<store::Point>& poin
   return columns;
 }
 
-void add_point_header(const store::Manifest& manifest, bool has_predictions, bool with_times,
+void add_point_header(const store::Manifest& manifest, bool has_predictions, const Listed& listed,
                       Rows& rows) {
   ColumnNames names;
   for (const char* name : {"point", "label"}) rows.add(names.unique(name, "_"));
   add_parameter_names(manifest, names, rows);
   for (const char* name : {"runs", "ended", "judged", "broken"})
     rows.add(names.unique(name, "_done"));
-  for (const store::MetricInfo& metric : store::metric_infos())
-    if (with_times || !metric.is_time)
-      for (const char* column : point_columns)
-        rows.add(names.unique(std::string(metric.name) + column, "_done"));
+  for (const std::size_t metric : listed)
+    for (const char* column : point_columns)
+      rows.add(names.unique(std::string(store::metric_infos()[metric].name) + column, "_done"));
   if (has_predictions) add_prediction_names(names, rows);
   rows.end();
 }
@@ -271,9 +278,10 @@ std::string points_csv(const store::Manifest& manifest,
   if (manifest.seeds == 1) return {};
   const store::Manifest shown = store::first_draws(manifest);
   const std::vector<store::Point> points = store::points_of(manifest, results);
-  const std::vector<PointColumns> columns = point_columns_of(points, with_times);
+  const Listed listed = listed_metrics(results, with_times);
+  const std::vector<PointColumns> columns = point_columns_of(points, listed);
   Rows rows;
-  add_point_header(shown, !predictions.empty(), with_times, rows);
+  add_point_header(shown, !predictions.empty(), listed, rows);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Run& run = shown.runs[k];
     rows.add(std::to_string(k));
@@ -291,12 +299,13 @@ std::string points_csv(const store::Manifest& manifest,
 
 std::string data_csv(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
                      const std::vector<predict::Prediction>& predictions, bool with_times) {
+  const Listed listed = listed_metrics(results, with_times);
   Rows rows;
-  add_header(manifest, !predictions.empty(), with_times, rows);
+  add_header(manifest, !predictions.empty(), listed, rows);
   const auto seeds = static_cast<std::size_t>(manifest.seeds);
   for (std::size_t k = 0; k < manifest.runs.size(); ++k)
     add_row(manifest, manifest.runs[k], results[k],
-            predictions.empty() ? nullptr : &predictions[k / seeds], with_times, rows);
+            predictions.empty() ? nullptr : &predictions[k / seeds], listed, rows);
   return rows.text();
 }
 

@@ -205,7 +205,7 @@ std::string effects_csv(const store::Manifest& manifest,
   const bool has_noise = manifest.seeds > 1;
   std::string csv = "metric,unit,parameter,steps,mean,mean_of_sizes,standard_deviation";
   csv += has_noise ? ",within_noise\n" : "\n";
-  for (std::size_t metric = 0; metric < store::metric_infos().size(); ++metric) {
+  for (const std::size_t metric : store::listed_metrics(results)) {
     const store::MetricInfo& info = store::metric_infos()[metric];
     const std::vector<Effect> effects = effects_on(manifest, results, metric);
     for (std::size_t a = 0; a < effects.size(); ++a)

@@ -54,7 +54,8 @@ void add_prediction_columns(Json& columns) {
   });
 }
 
-Json column_names(const store::Manifest& manifest, bool has_predictions) {
+Json column_names(const store::Manifest& manifest, bool has_predictions,
+                  const std::vector<std::size_t>& metrics) {
   Json columns = Json::array();
   columns.push_back(column("run", "run", false));
   if (has_labels(manifest)) columns.push_back(column("name", "name", true));
@@ -65,8 +66,10 @@ Json column_names(const store::Manifest& manifest, bool has_predictions) {
   columns.push_back(column("state", "state", true));
   columns.push_back(column("warnings", "warnings", false, "hover over a cell for the text"));
   if (has_predictions) add_prediction_columns(columns);
-  for (const store::MetricInfo& metric : store::metric_infos())
+  for (const std::size_t k : metrics) {
+    const store::MetricInfo& metric = store::metric_infos()[k];
     columns.push_back(column("metric", titled(metric.title, metric.unit), false, metric.name));
+  }
   columns.push_back(column("reason", "reason", true));
   return columns;
 }
@@ -93,7 +96,7 @@ void add_prediction_cells(const predict::Prediction& prediction, Json& cells) {
 }
 
 Json cells_of(const store::Manifest& manifest, const Run& run, const store::RunResult& result,
-              const predict::Prediction* prediction) {
+              const predict::Prediction* prediction, const std::vector<std::size_t>& metrics) {
   Json cells = Json::array();
   cells.push_back(run.index);
   if (has_labels(manifest)) cells.push_back(run.label);
@@ -101,8 +104,8 @@ Json cells_of(const store::Manifest& manifest, const Run& run, const store::RunR
   cells.push_back(store::name(result.status.state));
   cells.push_back(result.warnings.size());
   if (prediction) add_prediction_cells(*prediction, cells);
-  for (const std::optional<double>& value : result.metrics)
-    cells.push_back(value ? Json(*value) : Json());
+  for (const std::size_t k : metrics)
+    cells.push_back(result.metrics[k] ? Json(*result.metrics[k]) : Json());
   cells.push_back(result.status.reason);
   return cells;
 }
@@ -148,6 +151,7 @@ std::string promote_command(const std::string& folder, const store::Manifest& ma
 
 /// A run of the sweep, and what else is known of its point.
 struct Known {
+  const std::vector<std::size_t>& metrics;          ///< that are listed
   const predict::Prediction* prediction = nullptr;  ///< of its point; null without
   const Run* full = nullptr;  ///< at full resolution, whose pictures are shown; null without
 };
@@ -175,7 +179,7 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
           {"texts", written_values(manifest, run)},
           {"full", known.full != nullptr},
           {"why", prediction ? prediction->reason : ""},
-          {"cells", cells_of(manifest, run, result, prediction)}};
+          {"cells", cells_of(manifest, run, result, prediction, known.metrics)}};
 }
 
 /// Of a grid or a screening, whose runs have a level on each.
@@ -228,8 +232,8 @@ void add_noise(const store::Manifest& manifest, const std::vector<store::RunResu
                                    : outcome_of(predictions[k], points[k]));
   data["groupColours"] = group_colours;
   data["noise"] = Json::array();
-  for (std::size_t metric = 0; manifest.seeds > 1 && metric < store::metric_infos().size();
-       ++metric)
+  for (const std::size_t metric :
+       manifest.seeds > 1 ? store::listed_metrics(results) : std::vector<std::size_t>{})
     data["noise"].push_back(noise_of(store::metric_infos()[metric].name,
                                      store::is_noise(manifest, points, metric),
                                      store::summaries_of(points, metric)));
@@ -256,12 +260,13 @@ Json report_data(const std::string& folder, const store::Manifest& manifest,
   data["tile"] = {manifest.tile_width, manifest.tile_height};
   data["across"] = columns_of_sheet(manifest);
   data["axes"] = axes_of(manifest);
-  data["columns"] = column_names(manifest, !predictions.empty());
+  const std::vector<std::size_t> metrics = store::listed_metrics(results);
+  data["columns"] = column_names(manifest, !predictions.empty(), metrics);
   add_noise(manifest, results, predictions, data);
   data["rows"] = Json::array();
   const auto seeds = static_cast<std::size_t>(manifest.seeds);
   for (std::size_t k = 0; k < manifest.runs.size(); ++k) {
-    Known known;
+    Known known{metrics};
     if (!predictions.empty()) known.prediction = &predictions[k / seeds];
     if (known.prediction && known.prediction->is_run)
       for (const store::Variant& variant : manifest.variants)

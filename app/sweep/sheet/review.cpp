@@ -74,7 +74,8 @@ Json metrics_json(const store::RunResult& result) {
   Json json = Json::object();
   const std::vector<store::MetricInfo>& infos = store::metric_infos();
   for (std::size_t k = 0; k < std::min(infos.size(), result.metrics.size()); ++k)
-    json[infos[k].name] = result.metrics[k] ? number_or_null(*result.metrics[k]) : Json();
+    if (!infos[k].is_of_bodies || result.metrics[k])
+      json[infos[k].name] = result.metrics[k] ? number_or_null(*result.metrics[k]) : Json();
   return json;
 }
 

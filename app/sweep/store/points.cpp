@@ -75,13 +75,17 @@ std::vector<Summary> summaries_of(const std::vector<Point>& points, std::size_t 
 }
 
 bool is_noise(const Manifest& manifest, const std::vector<Point>& points, std::size_t metric) {
-  return manifest.seeds > 1 && points.size() > 1 && !vary(summaries_of(points, metric));
+  const auto is_told = [&](const Point& point) { return point.metrics[metric].count > 0; };
+  return manifest.seeds > 1 && points.size() > 1 &&
+         std::any_of(points.begin(), points.end(), is_told) && !vary(summaries_of(points, metric));
 }
 
 std::optional<std::size_t> telling_metric(const Manifest& manifest,
                                           const std::vector<Point>& points) {
   for (std::size_t metric = 0; metric < metric_infos().size(); ++metric)
-    if (!metric_infos()[metric].is_cost && !is_noise(manifest, points, metric)) return metric;
+    if (!metric_infos()[metric].is_cost && !metric_infos()[metric].is_of_bodies &&
+        !is_noise(manifest, points, metric))
+      return metric;
   return std::nullopt;
 }
 

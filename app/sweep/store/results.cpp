@@ -28,6 +28,7 @@ std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRec
   if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
   const record::FrameRecord& last = frames.back();
   double steps = 0, max_speed = 0, max_force = 0, max_pressure = 0;
+  std::optional<double> max_body_speed;
   for (const record::FrameRecord& frame : frames) {
     steps += static_cast<double>(frame.advance.steps);
     max_speed = std::max(max_speed, frame.summary.max_speed);
@@ -35,6 +36,8 @@ std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRec
       max_force = std::max(max_force, f.force.norm());
       max_pressure = std::max(max_pressure, f.max_pressure);
     }
+    if (const std::optional<double> speed = record::largest_speed(frame.bodies))
+      max_body_speed = std::max(max_body_speed.value_or(0), *speed);
   }
   // Steps after the last frame count too.
   if (diverged_at) steps = std::max(steps, *diverged_at);
@@ -52,6 +55,9 @@ std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRec
           finite(max_speed),
           finite(max_force),
           finite(max_pressure),
+          record::largest_fall(frames.front().bodies, last.bodies),
+          record::largest_way(frames.front().bodies, last.bodies),
+          max_body_speed,
           steps,
           finite(status.seconds)};
 }
@@ -92,9 +98,22 @@ const std::vector<MetricInfo>& metric_infos() {
       {"max_speed", "m/s", "top speed", false, false},
       {"max_force", "N", "top force", false, false},
       {"max_pressure", "Pa", "top pressure", false, false},
+      {"body_fall", "m", "fall of a body", false, false, false, true},
+      {"body_way", "m", "way of a body", false, false, false, true},
+      {"max_body_speed", "m/s", "top speed of a body", false, false, false, true},
       {"steps", "", "steps", true, false, true},
       {"seconds", "s", "time", false, true, true}};
   return infos;
+}
+
+std::vector<std::size_t> listed_metrics(const std::vector<RunResult>& results) {
+  std::vector<std::size_t> listed;
+  for (std::size_t k = 0; k < metric_infos().size(); ++k)
+    if (!metric_infos()[k].is_of_bodies ||
+        std::any_of(results.begin(), results.end(),
+                    [&](const RunResult& r) { return k < r.metrics.size() && r.metrics[k]; }))
+      listed.push_back(k);
+  return listed;
 }
 
 bool is_whole(const Run& run, const RunResult& result) {

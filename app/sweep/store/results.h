@@ -14,8 +14,9 @@ namespace neve::app::sweep::store {
 struct MetricInfo {
   const char *name, *unit, *title;
   bool is_whole;
-  bool is_time;          ///< differs from machine to machine
-  bool is_cost = false;  ///< says something of a run that did not get to its end as well
+  bool is_time;               ///< differs from machine to machine
+  bool is_cost = false;       ///< says something of a run that did not get to its end as well
+  bool is_of_bodies = false;  ///< that move by themselves: listed only where there are some
 };
 /// In the order in which they are listed everywhere.
 const std::vector<MetricInfo>& metric_infos();
@@ -36,6 +37,9 @@ struct RunResult {
     return frames.empty() ? std::nullopt : std::optional(frames.back());
   }
 };
+
+/// Numbers of the metrics to list, in order: all but those of bodies in a sweep without any.
+std::vector<std::size_t> listed_metrics(const std::vector<RunResult>& results);
 
 /// Files of a run that ended as ok or diverged which are missing or damaged; "" if all are
 /// whole, and for other runs, whose pictures are not relied on.

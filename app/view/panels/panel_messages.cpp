@@ -174,6 +174,7 @@ void draw_help(ViewerState& state) {
     draw_keys("wheel, right drag", "zoom towards the mouse");
     draw_keys("click", "inspect the particle");
     draw_keys("ctrl + click", "inspect the node of the grid");
+    draw_keys("B, then click", "throw a ball; B or escape ends it");
     draw_keys("space", "run and pause");
     draw_keys(".   ,   ;", "next frame, step, stage");
     draw_keys("R", "reset to the first frame");

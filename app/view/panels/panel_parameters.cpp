@@ -269,6 +269,7 @@ void draw_objects(ViewerState& state) {
   WaitingBox waiting(state);
   forget_removed_selection(state, *state.bench.document().scene());
   draw_object_buttons(state);
+  draw_throwing(state);
   scene::Scene scene = settings_of(state);
   const auto entry = [&](const std::string& address, const sim::shapes::Shape& shape) {
     const bool is_selected = state.selected == address;

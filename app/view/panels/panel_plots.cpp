@@ -129,6 +129,13 @@ void draw_plots_panel(ViewerState& state) {
        {curve("", blue, [](const RunSample& s) { return s.max_pressure; })});
   draw(state, "largest force on a collider", "N",
        {curve("", pink, [](const RunSample& s) { return s.max_force; })});
+  if (auto heights =
+          picture::body_curves(samples, [](const picture::BodySample& b) { return b.height; });
+      !heights.empty()) {
+    draw(state, "height of bodies", "m", std::move(heights));
+    draw(state, "speed of bodies", "m/s",
+         picture::body_curves(samples, [](const picture::BodySample& b) { return b.speed; }));
+  }
   draw_phases(*state.live);
   const session::LiveFrame& live = *state.live;
   ImGui::TextDisabled("%s particles, %s, %d threads, %s",

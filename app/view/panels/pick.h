@@ -16,6 +16,10 @@ std::optional<std::size_t> pick_particle(const Orbit& orbit, double x, double y,
                                          const session::LiveFrame& live,
                                          const std::optional<scene::ClipPlane>& clip = {});
 
+/// The nearest place on snow or on a collider.
+std::optional<sim::Vec3d> pick_surface(const Orbit& orbit, double x, double y,
+                                       const session::LiveFrame& live);
+
 /// Intersection of the ray with the plane, in front of the eye.
 std::optional<sim::Vec3d> pick_plane(const Orbit& orbit, double x, double y,
                                      const picture::SlicePlane& plane);

@@ -55,6 +55,14 @@ struct StudyForm {
   std::string error;
 };
 
+/// The tool that throws balls.
+struct Throwing {
+  bool is_on = false;
+  double radius = 0;     ///< m; 0: not chosen yet
+  double density = 900;  ///< kg/m3, of ice
+  double speed = 0;      ///< m/s
+};
+
 struct ViewerState {
   session::Workbench& bench;
   std::shared_ptr<const session::LiveFrame> live{};
@@ -99,6 +107,7 @@ struct ViewerState {
   bool is_file_list_open = false;
   std::vector<session::WrittenFile> files{};
   StudyForm study{};
+  Throwing throwing{};
 };
 
 /// The tabs of the right column.
@@ -127,6 +136,9 @@ void show_incident(ViewerState& state);
 void draw_transport(ViewerState& state);
 void draw_parameters(ViewerState& state);
 void draw_objects(ViewerState& state);
+/// The switch and the numbers of the tool that throws balls.
+void draw_throwing(ViewerState& state);
+void switch_throwing(ViewerState& state);
 void draw_changes(ViewerState& state);
 void draw_view_panel(ViewerState& state);
 void draw_inspector(ViewerState& state);

@@ -18,7 +18,6 @@ using sim::Vec3d;
 
 /// Largest movement of a click, px; a mouse that moved further was dragged.
 constexpr float click_slack = 4;
-constexpr double hint_seconds = 1.5;
 
 float left(const ViewerState& s) {
   return static_cast<float>(s.viewport.x);
@@ -55,6 +54,7 @@ std::optional<dump::Probe> pick(const ViewerState& state, ImVec2 mouse, bool wan
 }
 
 void click(ViewerState& state, ImVec2 mouse, bool wants_node) {
+  if (state.throwing.is_on) return throw_ball(state, mouse);
   if (auto target = pick(state, mouse, wants_node))
     set_probe(state, std::move(target));
   else

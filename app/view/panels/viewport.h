@@ -15,6 +15,9 @@ ImVec2 on_screen(const ViewerState& state, const sim::Vec3d& projected);
 /// Place of the mouse: share of the picture's height from its middle, y up.
 std::array<double, 2> in_picture(const ViewerState& state, ImVec2 mouse);
 
+/// s, that a hint stays.
+inline constexpr double hint_seconds = 1.5;
+
 /// Words in a dark box, which stays inside of the picture.
 /// @param at, px: its left end in the middle of its height
 void draw_note(const ViewerState& state, ImVec2 at, const std::string& text, ImU32 color);
@@ -29,6 +32,9 @@ void draw_marks(ViewerState& state);
 
 /// Why a slice with arrows shows none, or "".
 std::string reason_for_no_arrows(const scene::View& view, const picture::FieldSamples& fields);
+
+/// Throws a ball to what is below the mouse, or along the ray where nothing is.
+void throw_ball(ViewerState& state, ImVec2 mouse);
 
 /// Arrows at the middle of the selected object. @return whether the mouse is busy with them
 bool use_handles(ViewerState& state, bool is_over_picture);

@@ -21,6 +21,7 @@ constexpr ImU32 axis_colors[] = {IM_COL32(240, 90, 90, 255), IM_COL32(110, 215, 
 struct Movable {
   Vec3d center;
   std::vector<std::pair<std::string, Vec3d>> places;
+  bool moves_by_itself = false;
 };
 
 std::optional<Movable> movable(const sim::shapes::Shape& shape, const std::string& address) {
@@ -42,8 +43,11 @@ std::optional<Movable> selected_object(const ViewerState& state) {
     if (state.selected == "sink." + sink.name) return movable(sink.shape, state.selected);
   for (const scene::Collider& collider : scene.colliders)
     // Keyframes say where it is: arrows that move nothing would only mislead.
-    if (state.selected == "collider." + collider.name && collider.keyframes.empty())
-      return movable(collider.shape, state.selected);
+    if (state.selected == "collider." + collider.name && collider.keyframes.empty()) {
+      std::optional<Movable> object = movable(collider.shape, state.selected);
+      if (object) object->moves_by_itself = collider.body.moves();
+      return object;
+    }
   return std::nullopt;
 }
 
@@ -96,7 +100,8 @@ bool use_handles(ViewerState& state, bool is_over_picture) {
     list.AddCircleFilled(to, is_bright ? 7.0f : 5.0f, color);
     note_label(("handle " + std::string(1, "xyz"[axis])).c_str(), {to.x - 5, to.y - 5, 10, 10});
   }
-  const bool is_past = state.live->steps > 0 && state.selected.starts_with("body.");
+  const bool is_past =
+      state.live->steps > 0 && (state.selected.starts_with("body.") || object->moves_by_itself);
   draw_note(state, ImVec2(from.x + 10, from.y + 1.2f * em()),
             state.selected + (is_past ? " (at the start)" : ""), IM_COL32(240, 244, 250, 255));
   if (drag.axis < 0 && hovered >= 0 && ImGui::IsMouseClicked(0)) drag = {hovered, mouse, *object};

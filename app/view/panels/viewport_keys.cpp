@@ -31,6 +31,7 @@ void use_keys(ViewerState& state) {
   }
   if (pressed('R')) state.bench.reset();
   if (pressed('P')) state.wants_picture = true;
+  if (pressed('B')) switch_throwing(state);
   if (pressed('F')) io.KeyShift ? frame_all(state) : frame_selection(state);
   for (int axis = 0; axis < 3; ++axis)
     if (pressed('X' + axis)) {
@@ -47,6 +48,8 @@ void use_keys(ViewerState& state) {
       ImGui::ClosePopupToLevel(0, true);
     else if (state.is_help_open)
       state.is_help_open = false;
+    else if (state.throwing.is_on)
+      state.throwing.is_on = false;
     else if (state.probe)
       set_probe(state, std::nullopt);
     else

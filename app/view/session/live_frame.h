@@ -28,6 +28,7 @@ struct RunSample {
   double max_depth = 0;                       ///< m, of the particle deepest in a collider
   double max_pressure = 0;                    ///< Pa, of snow on a collider
   double max_force = 0;  ///< N, of snow on a collider, the mean since the frame began
+  std::vector<picture::BodySample> bodies{};
 };
 
 /// A quantity of many nodes or particles in a few numbers.

@@ -262,6 +262,20 @@ AddedObject new_object(const scene::Scene& scene, NewObject object, const Vec3d&
   return added;
 }
 
+AddedObject thrown_ball(const scene::Scene& scene, const Throw& ball) {
+  // Five digits are as exact as a hand.
+  const auto rounded = [](const Vec3d& v) {
+    const double size = v.cwiseAbs().maxCoeff();
+    const double step = size > 0 ? std::pow(10, std::floor(std::log10(size)) - 4) : 1;
+    return Vec3d(step * std::round(v.x() / step), step * std::round(v.y() / step),
+                 step * std::round(v.z() / step));
+  };
+  return {"collider." + free_name(scene, "collider", "thrown"),
+          "{ shape = " + round_shape("sphere", rounded(ball.from), ball.radius) +
+              ", density = " + scene::toml::number_text(ball.density) +
+              ", velocity = " + literal(rounded(ball.velocity)) + " }"};
+}
+
 AddedObject copy_of(const Document& document, const std::string& address) {
   const std::string list = address.substr(0, address.find('.'));
   const std::string name = address.substr(list.size() + 1);

@@ -27,6 +27,14 @@ struct AddedObject {
 AddedObject new_object(const scene::Scene& scene, NewObject object, const sim::Vec3d& near,
                        double size);
 
+/// A ball that moves by itself.
+struct Throw {
+  sim::Vec3d from{0, 0, 0}, velocity{0, 0, 0};  ///< m, m/s
+  double radius = 0.1;                          ///< m
+  double density = 900;                         ///< kg/m3
+};
+AddedObject thrown_ball(const scene::Scene& scene, const Throw& ball);
+
 /// The object with its edits, beside the original.
 /// @throws UsageError where the document has no object at this address
 AddedObject copy_of(const Document& document, const std::string& address);

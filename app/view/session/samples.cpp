@@ -23,6 +23,8 @@ RunSample sample_of(const record::FrameRecord& frame) {
     sample.max_pressure = std::max(sample.max_pressure, force.max_pressure);
     sample.max_force = std::max(sample.max_force, force.force.norm());
   }
+  for (const record::BodyRecord& body : frame.bodies)
+    sample.bodies.push_back({body.collider, body.centre_of_mass.y(), body.velocity.norm()});
   return sample;
 }
 
@@ -51,7 +53,8 @@ void Samples::note(const timeline::Timeline& timeline, const sim::Summary& s) {
   while (!list.empty() && list.back().time >= s.time) list.pop_back();
   list.push_back({s.time, s.kinetic_energy, s.elastic_energy, s.momentum, s.max_speed, s.min_J_P,
                   s.max_J_P, choice.dt, choice.limit, s.max_depth, largest(s.max_pressure),
-                  timeline.here().advance.max_force()});
+                  timeline.here().advance.max_force(),
+                  picture::body_samples(timeline.simulation().colliders(), s.time)});
   if (list.size() <= max_samples) return;
   std::size_t kept = 0;  // every other one: the plot covers the whole run with half the detail
   for (std::size_t k = 0; k < list.size(); k += 2) list[kept++] = list[k];

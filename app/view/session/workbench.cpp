@@ -163,6 +163,11 @@ std::string Workbench::add_object(NewObject object, const sim::Vec3d& near, doub
   return attempt([&] { document_.set(added.address, added.value); }) ? added.address : "";
 }
 
+std::string Workbench::throw_ball(const Throw& ball) {
+  const AddedObject added = thrown_ball(*document_.scene(), ball);
+  return attempt([&] { document_.set(added.address, added.value); }) ? added.address : "";
+}
+
 /// A file in it is one that the scene names already: allowed over the web too.
 std::string Workbench::copy_object(const std::string& address) {
   AddedObject copy;
@@ -253,9 +258,15 @@ void Workbench::apply_running() {
 
 /// True for a value inside of an object that the run does not have, or has in another form.
 bool Workbench::waits_with_its_object(const std::string& address) const {
+  return lacks_its_object(running_, address);
+}
+
+/// The same of a scene with these edits.
+bool Workbench::lacks_its_object(const std::vector<scene::Override>& edits,
+                                 const std::string& address) const {
   const std::string object = scene::object_of(address);
   if (object.empty() || object == address) return false;
-  const std::vector<std::string> waiting = Document::difference(running_, document_.edits());
+  const std::vector<std::string> waiting = Document::difference(edits, document_.edits());
   return std::find(waiting.begin(), waiting.end(), object) != waiting.end();
 }
 
@@ -447,7 +458,7 @@ record::PictureRecord Workbench::picture_record(const LiveFrame& live,
                                                 const scene::View& view) const {
   std::vector<scene::Override> edits = at_start_;
   for (const scene::Override& edit : document_.edits())
-    if (effect_of(edit.address) == Effect::display && !waits_with_its_object(edit.address))
+    if (effect_of(edit.address) == Effect::display && !lacks_its_object(at_start_, edit.address))
       put(edits, edit.address, document_.edits());
   scene::Scene scene = *document_.scene_with(edits);
   scene.views = {view};

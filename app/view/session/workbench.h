@@ -57,6 +57,8 @@ class Workbench {
   std::string add_object(NewObject object, const sim::Vec3d& near, double size);
   /// The same for a copy of an object of the scene.
   std::string copy_object(const std::string& address);
+  /// The same for a ball that is thrown from now on.
+  std::string throw_ball(const Throw& ball);
   void undo();
   void redo();
   void forget(const std::string& address);
@@ -113,6 +115,8 @@ class Workbench {
   std::vector<std::string> changed_while_running() const;
   void apply_running();
   bool waits_with_its_object(const std::string& address) const;
+  bool lacks_its_object(const std::vector<scene::Override>& edits,
+                        const std::string& address) const;
   template <class Act>
   bool attempt(Act act);
 
