@@ -295,6 +295,20 @@ class Run:
             rows.append(found[0] if found else [np.nan] * 3)
         return np.array(rows, dtype=float)
 
+    def body(self, collider):
+        """How a collider that moves by itself moves: position and rotation (degrees) as a keyframe
+        has them, centre_of_mass, velocity, angular_velocity; a row a frame, not a number where it
+        does not exist."""
+        bodies = [{b["collider"]: b for b in frame.get("bodies", [])} for frame in self.json["frames"]]
+        known = sorted(set().union(*bodies))
+        if collider not in known:
+            raise KeyError(f"no body {collider!r} moves by itself; expected one of {', '.join(known)}"
+                           if known else "no collider of this run moves by itself")
+        names = ("position", "rotation", "centre_of_mass", "velocity", "angular_velocity")
+        return {name: np.array([[_number(x) for x in frame[collider][name]] if collider in frame
+                                else [np.nan] * 3 for frame in bodies], dtype=float)
+                for name in names}
+
     def picture(self, frame=None, view=None):
         """Path of a picture: of a frame, or of the last one; of a view, or of the first one."""
         if frame is None:

@@ -73,6 +73,7 @@ const char* fastest_part(const sim::shapes::Collider& collider, double speed) {
   if (sequence && sim::shapes::deforming_mesh(*sequence)->fastest() >= 0.5 * speed)
     return ".shape.mesh_sequence.rate";
   if (!collider.keyframes.empty()) return ".keyframes";
+  if (collider.body.moves() && sim::shapes::largest_speed(collider) < speed) return "";  // it falls
   return collider.velocity.norm() < 0.5 * speed ? ".angular_velocity" : ".velocity";
 }
 
@@ -105,7 +106,10 @@ void check_motion(const scene::Scene& scene, const Check& check, std::vector<Fin
   // Adaptive steps are short enough.
   const double dt = s.time_step == sim::TimeStep::fixed ? s.dt : 0;
   for (const sim::shapes::Collider& collider : scene.colliders) {
-    const double speed = sim::shapes::largest_speed(collider), cells = speed * dt / s.cell_size;
+    // One that falls gets faster than it starts.
+    const double speed = std::max(sim::shapes::largest_speed(collider),
+                                  collider.body.moves() ? check.impact_speed : 0),
+                 cells = speed * dt / s.cell_size;
     const double c = check.start.max_sound_speed;
     const std::string at = "collider." + collider.name + fastest_part(collider, speed);
     if (cells > sim::health::limits_of(sim::health::Law::collider_cfl).check_warning)

@@ -114,12 +114,12 @@ struct PictureSize {
 
 /// Axes of the plots; resolving a scene fills in absent ones.
 struct PlotRanges {
-  std::optional<Range> energy;       ///< J
-  std::optional<Range> speed;        ///< m/s
-  std::optional<Range> force;        ///< N
-  std::optional<Range> body_height;  ///< m
-  std::optional<Range> body_speed;   ///< m/s
-  std::optional<Range> dt;           ///< s
+  std::optional<Range> energy;         ///< J
+  std::optional<Range> speed;          ///< m/s
+  std::optional<Range> force;          ///< N
+  std::optional<Range> dt;             ///< s
+  std::optional<Range> body_height{};  ///< m
+  std::optional<Range> body_speed{};   ///< m/s
 };
 
 /// Particles on the side that the normal points to are not drawn.

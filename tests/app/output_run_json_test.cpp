@@ -58,6 +58,7 @@ TEST(RunJson, RunJsonHasTheFieldsOfTheContract) {
                                           "powder",
                                           "crumbs",
                                           "forces",
+                                          "bodies",
                                           "state_hash"};
   EXPECT_EQ(keys(json["frames"][0]), expected);
 }

@@ -120,13 +120,13 @@ name = "NAME"
 TEST(Flat, FlatListMarksTheParametersThatMayChangeDuringARun) {
   for (const char* live :
        {"solver.gravity", "solver.bypass", "material.snow.hardening", "material.a.model",
-        "collider.floor.velocity", "collider.1.shape", "collider.1.shape.sphere.center", "camera",
-        "camera.keyframes", "collider.1.keyframes", "solver.push_out", "view.close.camera",
-        "view.close.clip", "view.x.slice", "light"})
+        "collider.floor", "collider.floor.velocity", "collider.1.shape",
+        "collider.1.shape.sphere.center", "camera", "camera.keyframes", "collider.1.keyframes",
+        "solver.push_out", "view.close.camera", "view.close.clip", "view.x.slice", "light"})
     EXPECT_TRUE(app::scene::is_live(live)) << live;
   for (const char* restart :
        {"solver", "solver.cell_size", "solver.precision", "material.snow.density", "material.snow",
-        "body.ball.velocity", "body.ball.shape", "seed", "fps", "collider.floor", "view.close",
+        "body.ball.velocity", "body.ball.shape", "seed", "fps", "sink.drain", "view.close",
         "nonsense", "solver.cf", "camera.keyframes[0].time.x", ""})
     EXPECT_FALSE(app::scene::is_live(restart)) << restart;
   EXPECT_TRUE(app::scene::concerns_simulation("collider.floor.friction"));
@@ -166,11 +166,11 @@ TEST(Differences, DifferencesOfTablesThatComeGoOrChangeKindAreWhole) {
 }
 
 TEST(Differences, DifferencesOfItemsNeedARestart) {
-  const std::string more =
-      std::string(flat_scene) + "[[collider]]\nshape = { sphere = { radius = 0.1 } }\n";
+  const std::string more = std::string(flat_scene) +
+                           "[[sink]]\nname = \"drain\"\nshape = { sphere = { radius = 0.1 } }\n";
   const app::scene::SplitDifferences split = app::scene::split_live(read(), read({}, more));
   EXPECT_TRUE(split.live.empty());
-  EXPECT_EQ(addresses(split.restart), std::vector<std::string>{"collider"});
+  EXPECT_EQ(addresses(split.restart), std::vector<std::string>{"sink"});
 }
 
 /// The promise of differences(): what it lists, set one by one, makes the other scene.

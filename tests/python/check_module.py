@@ -21,6 +21,14 @@ assert np.isnan(run["dt_min"][0]) and run["dt_min"][1] > 0
 assert np.isnan(run.force("floor")[0, 0]) and np.nanmin(run.force("floor")[:, 1]) < 0
 assert neve.Run("out/scene").json == run.json
 
+# A collider that moves by itself.
+moved = neve.render("scene.toml", frames=2, flags=[
+    "--no-movie", "--out", "out/moved", "--set", "collider.can={ shape = { sphere = { center = "
+    "[0.5, 0.5, 0], radius = 0.1 } }, density = 900, velocity = [1, 0, 0] }"])
+can = moved.body("can")
+assert can["position"].shape == (3, 3) and list(can["position"][0]) == [0.5, 0.5, 0]
+assert can["velocity"][2, 1] < -0.5 and can["centre_of_mass"][2, 0] > 0.55, can
+
 # States: of a run, and exports in every format that the module reads, are the same.
 names = ["id", "x", "v", "m", "J_P", "F_E"]
 state = run.state(3, attributes=names)
@@ -81,6 +89,8 @@ except neve.NeveError as error:
 for mistake, kind, part in (
     (lambda: run.force("flor"), KeyError, "floor"),
     (lambda: run["energy"], KeyError, "kinetic_energy"),
+    (lambda: run.body("floor"), KeyError, "no collider of this run moves by itself"),
+    (lambda: moved.body("floor"), KeyError, "can"),
     (lambda: run.state(99), ValueError, "0 to 4"),
     (lambda: run.state("last"), ValueError, "a number from 0 to 4"),
     (lambda: neve.check("scene.toml", coarsn=3), TypeError, "coarsn"),

@@ -117,7 +117,7 @@ struct Working {
   view::session::Workbench bench;
 };
 
-TEST(Objects, AtTheStartTheyExistAtOnceAndLaterTheyWaitForReset) {
+TEST(Objects, AtTheStartTheyExistAtOnceAndLaterSnowWaitsForReset) {
   Working work;
   EXPECT_EQ(work.bench.add_object(NewObject::snow_ball, {0, 0.1, 0}, 0.1), "body.ball_2");
   auto live = wait_for(work.bench.session(), [](const view::session::LiveFrame& frame) {
@@ -126,11 +126,11 @@ TEST(Objects, AtTheStartTheyExistAtOnceAndLaterTheyWaitForReset) {
   EXPECT_TRUE(work.bench.waiting_for_reset().empty());
   work.bench.session().next_frame();
   rest_at(work.bench.session(), 1);
-  work.bench.set("collider.post", "none");
-  work.bench.copy_object("collider.floor");
+  work.bench.add_object(NewObject::sink, {5, 0.1, 0}, 0.1);
+  EXPECT_EQ(work.bench.copy_object("body.ball"), "body.ball_3");
   EXPECT_EQ(work.bench.waiting_for_reset().size(), 2u);
-  // What is live and of a new object waits with it, and disturbs nothing else.
-  work.bench.set("collider.floor_2.friction", "0.3");
+  // What is of a new object waits with it, and disturbs nothing else.
+  work.bench.set("body.ball_3.velocity", "[0, -1, 0]");
   work.bench.set("collider.floor.friction", "0.2");
   EXPECT_EQ(work.bench.waiting_for_reset().size(), 2u);
   for (const auto& message : work.bench.messages())
@@ -138,17 +138,49 @@ TEST(Objects, AtTheStartTheyExistAtOnceAndLaterTheyWaitForReset) {
   live = wait_for(work.bench.session(), [](const view::session::LiveFrame& frame) {
     return frame.scene->colliders.at(0).friction == 0.2;
   });
-  EXPECT_EQ(live->scene->colliders.size(), 2u);
+  EXPECT_EQ(live->scene->bodies.size(), 2u);
   // A picture of the run has its objects, not those that wait.
   const record::PictureRecord record =
       work.bench.picture_record(*live, work.bench.document().scene()->views.front());
-  EXPECT_EQ(scene::read_scene_text(record.scene, "record").colliders.size(), 2u);
+  EXPECT_EQ(scene::read_scene_text(record.scene, "record").bodies.back().name, "ball_2");
   work.bench.reset();
   live = wait_for(work.bench.session(), [](const view::session::LiveFrame& frame) {
-    return frame.steps == 0 && frame.scene->colliders.back().name == "floor_2";
+    return frame.steps == 0 && frame.scene->bodies.back().name == "ball_3";
   });
-  EXPECT_EQ(live->scene->colliders.back().friction, 0.3);
+  EXPECT_EQ(live->scene->bodies.back().velocity.y(), -1);
   EXPECT_TRUE(work.bench.waiting_for_reset().empty());
+}
+
+/// Colliders come and go in a run; a picture begins with those of its start.
+TEST(Objects, CollidersComeAndGoAtOnce) {
+  Working work;
+  work.bench.session().next_frame();
+  rest_at(work.bench.session(), 1);
+  work.bench.set("collider.post", "none");
+  const std::string sphere = work.bench.add_object(NewObject::sphere, {0.5, 0.1, 0}, 0.1);
+  work.bench.set(sphere + ".friction", "0.3");
+  work.bench.set(sphere + ".style", "\"wire\"");
+  EXPECT_TRUE(work.bench.waiting_for_reset().empty());
+  auto live = wait_for(work.bench.session(), [&](const view::session::LiveFrame& frame) {
+    return frame.scene->colliders.back().name == "sphere" &&
+           frame.scene->colliders.back().friction == 0.3;
+  });
+  EXPECT_EQ(live->scene->colliders.size(), 2u);
+  const record::PictureRecord record =
+      work.bench.picture_record(*live, work.bench.document().scene()->views.front());
+  const scene::Scene start = scene::read_scene_text(record.scene, "record");
+  ASSERT_EQ(start.colliders.size(), 2u);
+  EXPECT_EQ(start.colliders[1].name, "post");
+  ASSERT_EQ(record.changes.size(), 3u);
+  EXPECT_EQ(record.changes[0].address, "collider.post");
+  EXPECT_EQ(record.changes[0].value, "none");
+  while (work.bench.document().can_undo()) work.bench.undo();
+  live = wait_for(work.bench.session(), [](const view::session::LiveFrame& frame) {
+    return frame.scene->colliders.back().name == "post";
+  });
+  EXPECT_EQ(live->scene->colliders.size(), 2u);
+  for (const auto& message : work.bench.messages())
+    EXPECT_EQ(message.kind, view::session::Message::Kind::note) << message.text;
 }
 
 TEST(Objects, LimitsHoldAndMistakesAreMessages) {

@@ -96,7 +96,7 @@ void draw_throwing(ViewerState& state) {
   Throwing& throwing = state.throwing;
   ImGui::Checkbox("Throw balls", &throwing.is_on);
   note_label("Throw balls");
-  tip("a click in the picture throws a ball at what is there; key B");
+  tip("a click in the picture throws a ball at that place; key B");
   if (!throwing.is_on) return;
   choose_numbers(state);
   ImGui::Indent(em());

@@ -17,6 +17,7 @@
 #include "app/scene/toml/toml_source.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 #include "app/sweep/plan/around.h"
 #include "app/timeline/origin.h"
@@ -356,12 +357,27 @@ bool Workbench::save_scene(const std::filesystem::path& file) {
     std::error_code error;
     if (std::filesystem::equivalent(file, document_.file(), error))
       file_time_ = time_of(document_.file());
-    say(Message::Kind::note, "saved the scene with its changes as " + file.string());
+    say(Message::Kind::note,
+        "saved the scene with its changes as " + file.string() + added_while_running());
     return true;
   } catch (const std::exception& error) {
     say_not_saved("the scene was not saved: " + text_of(error));
     return false;
   }
+}
+
+/// A scene has its colliders from its start on; only a picture knows when others came.
+std::string Workbench::added_while_running() const {
+  const std::shared_ptr<const LiveFrame> live = session_->latest();
+  std::vector<std::string> added;
+  for (const scene::LiveChange& change : live->snapshot.changes)
+    if (change.step > 0 && scene::is_object_address(change.address) && change.value != "none" &&
+        document_.is_changed(change.address))
+      added.push_back(change.address);
+  if (added.empty()) return "";
+  return "; " + joined(added, ", ") +
+         " came during the run, and the saved scene begins with it: a picture that is saved makes "
+         "the run again";
 }
 
 /// Addresses changed after the first step.

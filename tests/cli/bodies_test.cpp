@@ -1,0 +1,196 @@
+/// Colliders that move by themselves, through the command line: runs, resumed and forked runs,
+/// exports, passes, comparisons and sweeps.
+
+#include <algorithm>
+#include <string>
+
+#include "app/exports/usda.h"
+#include "tests/support/resume.h"
+
+namespace neve::test {
+namespace {
+
+/// A ball that rolls through a little snow, and a can on a hinge that it hits.
+const std::string rolling = R"(
+title = "Rolling"
+frames = 4
+[solver]
+cell_size = 0.04
+[[body]]
+name = "bed"
+shape = { box = { center = [0, 0.06, 0], size = [0.24, 0.12, 0.24] } }
+[[collider]]
+name = "floor"
+shape = { plane = {} }
+[[collider]]
+name = "ball"
+shape = { sphere = { center = [-0.22, 0.16, 0], radius = 0.08 } }
+density = 900
+velocity = [4, 0, 0]
+angular_velocity = [0, 3, -20]
+[[collider]]
+name = "sign"
+shape = { box = { center = [0.26, 0.2, 0], size = [0.05, 0.3, 0.2], rotation = [0, 10, 0] } }
+density = 200
+joint = "hinge"
+joint_point = [0.26, 0.4, 0]
+joint_axis = [0, 0, 1]
+[[view]]
+name = "particles"
+layers = ["ground", "colliders", "particles", "plots"]
+[[export]]
+format = "usda"
+[output]
+size = [160, 90]
+)";
+
+class Bodies : public Cli {
+ protected:
+  Bodies() { folder.write("scene.toml", rolling); }
+
+  app::output::ProcessResult render(std::vector<std::string> more) {
+    for (const char* word : {"--quiet", "--no-movie", "render"}) more.insert(more.begin(), word);
+    return neve(more);
+  }
+  sim::Vec3d place(const app::Json& body) {
+    const app::Json& p = body["position"];
+    return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
+  }
+};
+
+TEST_F(Bodies, RunJsonHasThemAtEveryFrame) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const app::Json run = json_of("a/run.json");
+  ASSERT_EQ(run["frames"].size(), 5u);
+  for (const app::Json& frame : run["frames"]) {
+    ASSERT_EQ(frame["bodies"].size(), 2u);
+    EXPECT_EQ(frame["bodies"][0]["collider"], "ball");
+  }
+  const app::Json &first = run["frames"][0]["bodies"], &last = run["frames"][4]["bodies"];
+  EXPECT_EQ(place(first[0]), sim::Vec3d(-0.22, 0.16, 0));
+  EXPECT_EQ(first[0]["velocity"][0], 4.0);
+  EXPECT_NEAR(first[1]["rotation"][1].get<double>(), 10, 1e-12);
+  EXPECT_GT(place(last[0]).x(), place(first[0]).x() + 0.2) << "it has rolled";
+  EXPECT_LT(last[0]["velocity"][0].get<double>(), 4.0) << "snow has braked it";
+}
+
+/// Whatever kills the run, and in pictures, plots and the stage too.
+TEST_F(Bodies, KilledAndResumedTheyAreWhereTheyWere) {
+  ASSERT_EQ(render({"scene.toml", "--out", "whole"}).exit_code, 0);
+  EXPECT_EQ(kill_and_resume(folder / "scene.toml", folder / "parts", {4, 0.6, 7}), 4);
+  ASSERT_EQ(
+      render({"scene.toml", "--out", "parts", "--resume", "--checkpoint-every", "1"}).exit_code, 0);
+  const RunFiles whole = files_of(folder / "whole"), parts = files_of(folder / "parts");
+  EXPECT_EQ(whole.hashes, parts.hashes);
+  EXPECT_EQ(whole.pictures, parts.pictures);
+  const app::Json a = json_of("whole/run.json"), b = json_of("parts/run.json");
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_EQ(a["frames"][k]["bodies"], b["frames"][k]["bodies"]) << k;
+  EXPECT_EQ(read_text(folder / "whole/exports/usda.usda"),
+            read_text(folder / "parts/exports/usda.usda"));
+}
+
+TEST_F(Bodies, AnyNumberOfThreadsGivesTheSame) {
+  ASSERT_EQ(render({"scene.toml", "--out", "one", "--threads", "1"}).exit_code, 0);
+  ASSERT_EQ(render({"scene.toml", "--out", "three", "--threads", "3"}).exit_code, 0);
+  EXPECT_EQ(hashes("one"), hashes("three"));
+  EXPECT_EQ(json_of("one/run.json")["frames"][4]["bodies"],
+            json_of("three/run.json")["frames"][4]["bodies"]);
+}
+
+/// The stage has the places that run.json tells.
+TEST_F(Bodies, TheStageMovesThem) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const std::string stage = read_text(folder / "a/exports/usda.usda");
+  const app::Json frames = json_of("a/run.json")["frames"];
+  std::size_t at = stage.find("def Mesh \"ball\"");
+  ASSERT_NE(at, std::string::npos);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const sim::Vec3d x = place(frames[k]["bodies"][0]);
+    const std::string row = "(" + app::exports::usd_number(x.x()) + ", " +
+                            app::exports::usd_number(x.y()) + ", " +
+                            app::exports::usd_number(x.z()) + ", 1)";
+    at = stage.find(row, at);
+    EXPECT_NE(at, std::string::npos) << k << row;
+  }
+  EXPECT_EQ(stage.find("visibility"), std::string::npos);
+}
+
+/// A fork is the run that was changed there; the change may be a new collider.
+TEST_F(Bodies, AForkMayThrowAnotherOne) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a", "--checkpoint-every", "1"}).exit_code, 0);
+  const auto forked =
+      render({"a", "--from", "0.09s", "--out", "b", "--set",
+              "collider.egg={ shape = { sphere = { center = [0, 0.4, 0], radius = 0.06 } }, "
+              "density = 700, velocity = [0, -4, 0] }",
+              "--set", "collider.ball.friction=0.1", "--set", "collider.sign=none"});
+  ASSERT_EQ(forked.exit_code, 0) << forked.errors;
+  const app::Json run = json_of("b/run.json");
+  ASSERT_EQ(run["changes"].size(), 3u);
+  const app::Json& bodies = run["frames"].back()["bodies"];
+  ASSERT_EQ(bodies.size(), 2u);
+  EXPECT_EQ(bodies[1]["collider"], "egg");
+  EXPECT_LT(bodies[1]["position"][1].get<double>(), 0.4) << "it flies";
+  const std::string stage = read_text(folder / "b/exports/usda.usda");
+  EXPECT_NE(stage.find("def Mesh \"egg\""), std::string::npos);
+  EXPECT_EQ(stage.find("def Mesh \"sign\""), std::string::npos) << "it was gone at every frame";
+  // Its picture makes itself again, without the run that was forked.
+  std::filesystem::remove_all(folder / "a");
+  const auto again = render({"b/particles/0004.png", "--out", "c"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(hashes("c")[4], hashes("b")[4]);
+  EXPECT_EQ(json_of("c/run.json")["frames"].back()["bodies"], bodies);
+  const auto refused =
+      render({"b", "--from", "0.13s", "--out", "d", "--set", "collider.ball.density=100"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.errors, "collider.ball.density cannot change while"))
+      << refused.errors;
+}
+
+/// Exports of a picture's run draw from the simulation, as its pictures do.
+TEST_F(Bodies, AnExportAfterwardsHasTheSameStage) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const auto result =
+      neve({"export", "scene.toml", "--format", "usda", "--out", "alone", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto transforms = [&](const std::string& file) {
+    const std::string text = read_text(folder / file);
+    const std::size_t from = text.find("def Xform \"colliders\""),
+                      to = text.find("def Xform \"view\"");
+    return text.substr(from, to - from);
+  };
+  EXPECT_EQ(transforms("alone/usda.usda"), transforms("a/exports/usda.usda"));
+}
+
+TEST_F(Bodies, ComparisonsAndSweepsMeasureThem) {
+  folder.write(
+      "sweep.toml",
+      "[sweep]\nscene = \"scene.toml\"\n[axis]\n\"collider.ball.density\" = [100, 3000]\n");
+  const auto sweep = neve({"sweep", "sweep.toml", "--out", "s.cdb", "--quiet"});
+  ASSERT_EQ(sweep.exit_code, 0) << sweep.errors;
+  const std::string table = read_text(folder / "s.cdb/data.csv");
+  const std::string head = table.substr(0, table.find('\n'));
+  EXPECT_TRUE(contains(head, "max_pressure,body_fall,body_way,max_body_speed,steps")) << head;
+  const auto compared =
+      neve({"compare", "s.cdb/runs/0000", "s.cdb/runs/0001", "--json", "--out", "x"});
+  ASSERT_EQ(compared.exit_code, 0) << compared.errors;
+  EXPECT_TRUE(contains(compared.output, "body_speed_b")) << compared.output.substr(0, 400);
+  // Without bodies there is no such column.
+  folder.write("none.toml", tiny_scene);
+  folder.write("sweep.toml",
+               "[sweep]\nscene = \"none.toml\"\n[axis]\n\"body.ball.velocity\" = [[0, -1, 0]]\n");
+  ASSERT_EQ(neve({"sweep", "sweep.toml", "--out", "t.cdb", "--quiet"}).exit_code, 0);
+  EXPECT_FALSE(contains(read_text(folder / "t.cdb/data.csv"), "body_"));
+}
+
+TEST_F(Bodies, CoarseAndFastRunsKeepThem) {
+  const auto coarse = render({"scene.toml", "--out", "coarse", "--coarsen", "1.5", "--fast",
+                              "--passes", "motion,collider", "--shutter", "180"});
+  ASSERT_EQ(coarse.exit_code, 0) << coarse.errors;
+  const app::Json run = json_of("coarse/run.json");
+  EXPECT_EQ(place(run["frames"][0]["bodies"][0]), sim::Vec3d(-0.22, 0.16, 0));
+  EXPECT_GT(place(run["frames"][4]["bodies"][0]).x(), 0);
+}
+
+}  // namespace
+}  // namespace neve::test
