@@ -31,7 +31,7 @@ constexpr float buried_share = 0.97f;
 constexpr float ball_radius = 0.17f, ball_offset = 0.42f;
 constexpr float smallest_crumb = 0.32f, largest_crumb = 1.6f, balls_of_crumb = 9;
 /// The most that a crumb has; ids of its balls.
-constexpr std::uint32_t most_balls = 32;
+constexpr std::uint32_t max_balls = 32;
 
 /// Largest distance of the middle of a grain from its particle along each axis, in spacings.
 constexpr float grain_offset = 0.3f;
@@ -122,9 +122,9 @@ void add_lump(const Points& points, std::size_t p, const LumpPlace& place, Point
   const float size = loose + (1 - loose) * place.sunk;
   const float reach = ball_offset * (1 - 0.5f * place.sunk) * std::pow(size, 0.8f) * points.spacing;
   const auto balls = static_cast<std::uint32_t>(
-      std::clamp(balls_of_crumb * size * size, 1.0f, static_cast<float>(most_balls)));
+      std::clamp(balls_of_crumb * size * size, 1.0f, static_cast<float>(max_balls)));
   for (std::uint32_t ball = 0; ball < balls; ++ball) {
-    const Vec3f random = random_offset(std::uint64_t{id} * most_balls + ball + 1);
+    const Vec3f random = random_offset(std::uint64_t{id} * max_balls + ball + 1);
     // Denser in the middle.
     const Vec3f offset = random * (reach * length(random));
     spray.position.edit().push_back(place.middle + turned(points, p, offset));

@@ -6,7 +6,7 @@
 
 #include "sim/checks/self_test_bodies.h"
 #include "sim/checks/self_test_tests.h"
-#include "sim/rigid/mass.h"
+#include "sim/rigid/rigid_bodies.h"
 #include "sim/simulation.h"
 
 namespace neve::sim::checks::self_test {
@@ -26,11 +26,9 @@ struct Momentum {
 };
 Momentum momentum_of(const shapes::Collider& body, double time) {
   const rigid::MassProperties mass = rigid::mass_properties(body);
-  const shapes::Pose pose = shapes::pose_at(body, time);
-  const Vec3d arm = pose.rotation * mass.centre;
-  const Vec3d velocity = body.velocity + body.angular_velocity.cross(arm);
-  return {mass.mass * velocity,
-          pose.rotation * mass.inertia * pose.rotation.transpose() * body.angular_velocity};
+  const rigid::Motion motion = rigid::motion_at(body, time);
+  return {mass.mass * motion.velocity,
+          motion.rotation * mass.inertia * motion.rotation.transpose() * motion.spin};
 }
 
 double lowest_of(const ParticleArrays& p) {
@@ -64,8 +62,8 @@ void snow_on_a_floating_body(const SelfTestCase& test, double density,
   while (simulation.time() < seconds) {
     const AdvanceReport report = simulation.advance_to(seconds, {}, simulation.steps() + 1);
     const shapes::Collider body = simulation.colliders()[0];
-    fastest = std::max(fastest, -body.velocity.y());
     const shapes::Pose pose = shapes::pose_at(body, simulation.time());
+    fastest = std::max(fastest, -pose.velocity.y());
     const Vec3d arm = pose.rotation * rigid::mass_properties(start).centre;
     // Loads are about the point of the collider.
     moment += report.loads[0].angular_impulse - arm.cross(report.loads[0].impulse);
