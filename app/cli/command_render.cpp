@@ -40,13 +40,9 @@ namespace neve::app::cli {
 
 namespace {
 
-/// A run has its pictures, and a strip shows many frames: one of them has to be named.
-void refuse_origin(const run::RenderOptions& options, const run::RenderJob& job) {
+/// A strip shows many frames: one of them has to be named.
+void refuse_strip(const run::RenderOptions& options, const run::RenderJob& job) {
   if (options.from) return;
-  if (!job.run.empty())
-    throw scene::toml::SceneError(
-        job.scene_file, 0, 0, "is the folder of a run, not a scene",
-        "--from TIME forks it at that time; its scene file makes it again");
   if (job.picture && job.picture->strip && !options.frames)
     throw UsageError(
         options.scene,
@@ -260,6 +256,46 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
                             scene::coarsened_words(job.scene, job.coarsening)));
 }
 
+std::string count_text(std::size_t count, const char* one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+/// "21 frames in out/snowball", or what was added to those that it had.
+std::string frames_text(const run::RenderJob& job, const run::RenderRun& run,
+                        const run::RenderResult& result) {
+  const std::string folder = job.folder.string(), views = joined(run.record().views, ", ");
+  const std::size_t all = run.record().frames.size();
+  if (!result.is_addition) return fmt::format("{} in {}", count_text(all, "frame"), folder);
+  if (result.drawn == 0)
+    return fmt::format("nothing to draw: {} has these pictures of {}", folder, views);
+  const auto drawn = static_cast<std::size_t>(result.drawn);
+  const int from_states = run.record().frames_from_states;
+  return fmt::format("{} of {} added to the run in {}{}", count_text(drawn, "frame"), views, folder,
+                     result.simulated == 0 ? ", without simulating"
+                     : from_states > 0     ? fmt::format(", {} of them from states", from_states)
+                                           : std::string());
+}
+
+/// "20 states in out/snowball/states, 62 MiB of at most 1.0 GiB, ..."
+std::string states_text(const run::RenderJob& job, const Json& states) {
+  if (states.is_null()) return {};
+  const std::string folder = (job.folder / "states").string();
+  const std::size_t count = states.at("frames").size();
+  if (states.contains("stopped") && count == 0)
+    return "no states kept: " + states.at("stopped").get<std::string>();
+  if (count == 0) return {};
+  const int every = states.at("every").get<int>();
+  const std::string budget =
+      states.at("budget").is_null()
+          ? ""
+          : " of at most " + bytes_text(states.at("budget").get<std::uint64_t>());
+  return fmt::format(
+      "{}{} in {}, {}{}: other views, sizes, cameras and films of it need no "
+      "simulation, as in neve render {} --view NAME",
+      count_text(count, "state"), every > 1 ? fmt::format(", one every {} frames,", every) : "",
+      folder, bytes_text(states.at("bytes").get<std::uint64_t>()), budget, job.folder.string());
+}
+
 int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,
            const run::RenderResult& result, Progress& progress) {
   progress.clear();
@@ -280,9 +316,9 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
     if (result.has_checkpoint) progress.say("--resume continues from here");
     return code;
   }
-  const std::size_t frames = run.record().frames.size();
-  progress.note(
-      fmt::format("{} {} in {}", frames, frames == 1 ? "frame" : "frames", job.folder.string()));
+  progress.note(frames_text(job, run, result));
+  if (const std::string states = states_text(job, run.record().states); !states.empty())
+    progress.note(states);
   return exit_ok;
 }
 
@@ -290,7 +326,9 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
 
 int run_render(const run::RenderOptions& options) {
   run::RenderJob job = run::make_job(options);
-  refuse_origin(options, job);
+  refuse_strip(options, job);
+  // A run that is drawn again has written its exports.
+  if (!job.run.empty() && !job.fork && !options.resume) job.scene.exports.clear();
   if (options.predicts && job.picture)
     throw UsageError("--predict", options.scene + " is a picture, one moment of a run",
                      "name its scene file");
@@ -351,7 +389,7 @@ int run_render(const run::RenderOptions& options) {
   if (code == exit_ok && reference && !run.record().frames.empty()) {
     // A resumed run that was complete has drawn nothing.
     const auto file = output::frame_path(job.folder, run.record().views.front(),
-                                         run.record().frames.back().frame);
+                                         scene::number_of(job.scene, job.frames.last));
     const render::Image picture =
         result.last_picture ? *result.last_picture : output::read_picture(file);
     return compare_with_reference(options, job, picture, *reference);

@@ -200,10 +200,29 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, int before) {
   return found;
 }
 
-void write_state(const fs::path& folder, const Checkpoint& checkpoint) {
+std::uint64_t write_state(const fs::path& folder, const Checkpoint& checkpoint) {
   make_own_folder(states_folder(folder));
   // Its checksum tells one that a power cut left unfinished.
-  write_file(state_path(folder, checkpoint.frame), encode_checkpoint(checkpoint));
+  const std::vector<std::uint8_t> bytes = encode_checkpoint(checkpoint);
+  write_file(state_path(folder, checkpoint.frame), bytes);
+  return bytes.size();
+}
+
+std::uint64_t state_bytes(const fs::path& folder, int frame) {
+  std::error_code error;
+  const std::uint64_t bytes = fs::file_size(state_path(folder, frame), error);
+  return error ? 0 : bytes;
+}
+
+void tidy_states_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_directory(fs::symlink_status(states_folder(folder), error)))
+    remove_abandoned(states_folder(folder));
+}
+
+void remove_state(const fs::path& folder, int frame) {
+  std::error_code error;
+  fs::remove(state_path(folder, frame), error);
 }
 
 std::vector<int> kept_states(const fs::path& folder) {
@@ -236,7 +255,7 @@ FoundCheckpoint read_state(const fs::path& folder, int frame) {
 
 void remove_states(const fs::path& folder) {
   std::error_code error;
-  for (const int frame : kept_states(folder)) fs::remove(state_path(folder, frame), error);
+  for (const int frame : kept_states(folder)) remove_state(folder, frame);
   remove_abandoned(states_folder(folder));
   ::rmdir(states_folder(folder).c_str());
 }

@@ -56,8 +56,14 @@ FoundCheckpoint find_checkpoint(const std::filesystem::path& folder,
                                 int before = std::numeric_limits<int>::max());
 
 /// Writes the state of a frame that is kept: DIR/states/NNNNNN.ckpt, beside those of other frames.
-/// @throws IoError
-void write_state(const std::filesystem::path& folder, const Checkpoint& checkpoint);
+/// @return bytes of the file @throws IoError
+std::uint64_t write_state(const std::filesystem::path& folder, const Checkpoint& checkpoint);
+
+/// Bytes of the file; 0 without one.
+std::uint64_t state_bytes(const std::filesystem::path& folder, int frame);
+
+/// Removes what killed processes left unfinished among the states.
+void tidy_states_folder(const std::filesystem::path& folder);
 
 /// Frames with a kept state, in order.
 std::vector<int> kept_states(const std::filesystem::path& folder);
@@ -65,6 +71,7 @@ std::vector<int> kept_states(const std::filesystem::path& folder);
 /// Empty if the frame has none. @throws UnreadableError likewise
 FoundCheckpoint read_state(const std::filesystem::path& folder, int frame);
 
+void remove_state(const std::filesystem::path& folder, int frame);
 /// Removes all kept states of a folder. Other files stay.
 void remove_states(const std::filesystem::path& folder);
 

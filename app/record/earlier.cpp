@@ -70,12 +70,7 @@ std::size_t remove_earlier_run(const fs::path& folder) {
     remove_file(folder, name);
     ++removed;
   };
-  for (const FrameRecord& frame : pictures->frames) {
-    for (const std::string& view : pictures->views)
-      remove(view, picture_name(view, frame.frame), frame);
-    for (const std::string& view : pictures->views_of_passes)
-      remove(view, channels_name(view, frame.frame), frame);
-  }
+  for_each_picture(*pictures, remove);
   return removed;
 }
 

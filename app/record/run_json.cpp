@@ -272,6 +272,45 @@ std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder)
   return frame_records(read_run_json(folder));
 }
 
+namespace {
+
+/// Earlier ones first, each once.
+std::vector<std::string> all_views(const RunRecord& run) {
+  std::vector<std::string> names = run.earlier_views;
+  for (const std::string& view : run.views)
+    if (std::find(names.begin(), names.end(), view) == names.end()) names.push_back(view);
+  return names;
+}
+
+bool has_all(const ViewFrames& frames, const std::vector<FrameRecord>& list) {
+  return !list.empty() && frames.first == list.front().frame && frames.last == list.back().frame;
+}
+
+void add_views(const RunRecord& run, Json& json) {
+  const std::vector<std::string> names = all_views(run);
+  json["views"] = names;
+  Json drawings = Json::object(), frames = Json::object();
+  std::vector<std::string> with_passes;
+  for (const std::string& name : names) {
+    const auto found = run.view_records.find(name);
+    const ViewRecord view = found == run.view_records.end() ? ViewRecord{} : found->second;
+    if (!view.drawing.empty()) drawings[name] = view.drawing;
+    if (view.frames && !has_all(*view.frames, run.frames))
+      frames[name] =
+          view.frames->count() > 0 ? Json{view.frames->first, view.frames->last} : Json::array();
+    const auto& ours = run.views_of_passes;
+    if (view.has_passes || std::find(ours.begin(), ours.end(), name) != ours.end())
+      with_passes.push_back(name);
+  }
+  if (!drawings.empty()) json["drawings"] = drawings;
+  if (!frames.empty()) json["view_frames"] = frames;
+  if (with_passes.empty()) return;
+  if (!run.passes.empty()) json["passes"] = run.passes;
+  json["views_of_passes"] = with_passes;
+}
+
+}  // namespace
+
 Json to_json(const RunRecord& run) {
   Json json;
   json["version"] = version;
@@ -283,17 +322,14 @@ Json to_json(const RunRecord& run) {
   json["coarsen"] = run.coarsening;
   if (!run.prediction.is_null()) json["prediction"] = run.prediction;
   if (!run.forked.is_null()) json["forked"] = run.forked;
-  json["views"] = run.views;
-  if (!run.passes.empty()) {
-    json["passes"] = run.passes;
-    json["views_of_passes"] = run.views_of_passes;
-  }
+  if (!run.simulation.empty()) json["simulation"] = run.simulation;
+  add_views(run, json);
   if (!run.exports.is_null()) json["exports"] = run.exports;
   json["backend"] = run.backend;
   json["gl_renderer"] = run.gl_renderer;
   json["threads"] = run.threads;
   json["simd"] = run.simd;
-  json["status"] = name(run.status);
+  json["status"] = run.carried_status.empty() ? name(run.status) : run.carried_status;
   if (!run.error.empty()) json["error"] = run.error;
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
@@ -302,6 +338,7 @@ Json to_json(const RunRecord& run) {
   json["slate"] = run.slate ? Json(*run.slate) : Json();
   if (run.frames_from_states > 0) json["frames_from_states"] = run.frames_from_states;
   json["files"] = run.files;
+  if (!run.movies.empty()) json["movies"] = run.movies;
   json["warnings"] = run.warnings;
   json["slowdown"] = run.slowdown ? Json(*run.slowdown) : Json();
   if (!run.validation.empty()) json["validation"] = output::to_json(run.validation);
@@ -311,6 +348,9 @@ Json to_json(const RunRecord& run) {
     json["divergence"] = output::to_json(*run.divergence);
     json["divergence"]["cause"] = run.cause;
   }
+  if (!run.states.is_null()) json["states"] = run.states;
+  for (const auto& [key, value] : run.carried.items())
+    if (!json.contains(key) || json[key].is_null()) json[key] = value;
   return json;
 }
 

@@ -56,17 +56,35 @@ std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance, const si
 /// Files of a run, by their path in its folder, with the hash of their bytes as hash_text.
 using FileHashes = std::map<std::string, std::string>;
 
+/// Numbers of the frames that a view has pictures of, without gaps.
+struct ViewFrames {
+  int first = 0, last = -1;
+
+  bool has(int number) const { return number >= first && number <= last; }
+  int count() const { return last - first + 1; }
+};
+
+/// A view, or a mosaic, of a run: several commands may have drawn views of one simulation.
+struct ViewRecord {
+  std::string drawing;               ///< hash of all that its pictures depend on but the states
+  std::optional<ViewFrames> frames;  ///< absent: all frames of the run
+  bool has_passes = false;
+};
+
 struct RunRecord {
   std::string scene;  ///< resolved, TOML
   std::string scene_file;
   std::vector<std::string> overrides;
   std::vector<scene::LiveChange> changes;  ///< made while it ran
   double coarsening = 1;                   ///< factor of --coarsen
-  Json prediction;  ///< of --predict, for full resolution, as predict::to_json; null without
-  Json forked;      ///< where it left another run; null: nowhere
-  std::vector<std::string> views;
-  std::vector<std::string> passes;           ///< of --passes
-  std::vector<std::string> views_of_passes;  ///< views that have them: all but mosaics
+  Json prediction;         ///< of --predict, for full resolution, as predict::to_json; null without
+  Json forked;             ///< where it left another run; null: nowhere
+  std::string simulation;  ///< hash of all that the bits of its states depend on
+  std::vector<std::string> views;                  ///< that this command draws
+  std::vector<std::string> earlier_views;          ///< that the folder had before, in their order
+  std::map<std::string, ViewRecord> view_records;  ///< of both, by name
+  std::vector<std::string> passes;                 ///< of --passes
+  std::vector<std::string> views_of_passes;        ///< of `views`, that have them: all but mosaics
   Json exports;  ///< of [[export]], see app/exports/exporter.h; null without
   std::string backend, gl_renderer;
   int threads = 0;
@@ -76,9 +94,13 @@ struct RunRecord {
   std::vector<FrameRecord> frames;
   int first_number = 0;                    ///< of the frame at time 0
   std::optional<sim::Vec3d> world_offset;  ///< m, taken out of files with coordinates of a map
-  std::optional<int> slate;    ///< number of the pictures of words before the first frame
-  int frames_from_states = 0;  ///< drawn from kept states, without a step
+  std::optional<int> slate;       ///< number of the pictures of words before the first frame
+  int frames_from_states = 0;     ///< drawn from kept states, without a step
+  Json states;                    ///< that are kept: their frames, bytes and budget; null without
+  std::string carried_status;     ///< in the place of `status`, of a run that got further before
+  Json carried = Json::object();  ///< entries of an earlier run.json, where this run has none
   FileHashes files;  ///< pictures and movies; a picture that is just being written is not in it yet
+  FileHashes movies;                  ///< quality and speed of those in `files`, as text
   std::vector<std::string> warnings;  ///< of the start and of the steps so far
   /// Says that a frame took much longer than the first. No warning: the load of the machine must
   /// not change a run.

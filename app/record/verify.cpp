@@ -87,11 +87,9 @@ std::string listed_flaw(const fs::path& folder, const std::string& name, const s
 /// Movies, and the pictures of a divergence.
 void check_other_files(const fs::path& folder, const Pictures& pictures, Verification& result) {
   std::set<std::string> checked;
-  for (const FrameRecord& frame : pictures.frames) {
-    for (const std::string& view : pictures.views) checked.insert(picture_name(view, frame.frame));
-    for (const std::string& view : pictures.views_of_passes)
-      checked.insert(channels_name(view, frame.frame));
-  }
+  for_each_picture(pictures, [&](const std::string&, const std::string& name, const FrameRecord&) {
+    checked.insert(name);
+  });
   for (const auto& [name, hash] : pictures.files) {
     if (checked.contains(name)) continue;
     ++result.files;
@@ -127,6 +125,11 @@ std::optional<Pictures> listed_pictures(const Json& run) {
     pictures.views = run.at("views").get<std::vector<std::string>>();
     if (run.contains("views_of_passes"))
       pictures.views_of_passes = run["views_of_passes"].get<std::vector<std::string>>();
+    if (run.contains("view_frames"))
+      for (const auto& [view, range] : run["view_frames"].items())
+        pictures.view_frames[view] = range.empty() ? ViewFrames{}
+                                                   : ViewFrames{whole_number<int>(range.at(0)),
+                                                                whole_number<int>(range.at(1))};
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -136,6 +139,15 @@ std::optional<Pictures> listed_pictures(const Json& run) {
     if (!std::ranges::all_of(*names, output::is_plain_name)) return std::nullopt;
   pictures.files = file_hashes(run);
   return pictures;
+}
+
+void for_each_picture(const Pictures& pictures, const PictureVisitor& visit) {
+  for (const FrameRecord& frame : pictures.frames) {
+    for (const std::string& view : pictures.views)
+      if (pictures.has(view, frame.frame)) visit(view, picture_name(view, frame.frame), frame);
+    for (const std::string& view : pictures.views_of_passes)
+      if (pictures.has(view, frame.frame)) visit(view, channels_name(view, frame.frame), frame);
+  }
 }
 
 std::vector<Flaw> picture_flaws(const fs::path& folder, const Pictures& pictures, int first,
@@ -149,6 +161,7 @@ std::vector<Flaw> picture_flaws(const fs::path& folder, const Pictures& pictures
     const FrameRecord* frame = entry.second;
     const std::size_t before = flaws.size();
     const auto check = [&](const std::string& view, const std::string& name) {
+      if (!pictures.has(view, number)) return;
       if (const std::string what = picture_flaw(folder, pictures, view, name, frame); !what.empty())
         flaws.push_back({name, what});
     };
@@ -200,8 +213,9 @@ Verification verify_run(const fs::path& folder) {
   std::vector<int> flawed;
   for (Flaw& flaw : picture_flaws(folder, *pictures, 0, -1, flawed))
     result.flaws.push_back(std::move(flaw));
-  result.files +=
-      pictures->frames.size() * (pictures->views.size() + pictures->views_of_passes.size());
+  for_each_picture(*pictures, [&](const std::string&, const std::string&, const FrameRecord&) {
+    ++result.files;
+  });
   check_other_files(folder, *pictures, result);
   check_export(folder, result);
   return result;

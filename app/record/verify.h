@@ -2,6 +2,8 @@
 /// Whether the folder of a run is complete: every file that the run lists exists and is unchanged.
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,10 +24,21 @@ struct Pictures {
   std::vector<std::string> views_of_passes;
   std::vector<FrameRecord> frames;
   FileHashes files;
+  std::map<std::string, ViewFrames> view_frames{};  ///< of views that have not all of them
+
+  bool has(const std::string& view, int number) const {
+    const auto found = view_frames.find(view);
+    return found == view_frames.end() || found->second.has(number);
+  }
 };
 
 /// What run.json says of its pictures. Empty if something is wrong with it.
 std::optional<Pictures> listed_pictures(const Json& run);
+
+/// Visits every picture and every file of passes that the run is to have.
+using PictureVisitor =
+    std::function<void(const std::string& view, const std::string& name, const FrameRecord& frame)>;
+void for_each_picture(const Pictures& pictures, const PictureVisitor& visit);
 
 /// True for a picture that says of itself that it is this frame of a run.
 bool is_picture_of(const std::filesystem::path& file, const std::string& view,

@@ -170,8 +170,9 @@ std::vector<output::Picture> Drawing::draw_incident(const timeline::Timeline& ti
 
 std::vector<output::Picture> Drawing::draw_slates(const record::RunRecord& record) {
   std::vector<output::Picture> slates;
-  const int first = record.frames.front().frame;
   for (const std::string& view : record.views) {
+    const auto& part = record.view_records.at(view).frames;
+    const int first = part ? part->first : record.frames.front().frame;
     const render::Image like = output::read_picture(output::frame_path(job_.folder, view, first));
     slates.push_back({output::frame_path(job_.folder, view, first - 1),
                       draw_slate(job_.scene, {first - 1, view, builder_.slate()}, like, renderer_),

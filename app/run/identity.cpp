@@ -1,10 +1,29 @@
 #include "app/run/identity.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <vector>
+
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
 #include "app/record/picture_files.h"
+#include "app/scene/flat.h"
 #include "app/scene/read.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 
 namespace neve::app::run {
+
+namespace {
+
+std::string value_or_none(const std::optional<scene::toml::Value>& value) {
+  return value ? scene::toml::toml_literal(*value, 60) : "none";
+}
+
+}  // namespace
 
 std::string simulation_text(const scene::Scene& scene) {
   // All of it but what only pictures, exports and the length of a run read.
@@ -45,6 +64,53 @@ std::string identity_of(record::PictureRecord picture) {
   picture.state_hash.clear();
   picture.build.clear();
   return record::hash_of(to_text(to_json(picture)));
+}
+
+std::string difference_from_run(const std::filesystem::path& folder,
+                                const record::PictureRecord& picture) {
+  try {
+    const Json run = parse_json(output::read_file(output::run_json_path(folder)));
+    const scene::Scene before =
+        scene::read_scene_text(run.at("scene").get<std::string>(), "run.json");
+    const scene::Scene after = scene::read_scene_text(picture.scene, "the scene");
+    std::vector<scene::Difference> list = scene::differences(before, after);
+    std::stable_partition(list.begin(), list.end(), [](const scene::Difference& d) {
+      return scene::concerns_simulation(d.address);
+    });
+    if (!list.empty()) {
+      const bool concerns = scene::concerns_simulation(list.front().address);
+      const auto more =
+          std::ranges::count_if(list,
+                                [&](const scene::Difference& d) {
+                                  return scene::concerns_simulation(d.address) == concerns;
+                                }) -
+          1;
+      return list.front().address + " was " + value_or_none(list.front().before) + " and is " +
+             value_or_none(list.front().after) +
+             (more > 0 ? ", and " + std::to_string(more) + " more differ" : "");
+    }
+    const auto version = run.at("version").get<std::string>();
+    if (version != picture.version) return "it was made by version " + version;
+    if (run.at("changes") != scene::to_json(picture.changes)) return "it had other changes";
+    if (run.at("coarsen") != picture.coarsening)
+      return "--coarsen was " + rough_text(run.at("coarsen").get<double>());
+    if (run.at("overrides") != Json(picture.overrides)) return "it had other --set";
+    const Json passes = run.value("passes", Json::array());
+    if (passes != Json(picture.passes))
+      return passes.empty() ? "it had no --passes"
+                            : "--passes was " + joined(passes.get<std::vector<std::string>>(), ",");
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    // An unreadable scene changes nothing here: the identity alone says that the run differs.
+  }
+  return "its scene, changes, views, quality or version differ";
+}
+
+std::string movie_style_text(const RenderJob& job) {
+  const output::MovieStyle& style = job.options.movie;
+  return fmt::format("quality {}, {} frames per second", style.quality,
+                     rough_text(style.fps > 0 ? style.fps : job.scene.fps));
 }
 
 }  // namespace neve::app::run

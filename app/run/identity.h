@@ -1,6 +1,7 @@
 #pragma once
 /// These texts must be equal for two runs to be one: to resume, or to take states that were kept.
 
+#include <filesystem>
 #include <string>
 
 #include "app/run/render_job.h"
@@ -19,6 +20,14 @@ std::string identity_of_states(const RenderJob& job, const std::string& simd);
 
 /// Names all that bits of states and pictures depend on, but the machine.
 std::string identity_of(record::PictureRecord picture);
+
+/// First difference between the run of a folder and this one, with both values; values that may
+/// differ where run.json cannot tell. Those that change the simulation come first.
+std::string difference_from_run(const std::filesystem::path& folder,
+                                const record::PictureRecord& picture);
+
+/// Names the quality and the speed of the movies of a job.
+std::string movie_style_text(const RenderJob& job);
 
 /// Bytes of a particle on disk in single precision, about.
 inline constexpr double state_bytes_per_particle = 160;

@@ -12,6 +12,7 @@
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/record/earlier.h"
+#include "app/run/identity.h"
 #include "app/scene/burn_in.h"
 #include "app/support/errors.h"
 
@@ -37,6 +38,41 @@ Ledger::Ledger(const RenderJob& job, const setup::SeededScene& seeded, record::R
 void Ledger::replace_earlier() {
   record::remove_earlier_run(job_.folder);
   output::remove_checkpoints(job_.folder);
+}
+
+timeline::Made Ledger::made(int frame) const {
+  const int number = scene::number_of(job_.scene, frame);
+  timeline::Made made{record_.frames, record_.files, record_.exports,
+                      scene::number_of(job_.scene, 0)};
+  // Later ones are of an earlier command: run.json has them.
+  std::erase_if(made.frames, [&](const record::FrameRecord& f) { return f.frame > number; });
+  return made;
+}
+
+void Ledger::add_to(const EarlierRun& earlier) {
+  record::remove_listed(job_.folder, add_to_run(job_, earlier, record_));
+  if (!job_.scene.exports.empty() && earlier.json.contains("exports"))
+    exporter_.resume(earlier.json["exports"], output::max_frame);
+  note_exports();
+  earlier_ = earlier;
+}
+
+bool Ledger::is_made(int frame) const {
+  if (!earlier_ || exporter_.is_due(frame)) return false;
+  const int number = scene::number_of(job_.scene, frame);
+  const auto has = [&](const std::string& name) {
+    const auto file = record_.files.find(name);
+    return file != record_.files.end() && record::has_hash(job_.folder / name, file->second);
+  };
+  const auto has_picture = [&](const std::string& view) {
+    const record::ViewRecord& record = record_.view_records.at(view);
+    return record.frames && record.frames->has(number) && has(record::picture_name(view, number));
+  };
+  const auto has_passes = [&](const std::string& view) {
+    return has(record::channels_name(view, number));
+  };
+  return std::ranges::all_of(record_.views, has_picture) &&
+         std::ranges::all_of(record_.views_of_passes, has_passes);
 }
 
 void Ledger::take(const timeline::Moment& moment) {
@@ -89,10 +125,17 @@ std::vector<exports::Exporter::Work> Ledger::read_exports(const timeline::Timeli
 /// that it has to remove. The hash follows when it is written.
 void Ledger::add(const record::FrameRecord& frame, Drawing::Files drawn,
                  std::vector<exports::Exporter::Work> exports) {
+  has_added_ = true;
   record::add_frame(record_.frames, frame);
   note_written();
-  for (const std::string& view : record_.views)
+  for (const std::string& view : record_.views) {
     record_.files.erase(record::picture_name(view, frame.frame));
+    std::optional<record::ViewFrames>& frames = record_.view_records[view].frames;
+    if (!frames) continue;
+    const bool is_first = frames->count() <= 0;
+    frames = {is_first ? frame.frame : std::min(frames->first, frame.frame),
+              is_first ? frame.frame : std::max(frames->last, frame.frame)};
+  }
   for (const std::string& view : record_.views_of_passes)
     record_.files.erase(record::channels_name(view, frame.frame));
   write();
@@ -115,21 +158,30 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
   note_written();
   std::vector<std::filesystem::path> movies;
   // One picture is no movie.
-  if (job_.has_movies() && record_.frames.size() > 1)
+  if (job_.has_movies())
     for (const std::string& view : record_.views) write_movie(view, movies);
   for (const output::WrittenFile& file : exporter_.finish()) note_file(file);
   record_.status = status;
+  if (is_inside_earlier()) record_.carried_status = earlier_->json.value("status", "");
   bring_to_disk();
   return movies;
 }
 
 void Ledger::write_movie(const std::string& view, std::vector<std::filesystem::path>& movies) {
   const output::MovieStyle& style = job_.options.movie;
-  const int first = record_.slate.value_or(record_.frames.front().frame);
+  const record::ViewFrames frames = frames_of(view);
+  if (frames.count() <= 1) return;
+  const int first = frames.first - (record_.slate ? 1 : 0);
+  const std::filesystem::path file = output::movie_path(job_.folder, view, style.format);
+  const auto listed = record_.files.find(file.filename().string());
+  if (!has_added_ && listed != record_.files.end() && record::has_hash(file, listed->second)) {
+    movies.push_back(file);
+    return;
+  }
   output::MovieRequest request{job_.folder / view,
-                               output::movie_path(job_.folder, view, style.format),
+                               file,
                                first,
-                               record_.frames.back().frame,
+                               frames.last,
                                job_.scene.fps,
                                job_.plate.empty() && has_alpha(job_.scene, view),
                                0,
@@ -144,6 +196,7 @@ void Ledger::write_movie(const std::string& view, std::vector<std::filesystem::p
       movies.push_back(request.file);
       record_.files[request.file.filename().string()] =
           record::hash_text(output::hash_file(request.file));
+      record_.movies[request.file.filename().string()] = movie_style_text(job_);
       return;
     case output::MovieOutcome::no_ffmpeg:
       if (view == record_.views.front())
@@ -173,16 +226,43 @@ void Ledger::fail(const std::string& error) {
   }
 }
 
+record::ViewFrames Ledger::frames_of(const std::string& view) const {
+  if (record_.frames.empty()) return {};
+  const std::optional<record::ViewFrames>& part = record_.view_records.at(view).frames;
+  return part.value_or(
+      record::ViewFrames{record_.frames.front().frame, record_.frames.back().frame});
+}
+
+/// True where the frames of this command are some that the run had before.
+bool Ledger::is_inside_earlier() const {
+  return earlier_ && record_.status == record::RunStatus::ok &&
+         scene::number_of(job_.scene, job_.frames.last) <= earlier_->pictures.frames.back().frame;
+}
+
+bool Ledger::is_missing(const std::string& view, int number) const {
+  std::error_code error;
+  const auto& with_passes = record_.views_of_passes;
+  return !std::filesystem::exists(output::frame_path(job_.folder, view, number), error) ||
+         (std::ranges::find(with_passes, view) != with_passes.end() &&
+          !std::filesystem::exists(output::channels_path(job_.folder, view, number), error));
+}
+
 void Ledger::forget_unwritten_frames() {
+  for (const std::string& view : record_.views) {
+    std::optional<record::ViewFrames>& part = record_.view_records[view].frames;
+    if (!part) continue;
+    while (part->count() > 0 && is_missing(view, part->last)) --part->last;
+    while (part->count() > 0 && is_missing(view, part->first)) ++part->first;
+  }
+  // Of an earlier command some have other views.
   std::erase_if(record_.frames, [&](const record::FrameRecord& frame) {
-    std::error_code error;
-    for (const std::string& view : record_.views)
-      if (!std::filesystem::exists(output::frame_path(job_.folder, view, frame.frame), error))
-        return true;
-    for (const std::string& view : record_.views_of_passes)
-      if (!std::filesystem::exists(output::channels_path(job_.folder, view, frame.frame), error))
-        return true;
-    return false;
+    if (earlier_ && std::ranges::any_of(record_.earlier_views, [&](const std::string& view) {
+          const auto& part = record_.view_records.at(view).frames;
+          return part && part->has(frame.frame);
+        }))
+      return false;
+    return std::ranges::any_of(
+        record_.views, [&](const std::string& view) { return is_missing(view, frame.frame); });
   });
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/exports/exporter.h"
 #include "app/output/picture_writer.h"
+#include "app/run/addition.h"
 #include "app/run/drawing.h"
 #include "app/run/render_job.h"
 #include "app/support/progress.h"
@@ -25,13 +26,20 @@ class Ledger {
   record::RunRecord& record() { return record_; }
   const record::RunRecord& record() const { return record_; }
   /// Lists and files so far, to keep with a moment.
-  timeline::Made made() const {
-    return {record_.frames, record_.files, record_.exports, scene::number_of(job_.scene, 0)};
-  }
+  /// @param frame  of the moment, counted from 0
+  timeline::Made made(int frame) const;
 
   /// Removes the files of an earlier run. Its frames stay listed until they are made again:
   /// whenever the process is killed, run.json lists every picture that exists.
   void replace_earlier();
+  /// Becomes the ledger of the same run with more pictures; removes what they replace.
+  void add_to(const EarlierRun& earlier);
+  /// Notes the earlier views of a run that is resumed.
+  void keep_views(const EarlierRun& earlier) { run::keep_views(job_, earlier, record_); }
+  /// That a drawn view has pictures of so far.
+  record::ViewFrames frames_of(const std::string& view) const;
+  /// True where the run has the pictures of a frame already, unchanged, and no exports are due.
+  bool is_made(int frame) const;
   /// Takes what a run that is resumed has made until a moment. @throws IoError for a broken list
   void take(const timeline::Moment& moment);
   /// Makes the folders and writes run.json.
@@ -58,11 +66,15 @@ class Ledger {
   void note_exports();
   void write_movie(const std::string& view, std::vector<std::filesystem::path>& movies);
   void forget_unwritten_frames();
+  bool is_missing(const std::string& view, int number) const;
+  bool is_inside_earlier() const;
 
   const RenderJob& job_;
   Progress& progress_;
   record::RunRecord record_;
   exports::Exporter exporter_;
+  std::optional<EarlierRun> earlier_;         ///< that pictures are added to
+  bool has_added_ = false;                    ///< a frame
   std::set<std::filesystem::path> unsynced_;  ///< files that a power cut may still take
   output::PictureWriter writer_;              ///< last: stops before its inputs are destroyed
 };

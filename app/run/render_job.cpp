@@ -115,6 +115,7 @@ RenderJob make_job(const RenderOptions& options) {
   if (options.frames) edits.last_frame = options.frames->last;
   if (options.is_agreed || options.dry_run) edits.agreement = timeline::Agreement::given;
   edits.is_start_only = options.is_start_only;
+  edits.continues_run = options.resume;
   if (options.from) edits.overrides.clear();  // changes on its way, see set_fork()
   RenderJob job{timeline::Origin::of(options.scene, edits), options};
   job.folder = job.run.empty() ? out_folder() / job.name() : job.run;

@@ -6,6 +6,7 @@
 #include "app/options/languages.h"
 #include "app/run/passes.h"
 #include "app/support/errors.h"
+#include "app/support/text.h"
 
 namespace neve::app::run {
 
@@ -35,6 +36,35 @@ void describe_movies(options::Command& visit, RenderOptions& o) {
     if (!o.has_movies && o.movie.has_format && o.movie.is_made)
       throw UsageError("--movie", "cannot be combined with --no-movie", "give one of the two");
   });
+}
+
+options::Language<double> bytes() {
+  return {"SIZE", "4GiB",
+          [](const std::string& flag, const std::string& text) {
+            std::optional<double> size = bytes_of(text);
+            if (!size) size = number_of<double>(text);
+            if (size && *size >= 1 && *size < 1e18) return *size;
+            throw UsageError(flag, "cannot use \"" + text + "\"",
+                             "expected bytes, or a size such as 4GiB or 500MB; --no-keep-states "
+                             "keeps none");
+          },
+          [](const double& size) { return bytes_text(static_cast<std::uint64_t>(size)); }};
+}
+
+void describe_states(options::Command& visit, RenderOptions& o) {
+  visit("--keep-states", o.keeps_all_states,
+        "Keep the states of all drawn frames in DIR/states, whatever they take; about 160 bytes a "
+        "particle and frame")
+      .excludes({"--no-keep-states", "--states-budget"}, "give one of them");
+  visit.sets("--no-keep-states", o.keeps_states, false,
+             "Keep no states of this run: another view, size or camera of it then has to be "
+             "simulated again");
+  visit("--states-budget", o.states_budget, bytes(),
+        "Room for the states in DIR/states, which other views, sizes, cameras and films of the run "
+        "are drawn from without simulating; more of them are thinned out, every second frame and "
+        "so on, and never more than half of the free disk is taken")
+      .with_default()
+      .excludes({"--no-keep-states"}, "give one of them");
 }
 
 void describe_pictures(options::Command& visit, RenderOptions& o) {
@@ -118,10 +148,10 @@ void describe(options::Command& visit, RenderOptions& o) {
         options::number<int>("FRAMES", 0, 1000000, "a whole number of frames, or 0 for none"),
         "Frames between checkpoints in DIR/checkpoint; 0: none")
       .with_default();
-  visit(
-      "--keep-states", o.keeps_states,
-      "Keep the state of each drawn frame in DIR/states: the same command can then draw other "
-      "views, sizes, colours or cameras without simulating; about 160 bytes a particle and frame");
+  describe_states(visit, o);
+  visit("--replace", o.replaces,
+        "Remove pictures and films of the folder that this command draws otherwise, and the whole "
+        "run where the simulation is another one: without it neve says what would go and stops");
   describe_movies(visit, o);
   visit.sets("--no-caption", o.has_caption, false,
              "Omit the words over the pictures: for films; the layers counter and slate stay");

@@ -41,8 +41,11 @@ struct RenderOptions {
   std::string shader_dir;
   bool validate = false;
   bool resume = false;
-  int checkpoint_every = 10;  ///< frames; 0: none
-  bool keeps_states = false;  ///< of drawn frames, in DIR/states
+  int checkpoint_every = 10;                    ///< frames; 0: none
+  bool keeps_states = true;                     ///< of drawn frames, in DIR/states
+  bool keeps_all_states = false;                ///< whatever they take
+  double states_budget = 1024.0 * 1024 * 1024;  ///< bytes
+  bool replaces = false;                        ///< pictures and films that are in the folder
   bool has_movies = true;
   output::MovieStyle movie;
   bool has_caption = true;
@@ -68,7 +71,8 @@ void describe_agreement(options::Command& visit, bool& is_agreed);
 /// The scene and its changes, for all commands that simulate one. @param help  of SCENE
 void describe_scene(options::Command& visit, RenderOptions& options,
                     const char* help =
-                        "Scene file (TOML), - for standard input, or a picture made by neve, to "
-                        "make that frame and view again; default: a falling snowball");
+                        "Scene file (TOML), - for standard input, a picture made by neve, to make "
+                        "that frame and view again, or the folder of a run, to draw it otherwise; "
+                        "default: a falling snowball");
 
 }  // namespace neve::app::run

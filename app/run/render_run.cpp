@@ -1,5 +1,7 @@
 #include "app/run/render_run.h"
 
+#include <algorithm>
+
 #include "app/health/incident.h"
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
@@ -25,8 +27,9 @@ constexpr int threads_for_overlap = 4;
 
 record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simulation,
                                const render::gl::Context& context, const Drawing& drawing,
-                               const Json& forked) {
+                               const Json& forked, const record::PictureRecord& picture) {
   record::RunRecord record = run_record(job, simulation);
+  record.simulation = identity_of_states(job, simulation.simd());
   record.backend = context.backend;
   record.gl_renderer = context.renderer;
   record.forked = forked;
@@ -34,6 +37,8 @@ record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simu
   record.passes = job.passes;
   if (!job.passes.empty()) record.views_of_passes = record.views;
   for (const scene::Mosaic& mosaic : job.scene.mosaics) record.views.push_back(mosaic.name);
+  for (const std::string& view : record.views)
+    record.view_records[view].drawing = drawing_of(job, picture, view);
   return record;
 }
 
@@ -47,8 +52,10 @@ RenderRun::RenderRun(const RenderJob& job, timeline::Timeline& timeline,
       progress_(progress),
       picture_(picture_record(job, scene::write_scene(job.scene), timeline.simulation().simd())),
       drawing_(job, timeline.seeded(), renderer, picture_),
+      frames_(job.frames),
       ledger_(job, timeline.seeded(),
-              begin_record(job, timeline.simulation(), context, drawing_, forked), progress) {
+              begin_record(job, timeline.simulation(), context, drawing_, forked, picture_),
+              progress) {
   if (job.options.validate) watch_laws();
   timeline_.watch({.after_step =
                        [this] {
@@ -76,10 +83,12 @@ void RenderRun::look_at_laws() {
 RenderResult RenderRun::run() {
   const std::vector<int> flawed = begin();
   try {
-    progress_.start(job_.frames.last, scene::number_of(job_.scene, 0));
+    progress_.start(frames_.last, scene::number_of(job_.scene, 0));
     if (timeline_.simulation().steps() == 0) look_at_laws();
     if (laws_) ledger_.record().validation = laws_->records();
     if (mend(flawed)) make_frames();
+    timeline_.moments().settle();
+    note_states();
     add_slates();
     result_.movies = ledger_.finish(result_.status);
   } catch (const std::exception& error) {
@@ -101,17 +110,20 @@ void RenderRun::add_slates() {
 }
 
 std::vector<int> RenderRun::begin() {
-  const std::string simd = timeline_.simulation().simd();
   output::make_folder(job_.folder);
   if (job_.options.checkpoint_every > 0) output::tidy_checkpoint_folder(job_.folder);
+  const std::optional<EarlierRun> earlier = earlier_run(job_, record());
+  const bool is_same = earlier && earlier->is_same;
   std::optional<Resumption> found;
   if (job_.options.resume)
-    found = find_resumption(job_.folder, record(), picture_, job_.frames, progress_);
-  if (!found) ledger_.replace_earlier();
-  timeline_.moments() =
-      timeline::Moments({job_.folder, identity_of_states(job_, simd), identity_of(picture_), simd,
-                         !job_.options.validate, job_.options.keeps_states},
-                        progress_);
+    found = find_resumption(job_.folder, record(), picture_, job_.frames, is_same, progress_);
+  if (!found)
+    begin_beside(earlier);
+  else if (is_same)
+    ledger_.keep_views(*earlier);
+  timeline_.moments() = timeline::Moments(states_folder(), progress_);
+  if (!job_.run.empty() && !job_.fork && job_.folder != job_.run)
+    timeline_.moments().add_run(job_.run);
   is_continued_ = found || job_.fork;
   if (found) {
     ledger_.take(found->moment);
@@ -122,6 +134,52 @@ std::vector<int> RenderRun::begin() {
   note_warnings();
   ledger_.open();
   return found ? found->flawed : std::vector<int>{};
+}
+
+void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
+  if (earlier) refuse_loss(job_, *earlier, record(), picture_);
+  if (!earlier || !earlier->is_same) return ledger_.replace_earlier();
+  ledger_.add_to(*earlier);
+  frames_ = frames_without_gaps(job_, record());
+  for (const auto& [frame, steps] : output::checkpoint_steps(job_.folder))
+    newest_checkpoint_ = std::max(newest_checkpoint_, frame);
+  result_.is_addition = true;
+  result_.has_checkpoint = newest_checkpoint_ >= 0;
+  if (const Json warnings = earlier->json.value("warnings", Json::array()); warnings.is_array())
+    for (const Json& warning : warnings)
+      if (warning.is_string()) told_before_.push_back(warning);
+}
+
+timeline::StatesFolder RenderRun::states_folder() const {
+  const std::string simd = timeline_.simulation().simd();
+  const RenderOptions& options = job_.options;
+  // States of the run that is drawn stay where they are.
+  const bool is_elsewhere = !job_.run.empty() && !job_.fork && job_.folder != job_.run;
+  timeline::StatesFolder states{job_.folder, identity_of_states(job_, simd), identity_of(picture_),
+                                simd, !options.validate};
+  states.are_wanted = options.keeps_all_states || (options.keeps_states && !is_elsewhere);
+  states.last_frame = frames_.last;
+  if (options.keeps_all_states) return states;
+  std::error_code error;
+  const std::filesystem::space_info disk = std::filesystem::space(job_.folder, error);
+  states.budget = std::max<std::uint64_t>(
+      1, std::min(static_cast<std::uint64_t>(options.states_budget),
+                  error ? UINT64_MAX : static_cast<std::uint64_t>(disk.available / 2)));
+  return states;
+}
+
+void RenderRun::note_states() {
+  const std::optional<timeline::StatesKept> kept = timeline_.moments().kept();
+  Json& states = ledger_.record().states;
+  states = {};
+  if (!kept) return;
+  states = {{"frames", Json::array()},
+            {"bytes", kept->bytes},
+            {"budget", kept->budget > 0 ? Json(kept->budget) : Json()},
+            {"every", kept->every}};
+  for (const int frame : kept->frames)
+    states["frames"].push_back(scene::number_of(job_.scene, frame));
+  if (!kept->stopped.empty()) states["stopped"] = kept->stopped;
 }
 
 void RenderRun::continue_from(const timeline::Moment& moment) {
@@ -151,18 +209,21 @@ bool RenderRun::mend(const std::vector<int>& frames) {
 
 void RenderRun::make_frames() {
   const double fps = timeline_.fps();
+  int wanted = frames_.first;
+  while (wanted <= frames_.last && ledger_.is_made(wanted)) ++wanted;
+  if (wanted > frames_.last) return;
   int first = is_continued_ ? timeline_.here().frame + 1 : 0;
-  if (const auto kept = timeline_.moments().find(job_.frames.first / fps, fps, first))
-    first = kept->frame;
-  for (int frame = first; frame <= job_.frames.last; ++frame) {
+  if (const auto kept = timeline_.moments().find(wanted / fps, fps, first)) first = kept->frame;
+  for (int frame = first; frame <= frames_.last; ++frame) {
+    if (frame > wanted && ledger_.is_made(frame)) continue;
     if (frame > 0 && !go_to_frame(frame)) {
       if (result_.status == record::RunStatus::interrupted) write_checkpoint();
       return;
     }
-    if (frame >= job_.frames.first) draw_frame(frame);
+    if (frame >= wanted) draw_frame(frame);
     progress_.frame(frame, frame / job_.scene.fps);
     // A frame that was begun is picked up first: its steps belong to the checkpoint.
-    if (is_interrupted() && frame < job_.frames.last && !next_.valid()) {
+    if (is_interrupted() && frame < frames_.last && !next_.valid()) {
       result_.status = record::RunStatus::interrupted;
       write_checkpoint();
       return;
@@ -173,15 +234,18 @@ void RenderRun::make_frames() {
 
 bool RenderRun::checkpoint_is_due(int frame) const {
   const int every = job_.options.checkpoint_every;
-  return every > 0 && (frame == job_.frames.last || (frame > 0 && frame % every == 0));
+  return every > 0 && frame > newest_checkpoint_ &&
+         (frame == frames_.last || (frame > 0 && frame % every == 0));
 }
 
 /// Pictures and run.json first: what a checkpoint says was reached is on disk.
 void RenderRun::write_checkpoint() {
-  if (job_.options.checkpoint_every == 0) return;
+  if (job_.options.checkpoint_every == 0 || timeline_.here().frame <= newest_checkpoint_) return;
+  timeline_.moments().settle();
+  note_states();
   ledger_.bring_to_disk();
   timeline::Moment moment = timeline_.moment();
-  moment.made = ledger_.made();
+  moment.made = ledger_.made(moment.frame);
   output::write_checkpoint(job_.folder,
                            timeline::to_checkpoint(std::move(moment), identity_of(picture_),
                                                    timeline_.simulation().simd()));
@@ -196,9 +260,9 @@ RenderRun::Advanced RenderRun::simulate_to(int frame) {
 
 void RenderRun::begin_next(int frame) {
   // A checkpoint of this frame needs the simulation as it is.
-  if (timeline_.simulation().threads() < threads_for_overlap || frame >= job_.frames.last ||
-      is_mending_ || checkpoint_is_due(frame) || timeline_.moments().wants(frame) ||
-      timeline_.moments().has(frame + 1) || is_interrupted())
+  if (timeline_.simulation().threads() < threads_for_overlap || frame >= frames_.last ||
+      is_mending_ || checkpoint_is_due(frame) || timeline_.moments().has(frame + 1) ||
+      ledger_.is_made(frame + 1) || is_interrupted())
     return;
   next_ = std::async(std::launch::async, [this, frame] { return simulate_to(frame + 1); });
 }
@@ -208,10 +272,11 @@ bool RenderRun::take_kept(int frame) {
   const auto kept = timeline_.moments().find(frame / timeline_.fps(), timeline_.fps());
   if (!kept || kept->frame != frame) return false;
   timeline_.restore(*kept);
-  const bool is_listed = !kept->made.frames.empty() &&
-                         kept->made.frames.back().frame == scene::number_of(job_.scene, frame);
-  seconds_ = is_listed ? kept->made.frames.back().seconds_sim : 0;
-  kept_blocks_ = is_listed ? kept->made.frames.back().summary.grid_blocks : 0;
+  const auto& made = kept->made.frames;
+  const auto listed =
+      std::ranges::find(made, scene::number_of(job_.scene, frame), &record::FrameRecord::frame);
+  seconds_ = listed != made.end() ? listed->seconds_sim : 0;
+  kept_blocks_ = listed != made.end() ? listed->summary.grid_blocks : 0;
   ledger_.record().retries = kept->retries;
   ++ledger_.record().frames_from_states;
   return true;
@@ -223,6 +288,7 @@ bool RenderRun::go_to_frame(int frame) {
     return true;
   }
   kept_blocks_.reset();
+  ++result_.simulated;
   const Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
   seconds_ = advanced.seconds;
   note_retries();
@@ -247,16 +313,26 @@ void RenderRun::draw_frame(int frame) {
   std::vector<exports::Exporter::Work> exports = ledger_.read_exports(timeline_);
   std::vector<record::BodyRecord> bodies =
       record::bodies_of(timeline_.simulation().colliders(), timeline_.simulation().time());
+  std::optional<timeline::Moment> moment;
+  if (timeline_.moments().wants(frame)) moment = timeline_.moment();
   begin_next(frame);
   Drawing::Files drawn = drawing_.draw(snapshot);
   if (!drawn.pictures.empty()) result_.last_picture = drawn.pictures.front().image;
   const double h = job_.scene.solver.cell_size;
   record::Metrics metrics = record::measure(snapshot.particles, h);
   metrics.max_depth_cells = summary.max_depth / h;
-  ledger_.add({scene::number_of(job_.scene, frame), frame / job_.scene.fps, advance, seconds_,
-               seconds_since(start), summary, state_hash, metrics,
-               record::forces_of(advance, summary, drawing_.scene().colliders), std::move(bodies)},
-              std::move(drawn), std::move(exports));
+  const record::FrameRecord made{scene::number_of(job_.scene, frame),
+                                 frame / job_.scene.fps,
+                                 advance,
+                                 seconds_,
+                                 seconds_since(start),
+                                 summary,
+                                 state_hash,
+                                 metrics,
+                                 record::forces_of(advance, summary, drawing_.scene().colliders),
+                                 std::move(bodies)};
+  ledger_.add(made, std::move(drawn), std::move(exports));
+  ++result_.drawn;
   if (const auto slowdown = slowdown_warning(record().frames); slowdown && !said_slow_) {
     progress_.warning(*slowdown);
     said_slow_ = true;
@@ -265,11 +341,10 @@ void RenderRun::draw_frame(int frame) {
                    std::to_string(advance.steps) + " steps, simulated in " +
                    fixed_text(seconds_, 2) + " s, drawn in " + fixed_text(seconds_since(start), 2) +
                    " s, deepest in a collider " + rough_text(metrics.max_depth_cells) + " cells");
-  if (!timeline_.moments().wants(frame)) return;
-  timeline::Moment moment = timeline_.moment();
-  moment.made.frames = {record().frames.back()};
-  moment.made.first_number = scene::number_of(job_.scene, 0);
-  timeline_.moments().keep(std::move(moment));
+  if (!moment) return;
+  moment->made.frames = {made};
+  moment->made.first_number = scene::number_of(job_.scene, 0);
+  timeline_.moments().keep(*std::move(moment));
 }
 
 /// The simulation of a resumed run has the warnings of the steps before.
@@ -278,6 +353,9 @@ void RenderRun::note_warnings() {
   record.warnings = job_.warnings;
   for (std::string& warning : step_warnings(*timeline_.here().scene, timeline_.simulation()))
     record.warnings.push_back(std::move(warning));
+  for (const std::string& warning : told_before_)
+    if (std::ranges::find(record.warnings, warning) == record.warnings.end())
+      record.warnings.push_back(warning);
   record.slowdown = slowdown_warning(record.frames);
 }
 

@@ -24,6 +24,9 @@ struct RenderResult {
   record::RunStatus status = record::RunStatus::ok;
   std::vector<std::filesystem::path> movies;
   std::optional<render::Image> last_picture;   ///< of the first view
+  int drawn = 0;                               ///< frames
+  int simulated = 0;                           ///< of these
+  bool is_addition = false;                    ///< to a run that the folder had
   std::optional<health::Diagnosis> diagnosis;  ///< of a run that diverged
 };
 
@@ -44,6 +47,10 @@ class RenderRun {
   const std::optional<sim::checks::Watch>& laws() const { return laws_; }
 
  private:
+  /// Adds to the run that the folder has, or replaces it. @throws UsageError for what would be lost
+  void begin_beside(const std::optional<EarlierRun>& earlier);
+  timeline::StatesFolder states_folder() const;
+  void note_states();
   /// Starts, or resumes. @return frames before with pictures that are missing or damaged
   std::vector<int> begin();
   void continue_from(const timeline::Moment& moment);
@@ -78,6 +85,9 @@ class RenderRun {
   Drawing drawing_;
   std::optional<sim::checks::Watch> laws_;  ///< of --validate
   RenderResult result_;
+  setup::FrameRange frames_;                ///< to draw, counted from 0
+  int newest_checkpoint_ = -1;              ///< of an earlier command that this one adds to
+  std::vector<std::string> told_before_;    ///< warnings of that command
   double seconds_ = 0;                      ///< that the simulation of the frame took
   std::optional<std::size_t> kept_blocks_;  ///< of the grid, of a frame whose state was kept
   bool is_continued_ = false;               ///< from a checkpoint or a fork

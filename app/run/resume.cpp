@@ -9,8 +9,6 @@
 #include "app/record/earlier.h"
 #include "app/record/verify.h"
 #include "app/run/identity.h"
-#include "app/scene/flat.h"
-#include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
@@ -18,43 +16,6 @@
 namespace neve::app::run {
 
 namespace {
-
-std::string value_or_none(const std::optional<scene::toml::Value>& value) {
-  return value ? scene::toml::toml_literal(*value, 60) : "none";
-}
-
-/// First difference between the run of a folder and this one, with both values; values that may
-/// differ where run.json cannot tell.
-std::string other_thing(const std::filesystem::path& folder, const record::PictureRecord& picture) {
-  try {
-    const Json run = parse_json(output::read_file(output::run_json_path(folder)));
-    const scene::Scene before =
-        scene::read_scene_text(run.at("scene").get<std::string>(), "run.json");
-    const scene::Scene after = scene::read_scene_text(picture.scene, "the scene");
-    const std::vector<scene::Difference> list = scene::differences(before, after);
-    if (!list.empty()) {
-      const std::size_t more = list.size() - 1;
-      return list.front().address + " was " + value_or_none(list.front().before) + " and is " +
-             value_or_none(list.front().after) +
-             (more > 0 ? ", and " + std::to_string(more) + " more differ" : "");
-    }
-    const auto version = run.at("version").get<std::string>();
-    if (version != picture.version) return "it was made by version " + version;
-    if (run.at("changes") != scene::to_json(picture.changes)) return "it had other changes";
-    if (run.at("coarsen") != picture.coarsening)
-      return "--coarsen was " + rough_text(run.at("coarsen").get<double>());
-    if (run.at("overrides") != Json(picture.overrides)) return "it had other --set";
-    const Json passes = run.value("passes", Json::array());
-    if (passes != Json(picture.passes))
-      return passes.empty() ? "it had no --passes"
-                            : "--passes was " + joined(passes.get<std::vector<std::string>>(), ",");
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
-    // An unreadable scene changes nothing here: the identity alone says that the run differs.
-  }
-  return "its scene, changes, views, quality or version differ";
-}
 
 /// Adds the frames that run.json lists and the checkpoint does not: those after `last`, and all of
 /// an earlier version. Their pictures stay listed until they are made again.
@@ -80,12 +41,14 @@ void check_identity(const std::filesystem::path& folder, const output::Checkpoin
   if (checkpoint.identity != identity_of(picture))
     throw UsageError(
         "--resume",
-        "the run in " + folder.string() + " is a different run: " + other_thing(folder, picture),
-        "omit --resume to replace it, or choose another folder with --out");
+        "the run in " + folder.string() +
+            " is a different run: " + difference_from_run(folder, picture),
+        "--replace instead of --resume replaces it, or choose another folder with --out");
   if (checkpoint.sources != build().sources)
     progress.warning(
         "the earlier part of the run was made by a program with other sources: this "
-        "part may not be what that program would make; omit --resume to make all of it again");
+        "part may not be what that program would make; --replace instead of --resume makes all of "
+        "it again");
   if (checkpoint.simd != simd)
     progress.warning("the earlier part of the run used " + checkpoint.simd +
                      " instructions, this part uses " + simd +
@@ -125,7 +88,8 @@ std::vector<record::Flaw> find_flaws(const std::filesystem::path& folder,
 std::optional<Resumption> find_resumption(const std::filesystem::path& folder,
                                           const record::RunRecord& record,
                                           const record::PictureRecord& picture,
-                                          setup::FrameRange frames, Progress& progress) {
+                                          setup::FrameRange frames, bool may_differ,
+                                          Progress& progress) {
   output::FoundCheckpoint found = output::find_checkpoint(folder);
   for (const std::string& damaged : found.damaged)
     progress.warning(damaged + "; using an older checkpoint");
@@ -133,6 +97,7 @@ std::optional<Resumption> find_resumption(const std::filesystem::path& folder,
     progress.note("no checkpoint in " + folder.string() + ": the run starts at its first frame");
     return std::nullopt;
   }
+  if (may_differ && found.checkpoint->identity != identity_of(picture)) return std::nullopt;
   check_identity(folder, *found.checkpoint, picture, record.simd, progress);
   Resumption resumption{timeline::to_moment(*std::move(found.checkpoint))};
   timeline::Moment& moment = resumption.moment;

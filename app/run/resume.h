@@ -24,10 +24,13 @@ struct Resumption {
 /// @param record   of this run, for the views that have pictures
 /// @param picture  of any view and frame: its record makes the run again
 /// @param frames   that are to have pictures
+/// @param may_differ  a run that is drawn otherwise is no error: empty then, the same simulation is
+/// drawn from its states
 /// @throws UsageError when the run in the folder is another one
 std::optional<Resumption> find_resumption(const std::filesystem::path& folder,
                                           const record::RunRecord& record,
                                           const record::PictureRecord& picture,
-                                          setup::FrameRange frames, Progress& progress);
+                                          setup::FrameRange frames, bool may_differ,
+                                          Progress& progress);
 
 }  // namespace neve::app::run

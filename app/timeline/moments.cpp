@@ -1,5 +1,6 @@
 #include "app/timeline/moments.h"
 
+#include <algorithm>
 #include <iterator>
 #include <limits>
 #include <new>
@@ -7,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "app/support/errors.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 #include "app/timeline/times.h"
 #include "sim/kernels/simd.h"
@@ -23,32 +26,38 @@ std::uint64_t bytes_of(const Moment& moment) {
 
 Moments::Moments(StatesFolder states, Progress& progress)
     : states_(std::move(states)), progress_(&progress) {
+  output::tidy_states_folder(states_.folder);
   const std::vector<int> frames = output::kept_states(states_.folder);
   std::optional<output::Checkpoint> found;
   for (auto frame = frames.begin(); frame != frames.end() && !found; ++frame)
     found = output::read_state(states_.folder, *frame).checkpoint;
-  const bool is_other = found && found->identity != states_.identity;
-  if (is_other)
+  if (found && found->identity != states_.identity) {
     output::remove_states(states_.folder);
-  else if (states_.are_read)
-    for (const int frame : frames) on_disk_[frame] = 0;
+  } else {
+    for (const int frame : frames) {
+      state_bytes_[frame] = output::state_bytes(states_.folder, frame);
+      if (states_.are_read) on_disk_[frame] = {};
+    }
+    // Thinned before: those between are not wanted now either.
+    for (std::size_t k = 1; k + 1 < frames.size() && states_.budget > 0; ++k)
+      every_ = k == 1 ? frames[k] - frames[k - 1] : std::min(every_, frames[k] - frames[k - 1]);
+  }
   for (const auto& [frame, steps] : output::checkpoint_steps(states_.folder))
-    on_disk_[frame] = steps;
-  states_.are_wanted = states_.are_wanted || (!is_other && !frames.empty());
+    on_disk_[frame] = {steps};
 }
 
 void Moments::add_run(const std::filesystem::path& folder) {
   const Json run = record::read_run_json(folder);
   if (!run.is_object() || run.value("version", Json()) != version) return;
   run_ = folder;
-  for (const int frame : output::kept_states(folder)) on_disk_[frame] = 0;
-  for (const auto& [frame, steps] : output::checkpoint_steps(folder)) on_disk_[frame] = steps;
+  for (const int frame : output::kept_states(folder)) on_disk_[frame] = {0, true};
+  for (const auto& [frame, steps] : output::checkpoint_steps(folder))
+    on_disk_[frame] = {steps, true};
 }
 
 /// One from a file that this program may continue. @param identity  that it has to have
-std::shared_ptr<const Moment> Moments::use(output::FoundCheckpoint found, int frame,
+std::shared_ptr<const Moment> Moments::use(output::FoundCheckpoint found, int frame, bool is_of_run,
                                            const std::string& identity) {
-  const bool is_of_run = !run_.empty();
   std::optional<output::Checkpoint>& file = found.checkpoint;
   std::string damage = found.damaged.empty() ? "" : found.damaged.front();
   const bool is_ours =
@@ -69,19 +78,23 @@ std::shared_ptr<const Moment> Moments::use(output::FoundCheckpoint found, int fr
 
 /// From DIR/checkpoint, or else from DIR/states. A frame without either is forgotten.
 std::shared_ptr<const Moment> Moments::read(int frame, double time, double fps) {
-  const std::filesystem::path& folder = run_.empty() ? states_.folder : run_;
+  const OnDisk file = on_disk_.at(frame);
+  const std::filesystem::path& folder = file.is_of_run ? run_ : states_.folder;
   std::shared_ptr<const Moment> moment;
-  if (on_disk_.at(frame) > 0)
-    moment = use(output::find_checkpoint(folder, frame + 1), frame, states_.checkpoints);
+  if (file.steps > 0)
+    moment =
+        use(output::find_checkpoint(folder, frame + 1), frame, file.is_of_run, states_.checkpoints);
   // A checkpoint of an interrupted run may lie inside a frame.
   if (moment && is_not_after(moment->time(fps), time)) return moment;
   const bool is_later = moment != nullptr;
-  moment = use(output::read_state(folder, frame), frame, states_.identity);
+  moment = use(output::read_state(folder, frame), frame, file.is_of_run, states_.identity);
+  if (!moment && !file.is_of_run) state_bytes_.erase(frame);
   if (!moment && !is_later) on_disk_.erase(frame);
   return moment;
 }
 
 std::shared_ptr<const Moment> Moments::find(double time, double fps, int after, std::size_t steps) {
+  settle();
   std::shared_ptr<const Moment> best;
   const int last = frame_at(time, fps);
   if (const auto later = in_memory_.upper_bound(last); later != in_memory_.begin())
@@ -91,8 +104,8 @@ std::shared_ptr<const Moment> Moments::find(double time, double fps, int after, 
       steps = newest->steps;
     }
   for (auto place = on_disk_.upper_bound(last); place != on_disk_.begin();) {
-    const auto [frame, steps_there] = *--place;
-    if (frame < after || (frame == after && steps_there <= steps)) break;
+    const auto [frame, file] = *--place;
+    if (frame < after || (frame == after && file.steps <= steps)) break;
     const auto moment = read(frame, time, fps);
     if (moment && (frame > after || moment->steps > steps)) return moment;
     place = on_disk_.lower_bound(frame);
@@ -105,19 +118,106 @@ std::shared_ptr<const Moment> Moments::find_newest(double fps) {
 }
 
 bool Moments::wants(int frame) const {
-  return budget_ > 0 || (states_.are_wanted && frame > 0 && !has(frame));
+  if (budget_ > 0) return true;
+  return states_.are_wanted && stopped_.empty() && frame > 0 && !state_bytes_.contains(frame) &&
+         (frame % every_ == 0 || frame == states_.last_frame);
 }
 
 void Moments::keep(Moment moment) {
-  if (!states_.folder.empty())
-    return output::write_state(states_.folder,
-                               to_checkpoint(std::move(moment), states_.identity, states_.simd));
+  if (!states_.folder.empty()) return keep_on_disk(std::move(moment));
   const int frame = moment.frame;
   if (const auto old = in_memory_.find(frame); old != in_memory_.end())
     bytes_ -= bytes_of(*old->second);
   bytes_ += bytes_of(moment);
   in_memory_.insert_or_assign(frame, std::make_shared<const Moment>(std::move(moment)));
   thin();
+}
+
+/// One at a time is written: memory holds two of them at most.
+void Moments::keep_on_disk(Moment moment) {
+  settle();
+  const int frame = moment.frame;
+  thin_states(moment.state.size(), frame);
+  if (!wants(frame)) return;
+  written_frame_ = frame;
+  writing_ = std::async(
+      std::launch::async,
+      [folder = states_.folder,
+       state = to_checkpoint(std::move(moment), states_.identity, states_.simd)]() mutable {
+        return output::write_state(folder, std::move(state));
+      });
+}
+
+void Moments::settle() {
+  if (!writing_.valid()) return;
+  try {
+    state_bytes_[written_frame_] = writing_.get();
+    on_disk_.insert({written_frame_, {}});
+  } catch (const IoError& error) {
+    if (states_.budget == 0) throw;
+    stop_keeping(error.what());
+  }
+}
+
+/// The disk may be full for pictures too: they come first.
+void Moments::stop_keeping(const std::string& why) {
+  stopped_ = why;
+  for (const auto& [frame, bytes] : state_bytes_)
+    if (const auto file = on_disk_.find(frame);
+        file != on_disk_.end() && file->second.steps == 0 && !file->second.is_of_run)
+      on_disk_.erase(file);
+  state_bytes_.clear();
+  output::remove_states(states_.folder);
+  if (progress_)
+    progress_->warning(why +
+                       "; the run goes on without states: to draw it otherwise, it will be "
+                       "simulated again");
+}
+
+/// Doubles the gaps between states until they and another one are within the budget; the newest
+/// stays.
+void Moments::thin_states(std::uint64_t size, int newest) {
+  if (states_.budget == 0 || !stopped_.empty()) return;
+  if (size > states_.budget) {
+    stopped_ =
+        "one takes " + bytes_text(size) + ", more than the budget of " + bytes_text(states_.budget);
+    return;
+  }
+  const auto total = [&] {
+    std::uint64_t bytes = wants(newest) ? size : 0;
+    for (const auto& [frame, own] : state_bytes_) bytes += own;
+    return bytes;
+  };
+  // As many as will come, before they are written.
+  const std::uint64_t frames_to_come =
+      static_cast<std::uint64_t>(std::max(0, states_.last_frame - newest));
+  while (every_ < states_.last_frame &&
+         (total() > states_.budget || frames_to_come / static_cast<std::uint64_t>(every_) >
+                                          (states_.budget - total()) / size)) {
+    every_ *= 2;
+    for (auto state = state_bytes_.begin(); state != state_bytes_.end();) {
+      const int frame = state->first;
+      if (frame % every_ == 0) {
+        ++state;
+        continue;
+      }
+      output::remove_state(states_.folder, frame);
+      if (const auto file = on_disk_.find(frame);
+          file != on_disk_.end() && file->second.steps == 0 && !file->second.is_of_run)
+        on_disk_.erase(file);
+      state = state_bytes_.erase(state);
+    }
+  }
+}
+
+std::optional<StatesKept> Moments::kept() const {
+  if (states_.folder.empty() || (state_bytes_.empty() && !states_.are_wanted)) return std::nullopt;
+  StatesKept kept{{}, 0, states_.budget, every_, stopped_};
+  for (const auto& [frame, bytes] : state_bytes_) {
+    kept.frames.push_back(frame);
+    kept.bytes += bytes;
+  }
+  return kept;
 }
 
 void Moments::forget_after(int frame) {
@@ -128,7 +228,7 @@ void Moments::forget_after(int frame) {
 
 std::vector<int> Moments::frames() const {
   std::set<int> all;
-  for (const auto& [frame, steps] : on_disk_) all.insert(frame);
+  for (const auto& [frame, file] : on_disk_) all.insert(frame);
   for (const auto& [frame, moment] : in_memory_) all.insert(frame);
   return {all.begin(), all.end()};
 }

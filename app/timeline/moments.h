@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,20 @@ struct StatesFolder {
   std::string checkpoints;       ///< identity of those beside them, in DIR/checkpoint
   std::string simd;
   bool are_read = true;     ///< not where laws are checked between steps
-  bool are_wanted = false;  ///< also where there are none yet
+  bool are_wanted = false;  ///< are written too
+  /// Bytes of all together: older ones are thinned out. 0: all are kept, and one that cannot be
+  /// written is an error; otherwise none is kept any more then.
+  std::uint64_t budget = 0;
+  int last_frame = 0;  ///< of this command
+};
+
+/// States in DIR/states, as they are now.
+struct StatesKept {
+  std::vector<int> frames;   ///< in order
+  std::uint64_t bytes = 0;   ///< of all of them
+  std::uint64_t budget = 0;  ///< see StatesFolder
+  int every = 1;             ///< frames from one to the next
+  std::string stopped;       ///< why none is kept any more; "" while they are
 };
 
 class Moments {
@@ -48,8 +63,13 @@ class Moments {
   /// True where the end of a frame is worth keeping. The start is made again faster than it is read
   /// from DIR/states.
   bool wants(int frame) const;
-  /// Keeps the end of a frame, in the place of the one with its number. @throws IoError
+  /// Keeps the end of a frame, in the place of the one with its number; a file of DIR/states is
+  /// written while the run goes on. @throws IoError for this one or the one before
   void keep(Moment moment);
+  /// Waits until the last one is written. @throws IoError
+  void settle();
+  /// Of DIR/states, when they are settled; nothing where none are wanted.
+  std::optional<StatesKept> kept() const;
 
   /// Forgets those of later frames; files stay.
   void forget_after(int frame);
@@ -62,16 +82,30 @@ class Moments {
 
  private:
   void thin();
+  void keep_on_disk(Moment moment);
+  void thin_states(std::uint64_t size, int newest);
+  void stop_keeping(const std::string& why);
   std::shared_ptr<const Moment> read(int frame, double time, double fps);
-  std::shared_ptr<const Moment> use(output::FoundCheckpoint found, int frame,
+  std::shared_ptr<const Moment> use(output::FoundCheckpoint found, int frame, bool is_of_run,
                                     const std::string& identity);
+
+  /// A file of a moment.
+  struct OnDisk {
+    std::size_t steps = 0;   ///< of a checkpoint; 0 of a state alone
+    bool is_of_run = false;  ///< in the folder of a run that is only read
+  };
 
   std::uint64_t budget_ = 0, bytes_ = 0;
   std::map<int, std::shared_ptr<const Moment>> in_memory_;
-  std::map<int, std::size_t> on_disk_;  ///< frames; steps of a checkpoint, 0 of a state alone
-  std::filesystem::path run_;           ///< that they are read from; empty: none
-  StatesFolder states_;                 ///< that they are written to; empty: none
-  Progress* progress_ = nullptr;        ///< of these
+  std::map<int, OnDisk> on_disk_;
+  std::filesystem::path run_;                 ///< that they are read from; empty: none
+  StatesFolder states_;                       ///< that they are written to; empty: none
+  Progress* progress_ = nullptr;              ///< of these
+  std::map<int, std::uint64_t> state_bytes_;  ///< of the states in that folder
+  int every_ = 1;                             ///< frames from one state to the next
+  std::string stopped_;                       ///< why no state is kept any more
+  std::future<std::uint64_t> writing_;        ///< the last state, and its bytes
+  int written_frame_ = 0;                     ///< of that state
 };
 
 }  // namespace neve::app::timeline

@@ -8,6 +8,7 @@
 #include "app/output/sequence.h"
 #include "app/record/picture_files.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/flat.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
@@ -109,21 +110,35 @@ std::vector<scene::LiveChange> changes_of_run(const Json& run, const fs::path& f
   }
 }
 
+/// The snow of a run is as it is; what draws it may change.
+std::vector<scene::Override> drawing_changes(const Edits& edits) {
+  std::vector<scene::Override> changes = scene::parse_overrides(edits.overrides);
+  for (const scene::Override& change : changes)
+    if (scene::concerns_simulation(change.address))
+      throw UsageError("--set",
+                       change.address +
+                           " belongs to the simulation, and a run has the scene it was "
+                           "made from",
+                       "give the scene file instead of the folder to write another run; of a run, "
+                       "views, camera, light and output can be set");
+  return changes;
+}
+
 void read_run(const Edits& edits, Origin& origin) {
-  if (!edits.overrides.empty() || edits.coarsening || edits.is_fast)
-    throw UsageError(!edits.overrides.empty() ? "--set"
-                     : edits.coarsening       ? "--coarsen"
-                                              : "--fast",
+  if (edits.coarsening || edits.is_fast)
+    throw UsageError(edits.coarsening ? "--coarsen" : "--fast",
                      "a run has the scene it was made from",
                      "give the scene file instead of the folder to write another run");
+  const std::vector<scene::Override> changes = drawing_changes(edits);
   origin.run = origin.scene_file;
   const fs::path file = output::run_json_path(origin.run);
   try {
     const Json run = parse_json(output::read_file(file));
-    origin.scene =
-        scene::read_scene_text(run.at("scene").get<std::string>(), file.string() + " (its scene)");
+    origin.scene = scene::read_scene_text(run.at("scene").get<std::string>(),
+                                          file.string() + " (its scene)", {}, changes);
     origin.changes = changes_of_run(run, file);
     origin.overrides = run.value("overrides", std::vector<std::string>{});
+    origin.overrides.insert(origin.overrides.end(), edits.overrides.begin(), edits.overrides.end());
     origin.coarsening = run.value("coarsen", 1.0);
     origin.run_frames = record::frame_records(run);
     for (record::FrameRecord& made : origin.run_frames)
@@ -133,6 +148,8 @@ void read_run(const Edits& edits, Origin& origin) {
                 file.string());
   }
   origin.frames = {0, scene::last_frame(origin.scene)};
+  if (!origin.run_frames.empty() && !edits.continues_run)
+    origin.frames = {std::max(0, origin.run_frames.front().frame), origin.run_frames.back().frame};
 }
 
 }  // namespace

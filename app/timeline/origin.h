@@ -27,6 +27,7 @@ struct Edits {
   Agreement agreement =
       Agreement::asked;        ///< to the cost and the files of a picture that came alone
   bool is_start_only = false;  ///< a picture's frame is not made, its scene is looked at
+  bool continues_run = false;  ///< all frames of a run's scene are wanted, not those it has
 };
 
 struct Origin {

@@ -92,8 +92,11 @@ TEST_F(Resume, AnotherSceneIsRefusedAndNothingIsTouched) {
   EXPECT_TRUE(contains(other.errors, "material.snow.hardening was 10")) << other.errors;
   EXPECT_TRUE(contains(other.errors, " and is 5")) << other.errors;
   EXPECT_EQ(files_of(folder / "out").pictures, before.pictures);
-  // Without --resume it is replaced, checkpoints too.
-  ASSERT_EQ(render("out", {"--frames", "0-1", "--checkpoint-every", "0"}).exit_code, 0);
+  // Without --resume it is replaced where that is asked for, checkpoints too.
+  ASSERT_EQ(render("out", {"--frames", "0-1", "--checkpoint-every", "0", "--replace", "--set",
+                           "material.snow.hardening=5"})
+                .exit_code,
+            0);
   EXPECT_FALSE(exists("out/checkpoint"));
 }
 

@@ -299,7 +299,8 @@ class LocalJobs {
                          status.state == store::RunState::interrupted ||
                          status.state == store::RunState::timeout;
     if (!resumes) clean(folder);
-    Child child({options_.program, arguments_of(run, threads, resumes), folder}, folder / "log",
+    Child child({options_.program, arguments_of(run, folder, threads, resumes), folder},
+                folder / "log",
                 {manifest_.timeout, static_cast<std::uint64_t>(manifest_.memory), options_.grace});
     status.state = store::RunState::running;
     ++status.attempts;
@@ -333,7 +334,8 @@ class LocalJobs {
     fs::remove(output::run_json_path(folder), error);
   }
 
-  std::vector<std::string> arguments_of(const Run& run, int threads, bool resumes) const {
+  std::vector<std::string> arguments_of(const Run& run, const fs::path& folder, int threads,
+                                        bool resumes) const {
     const bool is_branch = manifest_.beginning && &run != &manifest_.beginning->run;
     run::RenderOptions options;
     options.scene = "scene.toml";
@@ -345,7 +347,10 @@ class LocalJobs {
     options.has_movies = false;
     options.verbosity = Verbosity::quiet;
     options.resume = resumes;
-    options.keeps_states = manifest_.keeps_states;
+    // A run that has states of itself continues to keep them.
+    options.keeps_all_states = manifest_.keeps_states || !output::kept_states(folder).empty();
+    options.keeps_states = options.keeps_all_states;
+    options.replaces = true;
     if (manifest_.quality != setup::Quality::preview) options.quality = manifest_.quality;
     return options::words_of(options);
   }

@@ -1,0 +1,324 @@
+#include "app/run/addition.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <new>
+#include <set>
+
+#include "app/output/movie_format.h"
+#include "app/output/sequence.h"
+#include "app/run/identity.h"
+#include "app/scene/flat.h"
+#include "app/scene/read.h"
+#include "app/scene/scene_file.h"
+#include "app/support/errors.h"
+#include "app/support/text.h"
+
+namespace neve::app::run {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const scene::View* view_called(const scene::Scene& scene, const std::string& name) {
+  for (const scene::View& view : scene.views)
+    if (view.name == name) return &view;
+  return nullptr;
+}
+
+const scene::Mosaic* mosaic_called(const scene::Scene& scene, const std::string& name) {
+  for (const scene::Mosaic& mosaic : scene.mosaics)
+    if (mosaic.name == name) return &mosaic;
+  return nullptr;
+}
+
+/// The view with what it takes from its scene as its own.
+scene::View with_settings_of(const scene::Scene& scene, scene::View view) {
+  view.size = setup::size_of(scene, view);
+  if (!view.camera) view.camera = scene.camera;
+  view.background = scene::background_of(scene, view);
+  return view;
+}
+
+scene::Mosaic with_settings_of(const scene::Scene& scene, scene::Mosaic mosaic) {
+  if (!mosaic.width) mosaic.width = scene.size.width;
+  return mosaic;
+}
+
+/// Views of both, those of `now` in the place of earlier ones; what they take from their scene
+/// becomes their own where the two differ.
+scene::Scene with_views_of(const scene::Scene& earlier, const scene::Scene& now) {
+  scene::Scene merged = earlier;
+  const auto put = [](auto& list, const auto& item) {
+    for (auto& other : list)
+      if (other.name == item.name) {
+        other = item;
+        return;
+      }
+    list.push_back(item);
+  };
+  scene::Scene alone = now;
+  alone.views = earlier.views;
+  alone.mosaics = earlier.mosaics;
+  alone.exports = earlier.exports;
+  const bool has_same_settings = scene::write_scene(alone) == scene::write_scene(earlier);
+  for (const scene::View& view : now.views)
+    put(merged.views, has_same_settings ? view : with_settings_of(now, view));
+  for (const scene::Mosaic& mosaic : now.mosaics)
+    put(merged.mosaics, has_same_settings ? mosaic : with_settings_of(now, mosaic));
+  if (!now.exports.empty()) merged.exports = now.exports;
+  merged.frames = std::max(earlier.frames, now.frames);
+  return merged;
+}
+
+/// Movies of a view, by the names of their files.
+std::vector<std::string> movies_of(const std::string& view, const record::FileHashes& files) {
+  std::vector<std::string> movies;
+  for (const output::MovieFormat format : output::all_movie_formats())
+    if (const std::string name = output::movie_path({}, view, format).string();
+        files.contains(name) && std::ranges::find(movies, name) == movies.end())
+      movies.push_back(name);
+  return movies;
+}
+
+std::size_t count_below(const std::string& folder, const record::FileHashes& files) {
+  return static_cast<std::size_t>(std::count_if(files.begin(), files.end(), [&](const auto& f) {
+    return f.first.starts_with(folder + "/");
+  }));
+}
+
+/// "49 pictures of snow, snow.mp4"
+std::string files_text(const std::vector<std::string>& views, const EarlierRun& earlier) {
+  std::vector<std::string> parts;
+  for (const std::string& view : views) {
+    const int count = earlier.frames_of(view).count();
+    if (count > 0)
+      parts.push_back(fmt::format("{} {} of {}", count, count == 1 ? "picture" : "pictures", view));
+    for (const std::string& movie : movies_of(view, earlier.pictures.files)) parts.push_back(movie);
+  }
+  return joined(parts, ", ");
+}
+
+std::string exports_text(const scene::Scene& scene) {
+  scene::Scene exports;
+  exports.exports = scene.exports;
+  return scene::write_scene(exports);
+}
+
+bool has_exports(const EarlierRun& earlier) {
+  return count_below(output::exports_folder, earlier.pictures.files) > 0;
+}
+
+/// Exports of the command are those that the folder has already, or it has none.
+bool are_exports_kept(const RenderJob& job, const EarlierRun& earlier) {
+  return job.scene.exports.empty() || !has_exports(earlier) ||
+         exports_text(job.scene) == exports_text(earlier.scene);
+}
+
+std::string drawing_before(const EarlierRun& earlier, const std::string& view) {
+  const Json& json = earlier.json;
+  return json.contains("drawings") && json["drawings"].is_object()
+             ? json["drawings"].value(view, "")
+             : "";
+}
+
+/// A movie of the same frames in another quality or speed.
+bool has_other_movie(const RenderJob& job, const EarlierRun& earlier, const std::string& view) {
+  if (!job.has_movies()) return false;
+  const std::string name =
+      output::movie_path({}, view, job.options.movie.format).filename().string();
+  const Json styles = earlier.json.value("movies", Json::object());
+  return earlier.pictures.files.contains(name) && styles.is_object() && styles.contains(name) &&
+         styles[name] != movie_style_text(job);
+}
+
+/// Views of the command whose files differ from those that are there.
+std::vector<std::string> other_drawings(const EarlierRun& earlier, const record::RunRecord& ours) {
+  std::vector<std::string> views;
+  for (const std::string& view : ours.views)
+    if (earlier.has(view) && drawing_before(earlier, view) != ours.view_records.at(view).drawing)
+      views.push_back(view);
+  return views;
+}
+
+std::string name_of_earlier(const EarlierRun& earlier) {
+  return earlier.json.value("scene_file", "");
+}
+
+/// True where the folder is one that this command has by the name of the scene.
+bool is_of_scene(const RenderJob& job, const EarlierRun& earlier) {
+  return !job.run.empty() || job.picture ||
+         scene::name_of_scene(name_of_earlier(earlier)) == job.name();
+}
+
+[[noreturn]] void refuse(const RenderJob& job, const std::string& what, const std::string& files,
+                         const std::string& advice) {
+  throw UsageError(job.options.out.empty() ? "" : "--out",
+                   fmt::format("{} {}{}", job.folder.string(), what,
+                               files.empty() ? "" : "; it would replace " + files),
+                   advice);
+}
+
+}  // namespace
+
+bool EarlierRun::has(const std::string& view) const {
+  return std::ranges::find(pictures.views, view) != pictures.views.end();
+}
+
+record::ViewFrames EarlierRun::frames_of(const std::string& view) const {
+  if (!has(view) || pictures.frames.empty()) return {};
+  const auto part = pictures.view_frames.find(view);
+  if (part != pictures.view_frames.end()) return part->second;
+  return {pictures.frames.front().frame, pictures.frames.back().frame};
+}
+
+std::optional<EarlierRun> earlier_run(const RenderJob& job, const record::RunRecord& ours) {
+  EarlierRun earlier;
+  earlier.json = record::read_run_json(job.folder);
+  std::optional<record::Pictures> pictures = record::listed_pictures(earlier.json);
+  if (!pictures || (pictures->files.empty() && pictures->frames.empty())) return std::nullopt;
+  earlier.pictures = *std::move(pictures);
+  try {
+    earlier.scene = scene::read_scene_text(earlier.json.at("scene").get<std::string>(), "run.json");
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return std::nullopt;  // what it lists goes if it is of a run, as ever
+  }
+  earlier.is_same = earlier.json.value("simulation", Json()) == ours.simulation;
+  return earlier;
+}
+
+std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
+                       const std::string& view) {
+  scene::Scene scene = job.scene;
+  scene.views.clear();
+  scene.mosaics.clear();
+  scene.exports.clear();
+  const auto add = [&](const std::string& name) {
+    if (const scene::View* own = view_called(job.scene, name))
+      scene.views.push_back(with_settings_of(job.scene, *own));
+  };
+  if (const scene::Mosaic* mosaic = mosaic_called(job.scene, view)) {
+    scene.mosaics.push_back(with_settings_of(job.scene, *mosaic));
+    for (const std::string& tile : mosaic->views) add(tile);
+    picture.passes.clear();
+    picture.plate.clear();
+  } else {
+    add(view);
+  }
+  // Captions show no others.
+  std::erase_if(picture.overrides, [](const std::string& change) {
+    return !scene::concerns_simulation(change.substr(0, change.find('=')));
+  });
+  const scene::Scene plain;
+  scene.size = plain.size;
+  scene.camera = plain.camera;
+  scene.background = plain.background;
+  scene.limits = plain.limits;
+  picture.scene = scene::write_scene(scene);
+  return identity_of(std::move(picture));
+}
+
+void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::RunRecord& ours,
+                 const record::PictureRecord& picture) {
+  const std::string elsewhere = "choose another folder with --out";
+  if (!earlier.is_same) {
+    if (!is_of_scene(job, earlier))
+      refuse(job, "is the folder of another scene, " + name_of_earlier(earlier), "", elsewhere);
+    if (!job.options.replaces)
+      refuse(job, "has another simulation: " + difference_from_run(job.folder, picture),
+             files_text(earlier.pictures.views, earlier), "add --replace, or " + elsewhere);
+    return;
+  }
+  if (job.options.replaces) return;
+  const std::vector<std::string> views = other_drawings(earlier, ours);
+  if (!views.empty())
+    refuse(job,
+           "has " + joined(views, ", ") +
+               " of this run in another drawing (size, quality, camera, colours, light)",
+           files_text(views, earlier), "add --replace, or " + elsewhere);
+  for (const std::string& view : ours.views)
+    if (has_other_movie(job, earlier, view))
+      refuse(job, "has a movie of the same pictures in another quality or speed",
+             output::movie_path({}, view, job.options.movie.format).filename().string(),
+             "add --replace, or make another format with --movie");
+  if (!are_exports_kept(job, earlier))
+    refuse(
+        job, "has other exports of this run",
+        fmt::format("{} files in {}", count_below(output::exports_folder, earlier.pictures.files),
+                    output::exports_folder),
+        "add --replace, or " + elsewhere);
+}
+
+void keep_views(const RenderJob& job, const EarlierRun& earlier, record::RunRecord& ours) {
+  const auto& with_passes = earlier.pictures.views_of_passes;
+  for (const std::string& view : earlier.pictures.views) {
+    ours.earlier_views.push_back(view);
+    record::ViewRecord& record = ours.view_records[view];
+    record.frames = earlier.frames_of(view);
+    if (std::ranges::find(ours.views, view) != ours.views.end()) continue;
+    record.drawing = drawing_before(earlier, view);
+    record.has_passes = std::ranges::find(with_passes, view) != with_passes.end();
+  }
+  for (const std::string& view : ours.views)
+    if (!earlier.has(view)) ours.view_records[view].frames = record::ViewFrames{};
+  ours.scene = scene::write_scene(with_views_of(earlier.scene, job.scene));
+  if (!job.run.empty()) ours.scene_file = name_of_earlier(earlier);
+  for (const char* key : {"forked", "prediction", "slate", "validation", "divergence", "exports",
+                          "passes", "retries"})
+    if (earlier.json.contains(key)) ours.carried[key] = earlier.json[key];
+  if (const Json styles = earlier.json.value("movies", Json::object()); styles.is_object())
+    for (const auto& [file, style] : styles.items())
+      if (style.is_string()) ours.movies[file] = style;
+}
+
+record::FileHashes add_to_run(const RenderJob& job, const EarlierRun& earlier,
+                              record::RunRecord& ours) {
+  record::FileHashes removed;
+  ours.files = earlier.pictures.files;
+  ours.frames = earlier.pictures.frames;
+  const auto remove = [&](const auto& is_meant) {
+    for (auto file = ours.files.begin(); file != ours.files.end();) {
+      const bool goes = is_meant(file->first);
+      if (goes) removed.insert(*file);
+      file = goes ? ours.files.erase(file) : std::next(file);
+    }
+  };
+  const std::vector<std::string> others = other_drawings(earlier, ours);
+  keep_views(job, earlier, ours);
+  for (const std::string& view : ours.views) {
+    const bool goes = job.options.replaces || std::ranges::find(others, view) != others.end();
+    if (!earlier.has(view) || !goes) continue;
+    ours.view_records[view].frames = record::ViewFrames{};
+    const std::vector<std::string> movies = movies_of(view, ours.files);
+    remove([&](const std::string& name) {
+      return name.starts_with(view + "/") || std::ranges::find(movies, name) != movies.end();
+    });
+  }
+  if (!are_exports_kept(job, earlier))
+    remove([](const std::string& name) {
+      return name.starts_with(std::string(output::exports_folder) + "/");
+    });
+  return removed;
+}
+
+setup::FrameRange frames_without_gaps(const RenderJob& job, const record::RunRecord& ours) {
+  setup::FrameRange frames = job.frames;
+  const auto join = [&](const record::ViewFrames& there) {
+    if (there.count() <= 0) return;
+    const int first = scene::frame_of(job.scene, there.first),
+              last = scene::frame_of(job.scene, there.last);
+    frames.first = std::min(frames.first, last + 1);
+    frames.last = std::max(frames.last, first - 1);
+  };
+  if (!ours.frames.empty()) join({ours.frames.front().frame, ours.frames.back().frame});
+  for (const std::string& view : ours.views)
+    if (const auto record = ours.view_records.find(view);
+        record != ours.view_records.end() && record->second.frames)
+      join(*record->second.frames);
+  return frames;
+}
+
+}  // namespace neve::app::run

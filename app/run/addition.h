@@ -1,0 +1,56 @@
+#pragma once
+/// Pictures that are added to a run: a second command draws into a folder, and nothing that is
+/// there goes without a word.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/record/verify.h"
+#include "app/run/render_job.h"
+
+namespace neve::app::run {
+
+/// The run of a folder, as its run.json lists it.
+struct EarlierRun {
+  Json json;
+  record::Pictures pictures;
+  scene::Scene scene;
+  bool is_same = false;  ///< simulation as that of the command
+
+  bool has(const std::string& view) const;
+  /// Of the pictures of a view, in this run: those of the list, or the part that it says.
+  record::ViewFrames frames_of(const std::string& view) const;
+};
+
+/// Empty if the folder has no run.json with pictures, exports or movies, or one that cannot be
+/// read.
+/// @param ours  record of the command, with its simulation
+std::optional<EarlierRun> earlier_run(const RenderJob& job, const record::RunRecord& ours);
+
+/// Names all that the pictures of a view depend on but the states of its run: neither other views
+/// nor whether the scene or the view has its size, camera and background.
+/// @param picture  of any view and frame
+std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
+                       const std::string& view);
+
+/// @throws UsageError that says what the command would replace, unless the options replace it, and
+/// for the folder of another scene
+void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::RunRecord& ours,
+                 const record::PictureRecord& picture);
+
+/// Notes the views of an earlier part of the run with the frames that they have, and all else that
+/// its run.json says and this command does not.
+void keep_views(const RenderJob& job, const EarlierRun& earlier, record::RunRecord& ours);
+
+/// Makes the record of a command one of the earlier run with more pictures. Views that are drawn as
+/// before keep their pictures, unless the options replace them; views that are drawn otherwise lose
+/// theirs. @return files of the earlier run that are to be removed
+record::FileHashes add_to_run(const RenderJob& job, const EarlierRun& earlier,
+                              record::RunRecord& ours);
+
+/// Frames to draw, counted from 0: those of the job, and those between them and what is there, so
+/// that no view has a gap.
+setup::FrameRange frames_without_gaps(const RenderJob& job, const record::RunRecord& ours);
+
+}  // namespace neve::app::run

@@ -1,0 +1,264 @@
+/// Pictures that are added to a finished run: nothing is simulated again, and nothing is removed
+/// without a word.
+
+#include <fstream>
+#include <map>
+
+#include "app/output/atomic_file.h"
+#include "tests/cli/run_neve.h"
+
+namespace neve::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Addition : public Cli {
+ protected:
+  app::output::ProcessResult render(const std::vector<std::string>& more, int exit_code = 0) {
+    std::vector<std::string> words{"render"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto done = neve(words);
+    EXPECT_EQ(done.exit_code, exit_code) << done.errors;
+    return done;
+  }
+
+  std::map<std::string, std::vector<std::uint8_t>> pictures(const std::string& out) {
+    std::map<std::string, std::vector<std::uint8_t>> all;
+    for (const auto& entry : fs::directory_iterator(folder / out))
+      if (entry.path().extension() == ".png")
+        all[entry.path().filename().string()] = app::output::read_file(entry.path());
+    return all;
+  }
+
+  void expect_whole(const std::string& out) {
+    const auto verified = neve({"verify", out});
+    EXPECT_EQ(verified.exit_code, 0) << verified.output << verified.errors;
+  }
+
+  std::vector<int> states(const std::string& out) {
+    return json_of(out + "/run.json")["states"]["frames"].get<std::vector<int>>();
+  }
+};
+
+TEST_F(Addition, AFinishedRunIsDrawnInAnotherViewWithoutAStep) {
+  const auto first = render({"scene.toml", "--out", "a", "--no-movie"});
+  EXPECT_TRUE(contains(first.errors, "4 states in a/states, ")) << first.errors;
+  EXPECT_TRUE(contains(first.errors, " of at most 1.0 GiB")) << first.errors;
+  const auto before = pictures("a/particles");
+  const auto done = render({"a", "--view", "smoke", "--no-movie"});
+  EXPECT_TRUE(contains(done.errors, "5 frames of smoke added to the run in a, without simulating"))
+      << done.errors;
+  EXPECT_EQ(json_of("a/run.json").value("frames_from_states", 0), 4);
+  EXPECT_TRUE(pictures("a/particles") == before);
+  EXPECT_EQ(json_of("a/run.json")["views"], (app::Json{"particles", "smoke"}));
+  expect_whole("a");
+  render({"scene.toml", "--view", "smoke", "--out", "b", "--no-movie"});
+  EXPECT_TRUE(pictures("a/smoke") == pictures("b/smoke"));
+  EXPECT_EQ(hashes("a"), hashes("b"));
+}
+
+TEST_F(Addition, TheSameCommandAgainDrawsNothing) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const auto run = json_of("a/run.json");
+  const auto again = render({"scene.toml", "--out", "a", "--no-movie"});
+  EXPECT_TRUE(contains(again.errors, "nothing to draw: a has these pictures of particles"))
+      << again.errors;
+  EXPECT_EQ(json_of("a/run.json")["files"], run["files"]);
+  EXPECT_EQ(json_of("a/run.json")["frames"], run["frames"]);
+  // A picture that is missing is drawn, from its state.
+  fs::remove(folder / "a/particles/0003.png");
+  const auto mended = render({"a", "--no-movie"});
+  EXPECT_TRUE(contains(mended.errors, "1 frame of particles added")) << mended.errors;
+  EXPECT_EQ(json_of("a/run.json")["files"], run["files"]);
+  expect_whole("a");
+}
+
+TEST_F(Addition, AFilmInAnotherFormatIsMadeFromThePictures) {
+  const auto made = render({"scene.toml", "--out", "a", "--movie", "gif"});
+  if (!exists("a/particles.gif")) GTEST_SKIP() << "no ffmpeg: " << made.errors;
+  const auto more = render({"a", "--movie", "webp"});
+  EXPECT_TRUE(contains(more.errors, "nothing to draw")) << more.errors;
+  EXPECT_TRUE(exists("a/particles.gif"));
+  EXPECT_TRUE(exists("a/particles.webp"));
+  // The same film in another quality would replace the one that is there.
+  const auto other = render({"a", "--movie", "gif", "--movie-fps", "12"}, 2);
+  EXPECT_TRUE(contains(other.errors, "it would replace particles.gif; add --replace"))
+      << other.errors;
+  expect_whole("a");
+}
+
+TEST_F(Addition, AnotherDrawingOfAViewIsRefusedUntilItMayReplaceIt) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const auto before = pictures("a/particles");
+  for (const std::vector<std::string>& other :
+       {std::vector<std::string>{"--size", "96x54"},
+        {"--quality", "final"},
+        {"--set", "camera.eye=[0, 1, 2]"},
+        {"--set", "view.particles.particles.color_by=speed"}}) {
+    std::vector<std::string> words{"a", "--no-movie"};
+    words.insert(words.end(), other.begin(), other.end());
+    const auto refused = render(words, 2);
+    EXPECT_TRUE(contains(refused.errors, "it would replace 5 pictures of particles; add --replace"))
+        << refused.errors;
+    EXPECT_TRUE(pictures("a/particles") == before);
+  }
+  const auto done = render({"a", "--size", "96x54", "--no-movie", "--replace"});
+  EXPECT_TRUE(contains(done.errors, "5 frames of particles added")) << done.errors;
+  EXPECT_EQ(json_of("a/run.json").value("frames_from_states", 0), 4);
+  EXPECT_FALSE(pictures("a/particles") == before);
+  expect_whole("a");
+  // The first drawing of all takes it back.
+  render({"a", "--size", "160x90", "--no-movie", "--replace"});
+  expect_whole("a");
+}
+
+TEST_F(Addition, ViewsInOtherSizesAreKnownAgain) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"a", "--view", "smoke", "--size", "96x54", "--no-movie"});
+  for (const std::vector<std::string>& again :
+       {std::vector<std::string>{"a", "--no-movie"},
+        {"a", "--view", "smoke", "--no-movie"},
+        {"scene.toml", "--out", "a", "--no-movie"},
+        {"scene.toml", "--view", "smoke", "--size", "96x54", "--out", "a", "--no-movie"}}) {
+    const auto done = render(again);
+    EXPECT_TRUE(contains(done.errors, "nothing to draw")) << done.errors;
+  }
+  expect_whole("a");
+}
+
+TEST_F(Addition, AnotherSimulationIsRefusedUntilItMayReplaceTheRun) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"a", "--view", "smoke", "--frames", "0-1", "--no-movie"});
+  const std::vector<std::string> other{"scene.toml", "--out", "a",
+                                       "--no-movie", "--set", "material.snow.hardening=5",
+                                       "--frames",   "0-2"};
+  const auto refused = render(other, 2);
+  EXPECT_TRUE(contains(refused.errors, "material.snow.hardening was 10 and is 5"))
+      << refused.errors;
+  EXPECT_TRUE(
+      contains(refused.errors, "it would replace 5 pictures of particles, 2 pictures of smoke"))
+      << refused.errors;
+  expect_whole("a");
+  auto words = other;
+  words.push_back("--replace");
+  render(words);
+  EXPECT_FALSE(exists("a/smoke"));
+  EXPECT_EQ(states("a"), (std::vector<int>{1, 2}));
+  expect_whole("a");
+}
+
+TEST_F(Addition, TheFolderOfAnotherSceneIsRefused) {
+  render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-1"});
+  folder.write("other.toml", std::string(tiny_scene) + "\n[light]\nintensity = 2\n");
+  folder.write("fall.toml", std::string(tiny_scene) + "\n[material.snow]\nhardening = 3\n");
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, std::vector<std::string>{"--replace"}}) {
+    std::vector<std::string> words{"fall.toml", "--out", "a", "--no-movie", "--frames", "0-1"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto refused = render(words, 2);
+    EXPECT_TRUE(contains(refused.errors, "a is the folder of another scene, scene.toml"))
+        << refused.errors;
+  }
+  // The same simulation in other light is another drawing.
+  const auto light = render({"other.toml", "--out", "a", "--no-movie", "--frames", "0-1"}, 2);
+  EXPECT_TRUE(contains(light.errors, "in another drawing")) << light.errors;
+}
+
+TEST_F(Addition, StatesAreThinnedToTheirBudgetAndTheSameIsDrawnFromThem) {
+  render({"scene.toml", "--out", "whole", "--no-movie"});
+  const auto bytes = json_of("whole/run.json")["states"]["bytes"].get<std::uint64_t>();
+  EXPECT_EQ(states("whole"), (std::vector<int>{1, 2, 3, 4}));
+  const std::string budget = std::to_string(bytes * 6 / 10);
+  const auto thin = render({"scene.toml", "--out", "a", "--no-movie", "--states-budget", budget});
+  EXPECT_TRUE(contains(thin.errors, "2 states, one every 2 frames, in a/states")) << thin.errors;
+  EXPECT_EQ(states("a"), (std::vector<int>{2, 4}));
+  EXPECT_LE(json_of("a/run.json")["states"]["bytes"].get<std::uint64_t>(), bytes * 6 / 10);
+  render({"a", "--view", "smoke", "--no-movie"});
+  EXPECT_EQ(json_of("a/run.json").value("frames_from_states", 0), 2);
+  EXPECT_EQ(hashes("a"), hashes("whole"));
+  // One that takes more than all of it is not kept, and that is said.
+  const auto none = render({"scene.toml", "--out", "b", "--no-movie", "--states-budget", "1000"});
+  EXPECT_TRUE(contains(none.errors, "no states kept: one takes ")) << none.errors;
+  EXPECT_FALSE(exists("b/states"));
+  render({"scene.toml", "--out", "c", "--no-movie", "--no-keep-states"});
+  EXPECT_FALSE(exists("c/states"));
+  EXPECT_FALSE(json_of("c/run.json").contains("states"));
+}
+
+TEST_F(Addition, StatesThatCannotBeWrittenCostNoPicture) {
+  folder.write("a/states", "in the way");
+  const auto done = render({"scene.toml", "--out", "a", "--no-movie"});
+  EXPECT_TRUE(contains(done.errors, "the run goes on without states")) << done.errors;
+  EXPECT_EQ(pictures("a/particles").size(), 5u);
+  EXPECT_EQ(read_text(folder / "a/states"), "in the way");
+  render({"scene.toml", "--out", "a", "--no-movie", "--replace", "--keep-states"}, 6);
+}
+
+TEST_F(Addition, ARunIsDrawnElsewhereWithAnotherCamera) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const std::vector<std::string> camera{"--set", "camera.eye=[0, 1, 2]", "--set",
+                                        "camera.target=[0, 0, 0]", "--no-movie"};
+  auto from_run = camera, fresh = camera;
+  from_run.insert(from_run.begin(), {"a", "--out", "c"});
+  fresh.insert(fresh.begin(), {"scene.toml", "--out", "d"});
+  render(from_run);
+  render(fresh);
+  EXPECT_EQ(json_of("c/run.json").value("frames_from_states", 0), 4);
+  EXPECT_TRUE(pictures("c/particles") == pictures("d/particles"));
+  const auto refused = render({"a", "--set", "material.snow.hardening=5"}, 2);
+  EXPECT_TRUE(contains(refused.errors, "material.snow.hardening belongs to the simulation"))
+      << refused.errors;
+}
+
+TEST_F(Addition, FramesBetweenThoseThatAreThereAndTheNewOnesAreDrawnToo) {
+  render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-1"});
+  render({"a", "--view", "smoke", "--no-movie", "--frames", "3-4"});
+  EXPECT_EQ(pictures("a/smoke").size(), 3u);
+  EXPECT_EQ(pictures("a/particles").size(), 2u);
+  EXPECT_EQ(json_of("a/run.json")["view_frames"],
+            (app::Json{{"particles", {0, 1}}, {"smoke", {2, 4}}}));
+  expect_whole("a");
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  EXPECT_EQ(pictures("a/particles").size(), 5u);
+  expect_whole("a");
+}
+
+TEST_F(Addition, StripAndExportOfARunSimulateNothing) {
+  render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-3"});
+  const auto strip = neve({"strip", "a", "--view", "smoke", "--tiles", "4", "--verbose"});
+  EXPECT_EQ(strip.exit_code, 0) << strip.errors;
+  EXPECT_TRUE(contains(strip.errors, "4 of 4 moments in a/strip_smoke.png")) << strip.errors;
+  const auto exported = neve({"export", "a", "--format", "ply"});
+  EXPECT_EQ(exported.exit_code, 0) << exported.errors;
+  EXPECT_TRUE(exists("a/exports/ply/0003.ply"));
+  EXPECT_FALSE(exists("a/exports/ply/0004.ply")) << "the run has frames 0 to 3";
+}
+
+TEST_F(Addition, ExportsOfARunStayWhenAViewIsAdded) {
+  folder.write("scene.toml",
+               std::string(tiny_scene) + "\n[[export]]\nname = \"mesh\"\nformat = \"ply\"\n");
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const auto exports = json_of("a/run.json")["exports"];
+  render({"a", "--view", "smoke", "--no-movie"});
+  EXPECT_EQ(json_of("a/run.json")["exports"], exports);
+  expect_whole("a");
+  const auto refused =
+      render({"scene.toml", "--out", "a", "--no-movie", "--set", "export.mesh.scale=2"}, 2);
+  EXPECT_TRUE(contains(refused.errors, "other exports")) << refused.errors;
+}
+
+TEST_F(Addition, AnInterruptedRunIsFinishedByItsNameAlone) {
+  render({"scene.toml", "--out", "whole", "--no-movie"});
+  render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-2"});
+  const auto more = render({"a", "--resume", "--no-movie"});
+  EXPECT_TRUE(contains(more.errors, "resumed after frame 2")) << more.errors;
+  EXPECT_EQ(hashes("a"), hashes("whole"));
+  // Another view of a run needs no checkpoint of it.
+  render({"a", "--view", "smoke", "--frames", "0-1", "--no-movie"});
+  render({"scene.toml", "--out", "a", "--resume", "--no-movie"});
+  expect_whole("a");
+  EXPECT_EQ(pictures("a/smoke").size(), 2u);
+}
+
+}  // namespace
+}  // namespace neve::test
