@@ -228,7 +228,7 @@ void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::
     if (!is_of_scene(job, earlier))
       refuse(job, "is the folder of another scene, " + name_of_earlier(earlier), "", elsewhere);
     if (!job.options.replaces)
-      refuse(job, "has another simulation: " + difference_from_run(job.folder, picture),
+      refuse(job, "has another simulation: " + difference_from_run(job.folder, picture, ours.simd),
              files_text(earlier.pictures.views, earlier), "add --replace, or " + elsewhere);
     return;
   }
@@ -237,7 +237,7 @@ void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::
   if (!views.empty())
     refuse(job,
            "has " + joined(views, ", ") +
-               " of this run in another drawing (size, quality, camera, colours, light)",
+               " of this run, drawn otherwise: " + difference_from_run(job.folder, picture),
            files_text(views, earlier), "add --replace, or " + elsewhere);
   for (const std::string& view : ours.views)
     if (has_other_movie(job, earlier, view))

@@ -67,24 +67,21 @@ std::string identity_of(record::PictureRecord picture) {
 }
 
 std::string difference_from_run(const std::filesystem::path& folder,
-                                const record::PictureRecord& picture) {
+                                const record::PictureRecord& picture, const std::string& simd) {
+  const bool of_simulation = !simd.empty();
   try {
     const Json run = parse_json(output::read_file(output::run_json_path(folder)));
     const scene::Scene before =
         scene::read_scene_text(run.at("scene").get<std::string>(), "run.json");
     const scene::Scene after = scene::read_scene_text(picture.scene, "the scene");
     std::vector<scene::Difference> list = scene::differences(before, after);
-    std::stable_partition(list.begin(), list.end(), [](const scene::Difference& d) {
-      return scene::concerns_simulation(d.address);
+    // A command may draw some of the views that the folder has.
+    std::erase_if(list, [&](const scene::Difference& d) {
+      return of_simulation ? !scene::concerns_simulation(d.address)
+                           : d.address == "view" || d.address == "mosaic";
     });
     if (!list.empty()) {
-      const bool concerns = scene::concerns_simulation(list.front().address);
-      const auto more =
-          std::ranges::count_if(list,
-                                [&](const scene::Difference& d) {
-                                  return scene::concerns_simulation(d.address) == concerns;
-                                }) -
-          1;
+      const std::size_t more = list.size() - 1;
       return list.front().address + " was " + value_or_none(list.front().before) + " and is " +
              value_or_none(list.front().after) +
              (more > 0 ? ", and " + std::to_string(more) + " more differ" : "");
@@ -92,6 +89,11 @@ std::string difference_from_run(const std::filesystem::path& folder,
     const auto version = run.at("version").get<std::string>();
     if (version != picture.version) return "it was made by version " + version;
     if (run.at("changes") != scene::to_json(picture.changes)) return "it had other changes";
+    if (of_simulation && run.value("simd", Json()) != simd)
+      return "it was made with other instructions, " + run.at("simd").get<std::string>();
+    if (of_simulation)
+      return "files that its scene names have changed since, or it was made by another build of "
+             "neve";
     if (run.at("coarsen") != picture.coarsening)
       return "--coarsen was " + rough_text(run.at("coarsen").get<double>());
     if (run.at("overrides") != Json(picture.overrides)) return "it had other --set";

@@ -22,9 +22,10 @@ std::string identity_of_states(const RenderJob& job, const std::string& simd);
 std::string identity_of(record::PictureRecord picture);
 
 /// First difference between the run of a folder and this one, with both values; values that may
-/// differ where run.json cannot tell. Those that change the simulation come first.
+/// differ where run.json cannot tell.
+/// @param simd  instructions of this run, to hear only of what states depend on; "": of all
 std::string difference_from_run(const std::filesystem::path& folder,
-                                const record::PictureRecord& picture);
+                                const record::PictureRecord& picture, const std::string& simd = {});
 
 /// Names the quality and the speed of the movies of a job.
 std::string movie_style_text(const RenderJob& job);

@@ -161,7 +161,8 @@ TEST_F(Addition, TheFolderOfAnotherSceneIsRefused) {
   }
   // The same simulation in other light is another drawing.
   const auto light = render({"other.toml", "--out", "a", "--no-movie", "--frames", "0-1"}, 2);
-  EXPECT_TRUE(contains(light.errors, "in another drawing")) << light.errors;
+  EXPECT_TRUE(contains(light.errors, "drawn otherwise: light.intensity was 1 and is 2"))
+      << light.errors;
 }
 
 TEST_F(Addition, StatesAreThinnedToTheirBudgetAndTheSameIsDrawnFromThem) {

@@ -171,8 +171,8 @@ TEST_F(Cli, MisspeltNamesGetTheRightOnes) {
 
 TEST_F(Cli, WordsOverPicturesAreLayersAndAFlagLeavesThemOut) {
   const auto frame = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words{"render", "scene.toml", "--frames",
-                                   "0",      "--no-movie", "--quiet"};
+    std::vector<std::string> words{"render",     "scene.toml", "--frames", "0",
+                                   "--no-movie", "--quiet",    "--replace"};
     words.insert(words.end(), more.begin(), more.end());
     const auto result = neve(words);
     EXPECT_EQ(result.exit_code, 0) << result.errors;

@@ -90,10 +90,11 @@ TEST_F(Changes, PicturesBeforeAChangeDoNotListIt) {
     const bool is_first = std::string(frame) < "0002";
     EXPECT_EQ(made.changes.empty(), is_first);
     // Each of them leads to its own state.
+    const std::string out = "one" + std::string(frame);
     ASSERT_EQ(
-        neve({"render", "all/particles/" + std::string(frame) + ".png", "--out", "one"}).exit_code,
+        neve({"render", "all/particles/" + std::string(frame) + ".png", "--out", out}).exit_code,
         0);
-    EXPECT_EQ(hashes("one"), std::vector<std::string>{made.state_hash}) << frame;
+    EXPECT_EQ(hashes(out), std::vector<std::string>{made.state_hash}) << frame;
   }
   EXPECT_EQ(before, record.changes.size());
 }

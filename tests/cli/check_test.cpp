@@ -67,7 +67,7 @@ TEST_F(Check, MeshesThatAreNotPlainAreSaidByCheckAndByTheRun) {
     const auto check = neve({"check", "mesh.toml"});
     EXPECT_EQ(check.exit_code, 0) << check.errors;
     const auto run = neve({"render", "mesh.toml", "--frames", "0-0", "--size", "160x90",
-                           "--no-movie", "--out", "run"});
+                           "--no-movie", "--out", "run", "--replace"});
     EXPECT_EQ(run.exit_code, 0) << run.errors;
     const std::string warnings = json_of("run/run.json")["warnings"].dump();
     EXPECT_TRUE(contains(check.output + check.errors, "body.rock.shape.mesh")) << check.output;
@@ -321,7 +321,7 @@ TEST_F(Check, AdviceIsInTheNumbersThatSetTakes) {
     std::vector<std::string> words{command, "scene.toml", "--set", "solver.dt=" + dt};
     words.insert(words.end(), coarse.begin(), coarse.end());
     if (std::string_view(command) == "render")
-      for (const char* word : {"--size", "64x36", "--frames", "2", "--no-movie"})
+      for (const char* word : {"--size", "64x36", "--frames", "2", "--no-movie", "--replace"})
         words.emplace_back(word);
     return neve(words);
   };

@@ -219,7 +219,7 @@ TEST_F(Cli, ARunMayGoBackAndTryHalfTheStep) {
   std::vector<std::string> arguments = {"render", "scene.toml"};
   arguments.insert(arguments.end(), changes.begin(), changes.end());
   ASSERT_EQ(neve(arguments).exit_code, 5);
-  arguments.insert(arguments.end(), {"--set", "solver.on_divergence=retry"});
+  arguments.insert(arguments.end(), {"--replace", "--set", "solver.on_divergence=retry"});
   const auto result = neve(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_TRUE(contains(result.errors, "with dt times 0.5")) << result.errors;

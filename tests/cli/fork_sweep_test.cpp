@@ -71,7 +71,8 @@ TEST_F(ForkSweep, EveryBranchEqualsTheWholeRunWithItsChange) {
     const auto record = app::record::read_picture_record(folder / picture);
     ASSERT_EQ(record.changes.size(), 1u);
     EXPECT_EQ(record.changes[0].address, "material.snow.hardening");
-    ASSERT_EQ(neve({"render", picture, "--frames", "0-8", "--out", "whole"}).exit_code, 0);
+    ASSERT_EQ(neve({"render", picture, "--frames", "0-8", "--out", "whole", "--replace"}).exit_code,
+              0);
     const auto whole = hashes("whole");
     for (const auto& [frame, hash] : branches[run]) EXPECT_EQ(whole.at(frame), hash) << frame;
   }

@@ -140,7 +140,7 @@ TEST_F(Passes, DamagedFilesAreFoundAndMadeAgain) {
 TEST_F(Passes, ALaterRunRemovesTheFilesOfAnEarlierOne) {
   render({"flying.toml", "--passes", "depth", "--out", "run"});
   folder.write("run/particles/mine.exr", "mine");
-  render({"flying.toml", "--out", "run"});
+  render({"flying.toml", "--out", "run", "--replace"});
   EXPECT_FALSE(exists("run/particles/0002.exr"));
   EXPECT_TRUE(exists("run/particles/0002.png"));
   EXPECT_TRUE(exists("run/particles/mine.exr"));

@@ -125,7 +125,7 @@ TEST_F(Plates, PlatesOfOtherFormatsAndNumbersAreRead) {
   for (std::size_t i = 3; i < covered.pixels.size(); i += 4) covered.pixels[i] = 0;
   app::output::write_file(folder / "alpha.png", render::encode_png(covered));
   const auto corner = [&](const std::string& plate) {
-    render({"flying.toml", "--frames", "0-0", "--plate", plate, "--out", "run"});
+    render({"flying.toml", "--frames", "0-0", "--plate", plate, "--out", "run", "--replace"});
     return int{picture("run/particles/0000.png").pixels.at(30)};
   };
   for (const char* plate : {"plate.exr", "p.####.exr", "p.$F4.exr", "p.%04d.exr"})

@@ -17,12 +17,12 @@ class Prediction : public Cli {
  protected:
   /// The run.json of snowball_wedge.toml, as docs/prediction.md has it.
   app::Json wedge(std::vector<std::string> further) {
-    std::vector<std::string> words{"render",    NEVE_SOURCE_DIR "/scenes/snowball_wedge.toml",
-                                   "--frames",  "20",
-                                   "--size",    "64x40",
-                                   "--out",     "wedge",
-                                   "--set",     "solver.acoustic_cfl=0.85",
-                                   "--no-movie"};
+    std::vector<std::string> words{"render",     NEVE_SOURCE_DIR "/scenes/snowball_wedge.toml",
+                                   "--frames",   "20",
+                                   "--size",     "64x40",
+                                   "--out",      "wedge",
+                                   "--set",      "solver.acoustic_cfl=0.85",
+                                   "--no-movie", "--replace"};
     words.insert(words.end(), further.begin(), further.end());
     const app::output::ProcessResult made = neve(words);
     EXPECT_EQ(made.exit_code, 0) << made.errors;

@@ -80,7 +80,8 @@ TEST_F(Cli, RenderDrawsOnlyTheFramesAskedForFromTheSameSimulation) {
 TEST_F(Cli, ANewRunRemovesTheFramesOfTheOldOne) {
   ASSERT_EQ(neve({"render", "scene.toml"}).exit_code, 0);
   folder.write("out/scene/particles/mine.txt", "keep");
-  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "1"}).exit_code, 0);
+  ASSERT_EQ(
+      neve({"render", "scene.toml", "--frames", "1", "--set", "seed=2", "--replace"}).exit_code, 0);
   EXPECT_TRUE(exists("out/scene/particles/0001.png"));
   EXPECT_FALSE(exists("out/scene/particles/0002.png"));
   EXPECT_TRUE(exists("out/scene/particles/mine.txt"));
@@ -198,7 +199,7 @@ TEST_F(Cli, CoarsenedRunsAreSmallerAndTheirPicturesMakeThemselvesAgain) {
   const auto info = neve({"info", picture, "--json"});
   EXPECT_EQ(app::parse_json(std::string_view(info.output))["coarsen"], 1.5);
   // A picture can be coarsened further.
-  ASSERT_EQ(neve({"render", picture, "--coarsen", "2"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", picture, "--coarsen", "2", "--replace"}).exit_code, 0);
   EXPECT_EQ(json_of("out/0002-again/run.json")["coarsen"], 3);
 }
 
@@ -266,7 +267,7 @@ TEST_F(Cli, DrawingBesideTheSimulationChangesNoBit) {
 TEST_F(Cli, ATitleThatTheFontLacksIsSaidOnce) {
   const auto said = [&](const std::string& title) {
     const auto result = neve({"render", "scene.toml", "--frames", "0-1", "--no-movie", "--out",
-                              "titled", "--set", "title=\"" + title + "\""});
+                              "titled", "--replace", "--set", "title=\"" + title + "\""});
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     return result.errors;
   };

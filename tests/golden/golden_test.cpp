@@ -63,6 +63,7 @@ class GoldenTest : public Cli, public testing::WithParamInterface<Way> {
                                        "out",
                                        "--backend",
                                        way.backend,
+                                       "--no-keep-states",
                                        "--checkpoint-every",
                                        "0"};
     arguments.insert(arguments.end(), more.begin(), more.end());
