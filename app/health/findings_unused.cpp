@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "app/health/findings.h"
+#include "app/scene/flat.h"
 #include "app/scene/toml/value.h"
+#include "app/setup/curves.h"
 #include "app/support/text.h"
 #include "sim/shapes/solid.h"
 
@@ -63,6 +65,39 @@ void check_keyframes(const scene::Scene& scene, std::vector<Finding>& findings) 
   }
 }
 
+std::string value_text(const std::optional<scene::toml::Value>& value) {
+  return value ? scene::toml::toml_literal(*value) : "none";
+}
+
+/// Keyframes that no frame has, and values that the scene gives beside a curve.
+void check_curves(const scene::Scene& scene, std::vector<Finding>& findings) {
+  if (scene.curves.empty()) return;
+  const double end = scene::duration(scene);
+  const std::vector<scene::FlatParam> params = scene::flatten(scene);
+  const std::vector<scene::Override> first = setup::curve_values(scene, 0);
+  for (std::size_t k = 0; k < std::min(first.size(), scene.curves.size()); ++k) {
+    const scene::Curve& curve = scene.curves[k];
+    const double last = curve.keyframes.back().time;
+    if (end > 0 && last > end * (1 + 1e-9))
+      findings.push_back({Severity::warning, "curve." + curve.name + ".keyframes",
+                          fmt::format("the last keyframe of {} is at {} s, the scene ends at {} s",
+                                      curve.parameter, rough_text(last), rough_text(end)),
+                          "make frames larger, or move keyframes earlier"});
+    findings.push_back(
+        {Severity::note, curve.parameter,
+         fmt::format("follows {} keyframes, from {} to {}", curve.keyframes.size(), first[k].value,
+                     setup::curve_values(scene, scene::last_frame(scene))[k].value),
+         "the forecast is for the first value"});
+    for (const scene::FlatParam& param : params)
+      if (param.address == curve.parameter && !param.is_default() &&
+          value_text(param.value) != first[k].value)
+        findings.push_back({Severity::warning, curve.parameter,
+                            fmt::format("{} is not used: the curve {} begins with {}",
+                                        value_text(param.value), curve.name, first[k].value),
+                            "remove one of the two"});
+  }
+}
+
 /// True if a view sets anything of a slice other than its automatic place.
 bool asks_for_slice(const scene::SliceStyle& s) {
   const scene::SliceStyle usual;
@@ -113,6 +148,7 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
   for (const sim::seeding::Emitter& emitter : scene.emitters)
     check_removed(scene, "emitter", emitter.name, emitter.shape, much, findings);
   check_keyframes(scene, findings);
+  check_curves(scene, findings);
   check_slices(scene, findings);
   const double usual_dt = sim::SolverSettings{}.dt * coarsening, dt = scene.solver.dt;
   if (scene.solver.time_step == sim::TimeStep::adaptive &&

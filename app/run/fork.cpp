@@ -5,7 +5,10 @@
 #include <cmath>
 #include <memory>
 
+#include "app/scene/flat.h"
+#include "app/scene/presets.h"
 #include "app/scene/read.h"
+#include "app/scene/toml/value.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
@@ -30,6 +33,36 @@ std::string advice_on_frame(const RenderJob& job, int last) {
   return fmt::format("; frame {} is at {} s", frame, rough_text(frame / job.scene.fps));
 }
 
+/// The numbers that a preset sets and that can change while a run runs; others stay, with a note.
+void take_live_numbers(const scene::Scene& before, Fork& fork) {
+  std::vector<scene::Override> changes;
+  for (const scene::Override& change : fork.changes) {
+    if (!scene::is_preset_address(change.address)) {
+      changes.push_back(change);
+      continue;
+    }
+    for (const scene::Difference& number :
+         scene::differences(before, scene::apply(before, {change}, "the scene"))) {
+      if (number.is_live)
+        changes.push_back({number.address, scene::toml::toml_literal(*number.after)});
+      else
+        fork.notes.push_back(fmt::format("{} stays {}: it cannot change while a simulation runs",
+                                         number.address,
+                                         scene::toml::toml_literal(*number.before)));
+    }
+  }
+  fork.changes = std::move(changes);
+}
+
+/// A curve would give it its own value again in the next frame.
+void refuse_curves(const scene::Scene& before, const std::vector<scene::Override>& changes) {
+  for (const scene::Curve& curve : before.curves)
+    for (const scene::Override& change : changes)
+      if (change.address == curve.parameter)
+        throw UsageError("--from", curve.parameter + " follows its curve " + curve.name,
+                         "change curve." + curve.name + ".keyframes instead");
+}
+
 }  // namespace
 
 void require_whole_frame(const scene::Scene& scene, double time, const char* flag) {
@@ -47,6 +80,8 @@ void require_whole_frame(const scene::Scene& scene, double time, const char* fla
 void set_fork(const RenderOptions& options, RenderJob& job) {
   job.fork = Fork{*options.from, scene::parse_overrides(options.overrides)};
   const scene::Scene before = with_all_changes(job);
+  take_live_numbers(before, *job.fork);
+  refuse_curves(before, job.fork->changes);
   const scene::Scene forked = scene::apply(before, job.fork->changes, job.scene_file);
   timeline::require_live(before, forked, "--from");
   const int first = timeline::frame_at(job.fork->time, job.scene.fps) + 1;
@@ -97,6 +132,7 @@ void walk_to_fork(const RenderJob& job, timeline::Timeline& timeline, Progress& 
 }
 
 Json go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress) {
+  for (const std::string& note : job.fork->notes) progress.note(note);
   walk_to_fork(job, timeline, progress);
   const sim::Simulation& simulation = timeline.simulation();
   Json record = {{"from", job.scene_file},

@@ -18,6 +18,7 @@ namespace neve::app::run {
 struct Fork {
   double time = 0;  ///< s
   std::vector<scene::Override> changes;
+  std::vector<std::string> notes{};  ///< what a preset among them would set and cannot
 };
 
 /// An origin, with the chosen views and sizes, and what is made of it.

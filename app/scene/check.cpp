@@ -8,6 +8,7 @@
 
 #include "app/advice/suggest.h"
 #include "app/scene/burn_in.h"
+#include "app/scene/flat.h"
 #include "app/scene/leaf.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
@@ -654,6 +655,86 @@ Found collider_problem(const Scene& scene, const Collider& collider) {
   });
 }
 
+/// Parameters with curves are numbers or vectors of the simulation that may change while it runs.
+Found parameter_problem(const Scene& scene, const Curve& curve, const FlatParam* param) {
+  const std::string at = "curve." + curve.name + ".parameter";
+  if (curve.parameter.empty())
+    return Problem{at, "the curve names no parameter",
+                   "give its address, as in parameter = \"solver.gravity\"; neve params lists all"};
+  if (!param) {
+    std::vector<std::string> known;
+    for (const FlatParam& other : flatten(scene))
+      if (other.is_live && concerns_simulation(other.address)) known.push_back(other.address);
+    return Problem{at, "nothing in the scene is called \"" + curve.parameter + "\"",
+                   advice::suggest(curve.parameter, {"", known}, "neve params lists addresses")};
+  }
+  if (!concerns_simulation(param->address))
+    return Problem{at, curve.parameter + " only concerns pictures",
+                   "cameras and colliders have keyframes of their own"};
+  if (!param->is_live)
+    return Problem{at, curve.parameter + " cannot change while a simulation runs",
+                   "neve params says \"live\" where it can"};
+  if (param->type == "number" || param->type == "vector") return {};
+  return Problem{at, curve.parameter + " is a " + param->type, "numbers and vectors have curves"};
+}
+
+Found key_problem(const CurveKeyframe& key, const FlatParam& param, const std::string& at) {
+  const bool is_vector = param.type == "vector";
+  const char *wanted = is_vector ? "vector" : "value", *other = is_vector ? "value" : "vector";
+  if (is_vector ? key.value.has_value() : key.vector.has_value())
+    return Problem{at + "." + other, param.address + " is a " + param.type,
+                   std::string("give ") + wanted + " = " + (is_vector ? "[0, -9.81, 0]" : "0.5")};
+  if (is_vector ? !key.vector : !key.value)
+    return Problem{at + ".time", std::string("the keyframe has no ") + wanted,
+                   std::string("give ") + wanted + " = " + (is_vector ? "[0, -9.81, 0]" : "0.5")};
+  for (int c = 0; c < (is_vector ? 3 : 1); ++c) {
+    const double number = is_vector ? (*key.vector)[c] : *key.value;
+    if (!param.valid.contains(number))
+      return Problem{at + "." + wanted, param.address + " would be " + toml::number_text(number),
+                     "expected " + param.valid.text_of_bounds()};
+  }
+  return {};
+}
+
+Found curve_problem(const Scene& scene, const Curve& curve, const FlatParam* param) {
+  if (Found found = parameter_problem(scene, curve, param)) return found;
+  const std::string at = "curve." + curve.name + ".keyframes";
+  if (curve.keyframes.empty())
+    return Problem{at, "the curve has no keyframes",
+                   "add keyframes = [{ time = 0, value = ... }, { time = 1, value = ... }]"};
+  const CurveKeyframe* before = nullptr;
+  std::size_t index = 0;
+  for (const CurveKeyframe& key : curve.keyframes) {
+    const std::string key_at = at + "[" + std::to_string(++index) + "]";
+    if (before && !(key.time > before->time))
+      return Problem{key_at + ".time",
+                     "keyframe " + std::to_string(index) + " is at " + toml::number_text(key.time) +
+                         " s, the one before at " + toml::number_text(before->time) + " s",
+                     "times must increase from one keyframe to the next"};
+    if (Found found = key_problem(key, *param, key_at)) return found;
+    before = &key;
+  }
+  for (const Curve& other : scene.curves)
+    if (&other < &curve && other.parameter == curve.parameter)
+      return Problem{"curve." + curve.name + ".parameter",
+                     curve.parameter + " has the curve " + other.name + " already",
+                     "put all keyframes of a parameter into one curve"};
+  return {};
+}
+
+Found curves_problem(const Scene& scene) {
+  if (scene.curves.empty()) return {};
+  const std::vector<FlatParam> params = flatten(scene);
+  for (const Curve& curve : scene.curves) {
+    const auto param = std::find_if(params.begin(), params.end(), [&](const FlatParam& p) {
+      return p.address == curve.parameter;
+    });
+    if (Found found = curve_problem(scene, curve, param == params.end() ? nullptr : &*param))
+      return found;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<Problem> find_problem(const Scene& scene) {
@@ -681,6 +762,7 @@ std::optional<Problem> find_problem(const Scene& scene) {
   for (const Collider& collider : scene.colliders) {
     if ((found = collider_problem(scene, collider))) return found;
   }
+  if ((found = curves_problem(scene))) return found;
   if (scene.camera && (found = camera_problem(*scene.camera, "camera"))) return found;
   if (scene.camera && (found = follow_problem(scene, scene.camera->follow, "camera"))) return found;
   if ((found = light_problem(scene.light))) return found;

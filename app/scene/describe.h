@@ -516,8 +516,10 @@ void describe(V& visit, Collider& c) {
   describe_body_that_moves(visit, c.body);
   visit.sequence("keyframes", c.keyframes,
                  "Path of the shape, from rest to rest; excludes the velocities.");
-  visit("style", c.style, unit::none, anything, live,
-        "solid; wire: lines only; ghost: see-through. Snow behind wires and ghosts is visible.");
+  visit(
+      "style", c.style, unit::none, anything, live,
+      "solid; wire: lines; ghost: see-through; holdout: hides snow, takes shadows and is not seen, "
+      "for plates.");
 }
 
 template <class V>
@@ -529,6 +531,30 @@ void describe(V& visit, sim::shapes::PoseKeyframe& k) {
         "Place of the shape's centre (a plane's point); default: that of the shape.");
   visit("rotation", k.rotation, unit::degrees, within(1e6), live,
         "Rotation of the shape, less than 180 degrees from the previous one; default: its own.");
+}
+
+template <class V>
+void describe(V& visit, Curve& c) {
+  using enum Change;
+  visit("name", c.name, unit::none, identifier, restart,
+        "Name in addresses; default: its number, from 1.");
+  visit("parameter", c.parameter, unit::none, anything, restart,
+        "Address of a number or vector of the simulation that may change during a run, as "
+        "\"solver.gravity\".");
+  visit("interpolation", c.interpolation, unit::none, anything, live,
+        "smooth: a curve without overshoot, at rest at both ends; linear; step: the value of the "
+        "last keyframe.");
+  visit.sequence("keyframes", c.keyframes,
+                 "Values at times; each frame has the value of its middle.");
+}
+
+template <class V>
+void describe(V& visit, CurveKeyframe& k) {
+  using enum Change;
+  visit("time", k.time, unit::second, between(0, 1e6), live,
+        "Time of the keyframe, later than the previous one.");
+  visit("value", k.value, unit::none, anything, live, "Value of a parameter that is a number.");
+  visit("vector", k.vector, unit::none, anything, live, "Value of a parameter that is a vector.");
 }
 
 template <class V>
@@ -618,6 +644,9 @@ void describe(V& visit, SliceStyle& s) {
         "Colours of the heat map.");
   visit("scalar_range", s.scalar_range, unit::none, within(1e30), live,
         "Values at the ends of the heat map's colours, or \"auto\".");
+  visit("range_from", s.range_from, unit::none, anything, live,
+        "scene: ranges are the same in all frames; frame: those of the frame, and the legend says "
+        "so.");
 }
 
 template <class V>
@@ -783,6 +812,7 @@ void describe(V& visit, Scene& s) {
   visit.list("sink", s.sinks, "A region that removes snow.");
   visit.list("collider", s.colliders,
              "A solid: it moves as the scene says, or with a density by itself.");
+  visit.list("curve", s.curves, "Keyframes of a parameter: its values over the time of the run.");
   visit.optional("camera", s.camera, "The camera of all views; default: frames the whole scene.");
   visit.section("light", "The sun and the sky.", [&](auto& v) { describe(v, s.light); });
   visit.list("view", s.views, "One picture per frame.");

@@ -121,8 +121,8 @@ class Flattener {
 
 /// "material.NAME.hardening" for "material.snow.hardening".
 std::string pattern_of(std::string_view address) {
-  static const std::set<std::string, std::less<>> named{"material", "body", "emitter", "sink",
-                                                        "collider", "view", "mosaic",  "export"};
+  static const std::set<std::string, std::less<>> named{
+      "material", "body", "emitter", "sink", "collider", "view", "mosaic", "export", "curve"};
   const auto first = address.find('.');
   if (first == std::string_view::npos || !named.contains(address.substr(0, first)))
     return std::string(address);
@@ -150,6 +150,7 @@ std::vector<std::string> item_names_of(const Scene& scene, const std::string& li
   if (list == "emitter") take(scene.emitters);
   if (list == "sink") take(scene.sinks);
   if (list == "collider") take(scene.colliders);
+  if (list == "curve") take(scene.curves);
   if (list == "view") take(scene.views);
   if (list == "mosaic") take(scene.mosaics);
   if (list == "export") take(scene.exports);
@@ -237,7 +238,7 @@ bool is_live(std::string_view address) {
 Concern concern_of(std::string_view address) {
   if (address.starts_with("collider.") && address.ends_with(".style")) return Concern::pictures;
   for (const char* part :
-       {"solver.", "dust.", "material.", "body.", "emitter.", "sink.", "collider."})
+       {"solver.", "dust.", "material.", "body.", "emitter.", "sink.", "collider.", "curve."})
     if (address.starts_with(part)) return Concern::simulation;
   if (address == "fps" || address == "seed") return Concern::simulation;
   if (address == "frames" || address == "handles" || address.starts_with("limits.") ||
@@ -254,7 +255,7 @@ bool same_value(const std::optional<toml::Value>& a, const std::optional<toml::V
 std::vector<Difference> differences(const Scene& before, const Scene& after) {
   std::vector<Difference> found;
   for (const char* list :
-       {"material", "body", "emitter", "sink", "collider", "view", "mosaic", "export"}) {
+       {"material", "body", "emitter", "sink", "collider", "curve", "view", "mosaic", "export"}) {
     const auto old_names = item_names_of(before, list), new_names = item_names_of(after, list);
     // The order counts too: unnamed items are numbered, and materials are known by their place.
     if (old_names == new_names) continue;

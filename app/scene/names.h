@@ -106,13 +106,22 @@ constexpr auto names(sim::shapes::Contact) {
   using enum sim::shapes::Contact;
   return std::array{Name{separate, "separate"}, Name{slip, "slip"}, Name{sticky, "sticky"}};
 }
+constexpr auto names(RangeFrom) {
+  using enum RangeFrom;
+  return std::array{Name{scene, "scene"}, Name{frame, "frame"}};
+}
+constexpr auto names(Interpolation) {
+  using enum Interpolation;
+  return std::array{Name{smooth, "smooth"}, Name{linear, "linear"}, Name{step, "step"}};
+}
 constexpr auto names(Background) {
   using enum Background;
   return std::array{Name{gradient, "gradient"}, Name{transparent, "transparent"}};
 }
 constexpr auto names(ColliderStyle) {
   using enum ColliderStyle;
-  return std::array{Name{solid, "solid"}, Name{wire, "wire"}, Name{ghost, "ghost"}};
+  return std::array{Name{solid, "solid"}, Name{wire, "wire"}, Name{ghost, "ghost"},
+                    Name{holdout, "holdout"}};
 }
 constexpr auto names(ColorBy) {
   using enum ColorBy;
@@ -167,7 +176,8 @@ constexpr auto names(Layer) {
                     Name{slate, "slate"},
                     Name{streamlines, "streamlines"},
                     Name{scale, "scale"},
-                    Name{dust, "dust"}};
+                    Name{dust, "dust"},
+                    Name{extremes, "extremes"}};
 }
 constexpr auto names(ExportFormat) {
   using enum ExportFormat;

@@ -38,7 +38,8 @@ enum class Layer {
   slate,
   streamlines,
   scale,
-  dust
+  dust,
+  extremes
 };
 
 /// Absent range: "auto". Resolving a scene fills it in.
@@ -47,7 +48,7 @@ struct Range {
 };
 
 enum class Background { gradient, transparent };
-enum class ColliderStyle { solid, wire, ghost };
+enum class ColliderStyle { solid, wire, ghost, holdout };
 
 /// Collider of the simulation, with its style of drawing.
 struct Collider : sim::shapes::Collider {
@@ -68,6 +69,9 @@ struct SmokeStyle {
   std::optional<Range> range;
 };
 
+/// Ends of automatic ranges: constants of the scene, or the values of the frame that is drawn.
+enum class RangeFrom { scene, frame };
+
 /// A plane through the grid: arrows of a vector field and a heat map of a scalar field on it.
 struct SliceStyle {
   VectorField field = VectorField::velocity;  ///< of the arrows
@@ -83,6 +87,7 @@ struct SliceStyle {
   std::optional<Range> range;                                  ///< of their magnitude
   render::ColorMap scalar_colormap = render::ColorMap::magma;  ///< of the heat map
   std::optional<Range> scalar_range;
+  RangeFrom range_from = RangeFrom::scene;  ///< of both ranges
 };
 
 /// Absent values are inherited from the camera.
@@ -224,6 +229,25 @@ struct Limits {
   std::uint64_t pixels = 64'000'000;
 };
 
+/// From one keyframe to the next: a monotone cubic that is at rest at the first and the last one, a
+/// straight line, or the value of the earlier one.
+enum class Interpolation { smooth, linear, step };
+
+/// A number or a vector, as the parameter has.
+struct CurveKeyframe {
+  double time = 0;  ///< s
+  std::optional<double> value;
+  std::optional<sim::Vec3d> vector;
+};
+
+/// Keyframes of a parameter of the simulation that may change while it runs.
+struct Curve {
+  std::string name;
+  std::string parameter;  ///< its address
+  Interpolation interpolation = Interpolation::smooth;
+  std::vector<CurveKeyframe> keyframes;  ///< times increase
+};
+
 struct Scene {
   std::string title;
   int frames = 48;      ///< of the shot, after its first one
@@ -238,6 +262,7 @@ struct Scene {
   std::vector<sim::seeding::Emitter> emitters;
   std::vector<sim::seeding::Sink> sinks;
   std::vector<Collider> colliders;
+  std::vector<Curve> curves;
   std::optional<CameraSettings> camera;  ///< automatic when absent
   LightSettings light;
   std::vector<View> views;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/scene/coarsen.h"
+#include "app/setup/curves.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/interrupt.h"
@@ -46,6 +47,10 @@ scene::Scene coarsened(const scene::Scene& scene, Substitute substitute) {
       material.critical_compression = 0.9;
     }
   }
+  // Snow is not the scene's own here: its curves do not fit.
+  std::erase_if(coarse.curves, [](const scene::Curve& curve) {
+    return curve.parameter != "solver.gravity" && !curve.parameter.starts_with("collider.");
+  });
   // Snow that is not crushed would bounce like rubber: pure PIC takes that energy out.
   if (substitute == Substitute::uncrushed) coarse.solver.flip_ratio = 0;
   return coarse;
@@ -105,6 +110,11 @@ Run run_within_budget(const scene::Scene& coarse) {
   long steps_left = std::lround(work_budget / (static_cast<double>(particles.x.size()) + emitted));
   const double duration = coarse.frames / coarse.fps;
   for (int k = 1; k <= moments && duration > 0; ++k) {
+    if (!coarse.curves.empty()) {
+      const scene::Scene now =
+          with_curves(coarse, static_cast<int>(std::lround(duration * k / moments * coarse.fps)));
+      simulation.apply(now.solver, now.materials, scene::sim_colliders(now));
+    }
     simulation.advance_to(duration * k / moments,
                           [&] { return --steps_left <= 0 || is_interrupted(); });
     result.is_whole = !simulation.divergence();

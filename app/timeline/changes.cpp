@@ -103,6 +103,7 @@ scene::Scene recorded_scene(const scene::Scene& start, const scene::Scene& now) 
   scene.bodies = start.bodies;
   scene.emitters = start.emitters;
   scene.sinks = start.sinks;
+  scene.curves = start.curves;
   scene.fps = start.fps;
   scene.seed = start.seed;
   scene.colliders = start.colliders;

@@ -1,5 +1,6 @@
 #include "app/timeline/timeline.h"
 
+#include <algorithm>
 #include <limits>
 #include <new>
 #include <set>
@@ -8,6 +9,7 @@
 
 #include "app/scene/flat.h"
 #include "app/scene/toml/value.h"
+#include "app/setup/curves.h"
 #include "app/setup/resolve.h"
 #include "app/support/clock.h"
 #include "app/support/errors.h"
@@ -50,15 +52,17 @@ Timeline::Timeline(const scene::Scene& start, std::vector<scene::LiveChange> cha
       threads_(threads),
       moments_(std::move(moments)),
       watch_(std::move(watch)),
-      simulation_(setup::make_simulation(start_, seeded_->particles, threads_)) {
+      simulation_(
+          setup::make_simulation(setup::with_curves(start_, 0), seeded_->particles, threads_)) {
   begin();
 }
 
 /// The simulation is a new one.
 void Timeline::begin() {
   here_ = {};
-  here_.scene = std::make_shared<const scene::Scene>(start_);
+  here_.scene = std::make_shared<const scene::Scene>(setup::with_curves(start_, 0));
   made_ = 0;
+  curves_at_ = 0;
   summary_.reset();
   make_due();
   here_.history.push_back(
@@ -95,10 +99,20 @@ void Timeline::use(const std::shared_ptr<const scene::Scene>& scene) {
 }
 
 void Timeline::make(std::size_t end) {
-  scene::Scene scene = with_first_changes(start_, changes_, end);
+  scene::Scene scene = setup::with_curves(with_first_changes(start_, changes_, end), curves_at_);
   setup::resolve_ranges(scene, simulation_.particle_count());
   use(std::make_shared<const scene::Scene>(std::move(scene)));
   made_ = end;
+}
+
+void Timeline::follow_curves(int frame) {
+  const int before = std::exchange(curves_at_, frame);
+  const scene::Scene& now = *here_.scene;
+  const auto same = [](const scene::Override& a, const scene::Override& b) {
+    return a.value == b.value;
+  };
+  if (!std::ranges::equal(setup::curve_values(now, before), setup::curve_values(now, frame), same))
+    make(made_);
 }
 
 /// Changes of one step at once, but a second one to an address after the first: both leave a trace.
@@ -122,7 +136,10 @@ void Timeline::make_due() {
 
 void Timeline::change(std::shared_ptr<const scene::Scene> changed) {
   const std::shared_ptr<const scene::Scene> before = here_.scene;
-  const auto scene = std::make_shared<const scene::Scene>(in_order_of(*before, *changed));
+  auto scene = std::make_shared<const scene::Scene>(in_order_of(*before, *changed));
+  // A curve goes on whatever else gives a value to its parameter.
+  if (!scene->curves.empty())
+    scene = std::make_shared<const scene::Scene>(setup::with_curves(*scene, curves_at_));
   use(scene);
   fork();
   // Compares the values of the simulation, not the typed ones: they differ in a coarsened scene.
@@ -154,10 +171,16 @@ void Timeline::restore_state(const Moment& moment) {
 void Timeline::restore(const Moment& moment) {
   const std::size_t made = count_until(changes_, moment.steps);
   try {
-    if (moment.scene)
+    const int curves = frame_of_curves(moment);
+    if (moment.scene) {
+      curves_at_ = curves;
       use(moment.scene);
-    else if (made != made_)
+    } else if (made != made_) {
+      curves_at_ = curves;
       make(made);
+    } else {
+      follow_curves(curves);
+    }
     restore_state(moment);
   } catch (const std::bad_alloc&) {
     throw;
@@ -180,7 +203,8 @@ bool Timeline::go_to(double time) {
     if (const auto kept = moments_.find(time, fps())) {
       restore(*kept);
     } else {
-      simulation_ = setup::make_simulation(start_, seeded_->particles, threads_);
+      simulation_ =
+          setup::make_simulation(setup::with_curves(start_, 0), seeded_->particles, threads_);
       begin();
     }
   } else if (const auto kept = moments_.find(time, fps(), here_.frame, here_.steps)) {
@@ -220,7 +244,10 @@ sim::AdvanceReport Timeline::advance(double time, std::size_t last_step) {
 }
 
 void Timeline::begin_frame() {
-  if (here_.is_frame_end()) here_.advance = {};
+  if (here_.is_frame_end()) {
+    here_.advance = {};
+    follow_curves(here_.frame + 1);
+  }
   is_stopped_ = false;
 }
 

@@ -28,7 +28,8 @@ Watch watched_by(Progress& progress, double fps);
 /// which ones have follows from the number of steps alone, also for a moment that was kept. With
 /// on_divergence = "retry" a frame that breaks a rule, or still takes shorter steps for an earlier
 /// one, is simulated as a whole: its steps are not final before its end, and changes that fall
-/// inside are made there.
+/// inside are made there. Curves of the scene give their parameters the value of each frame before
+/// its first step, so that these follow from the number of the frame alone.
 class Timeline {
  public:
   /// At the start. @throws as sim::Simulation
@@ -90,6 +91,12 @@ class Timeline {
  private:
   void begin();
   void use(const std::shared_ptr<const scene::Scene>& scene);
+  /// Number of the frame whose values curves give at a moment.
+  static int frame_of_curves(const Moment& moment) {
+    return moment.is_frame_end() ? moment.frame : moment.frame + 1;
+  }
+  /// Values of the curves for a frame that begins or was jumped into.
+  void follow_curves(int frame);
   void restore_state(const Moment& moment);
   void make(std::size_t end);
   void make_due();
@@ -107,6 +114,7 @@ class Timeline {
   sim::Simulation simulation_;
   Moment here_;
   std::size_t made_ = 0;  ///< changes that here_.scene has
+  int curves_at_ = 0;     ///< frame whose values here_.scene has
   bool is_stopped_ = false;
   mutable std::optional<sim::Summary> summary_;
 };

@@ -83,6 +83,10 @@ shape = { torus = { major_radius = 0.15, minor_radius = 0.05 } }
 [[collider]]
 name = "NAME"
 shape = { box = { size = [0.2, 0.2, 0.2] } }
+[[curve]]
+name = "NAME"
+parameter = "solver.gravity"
+keyframes = [{ time = 0, vector = [0, -9.81, 0] }]
 [camera]
 fov = 20
 [[view]]

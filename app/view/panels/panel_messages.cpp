@@ -84,6 +84,50 @@ void draw_ticks(const session::LiveFrame& live, int last) {
   }
 }
 
+/// Keyframes of a thing in the scene: its name, and their times.
+struct Keys {
+  std::string name;
+  std::vector<double> times;
+};
+
+std::vector<Keys> keys_of(const scene::Scene& scene) {
+  std::vector<Keys> all;
+  const auto add = [&](const std::string& name, const auto& keyframes) {
+    if (keyframes.empty()) return;
+    all.push_back({name, {}});
+    for (const auto& key : keyframes) all.back().times.push_back(key.time);
+  };
+  for (const scene::Curve& curve : scene.curves) add(curve.parameter, curve.keyframes);
+  for (const scene::Collider& collider : scene.colliders)
+    add("collider." + collider.name, collider.keyframes);
+  if (scene.camera) add("camera", scene.camera->keyframes);
+  return all;
+}
+
+/// A diamond for every keyframe, on the upper edge of the bar that was drawn last; the mouse near
+/// one names it.
+void draw_keyframes(const session::LiveFrame& live, int last) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const bool is_hovered = ImGui::IsItemHovered();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float margin = 0.5f * ImGui::GetStyle().GrabMinSize + 2;
+  const double end = last / live.scene->fps;
+  std::string near;
+  for (const Keys& keys : keys_of(*live.scene))
+    for (const double time : keys.times) {
+      if (!(end > 0) || time > end * (1 + 1e-9)) continue;
+      const float x =
+          low.x + margin + static_cast<float>(time / end) * (high.x - low.x - 2 * margin);
+      const float r = 0.22f * em(), y = low.y + r;
+      list.AddQuadFilled(ImVec2(x - r, y), ImVec2(x, y - r), ImVec2(x + r, y), ImVec2(x, y + r),
+                         IM_COL32(255, 196, 84, 235));
+      if (is_hovered && std::abs(ImGui::GetMousePos().x - x) < 2 * r)
+        near += fmt::format("{}{}: keyframe at {} s", near.empty() ? "" : "\n", keys.name,
+                            rough_text(time));
+    }
+  if (!near.empty()) ImGui::SetTooltip("%s", near.c_str());
+}
+
 }  // namespace
 
 void draw_messages(ViewerState& state) {
@@ -137,6 +181,7 @@ void draw_time_line(ViewerState& state) {
                   bytes_text(live.kept_bytes), bytes_text(live.kept_budget))
           .c_str());
   draw_ticks(live, last);
+  draw_keyframes(live, last);
   const auto button = [&](const char* name, const char* short_name, bool is_on, const char* help) {
     ImGui::SameLine();
     ImGui::BeginDisabled(!is_on);

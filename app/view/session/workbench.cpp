@@ -239,6 +239,10 @@ void Workbench::take_over(const std::vector<scene::Override>& before) {
                                    "Reset, or after going back to an earlier frame");
       continue;
     }
+    for (const scene::Curve& curve : document_.scene()->curves)
+      if (curve.parameter == address)
+        say(Message::Kind::note, address + " follows its curve " + curve.name +
+                                     ", which gives it its value again in each frame");
     put(running_, address, document_.edits());
     is_live = true;
   }

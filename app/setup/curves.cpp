@@ -1,0 +1,88 @@
+#include "app/setup/curves.h"
+
+#include <algorithm>
+
+#include "app/scene/read.h"
+#include "app/scene/toml/value.h"
+#include "app/support/text.h"
+#include "sim/shapes/curve.h"
+
+namespace neve::app::setup {
+
+namespace {
+
+/// Numbers of the keyframes of a curve, one coordinate after the other.
+std::vector<std::vector<double>> coordinates_of(const scene::Curve& curve) {
+  const int count = curve.keyframes.front().vector ? 3 : 1;
+  std::vector<std::vector<double>> coordinates(static_cast<std::size_t>(count));
+  for (const scene::CurveKeyframe& key : curve.keyframes)
+    for (int c = 0; c < count; ++c)
+      coordinates[static_cast<std::size_t>(c)].push_back(key.vector ? (*key.vector)[c]
+                                                                    : key.value.value_or(0));
+  return coordinates;
+}
+
+double value_at(const scene::Curve& curve, const std::vector<double>& times,
+                const std::vector<double>& x, const sim::shapes::CurvePlace& place) {
+  const std::size_t before = place.next > 0 ? place.next - 1 : 0;
+  switch (curve.interpolation) {
+    case scene::Interpolation::step:
+      return x[before];
+    case scene::Interpolation::linear:
+      return place.is_between(times) ? x[before] + place.part * (x[place.next] - x[before])
+                                     : x[before];
+    case scene::Interpolation::smooth:
+      return sim::shapes::curve_at(times, x, place).value;
+  }
+  return x[before];
+}
+
+std::vector<double> numbers_at(const scene::Curve& curve, double time) {
+  std::vector<double> times;
+  for (const scene::CurveKeyframe& key : curve.keyframes) times.push_back(key.time);
+  const sim::shapes::CurvePlace place(times, time);
+  std::vector<double> numbers;
+  for (const std::vector<double>& x : coordinates_of(curve))
+    numbers.push_back(value_at(curve, times, x, place));
+  return numbers;
+}
+
+double time_of(const scene::Scene& scene, int frame) {
+  return std::max(0.0, frame - 0.5) / scene.fps;
+}
+
+}  // namespace
+
+std::vector<scene::Override> curve_values(const scene::Scene& scene, int frame) {
+  std::vector<scene::Override> values;
+  for (const scene::Curve& curve : scene.curves) {
+    if (curve.keyframes.empty()) continue;
+    std::vector<std::string> words;
+    for (const double number : numbers_at(curve, time_of(scene, frame)))
+      words.push_back(scene::toml::number_text(number));
+    scene::Override value{curve.parameter,
+                          words.size() == 1 ? words.front() : "[" + joined(words, ", ") + "]"};
+    value.flag = "curve." + curve.name + ":";
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
+scene::Scene with_curves(const scene::Scene& scene, int frame) {
+  const std::vector<scene::Override> values = curve_values(scene, frame);
+  return values.empty() ? scene : scene::apply(scene, values);
+}
+
+std::string curves_text(const scene::Scene& scene, int frame) {
+  std::vector<std::string> parts;
+  for (const scene::Curve& curve : scene.curves) {
+    if (curve.keyframes.empty()) continue;
+    std::string text = curve.parameter.substr(curve.parameter.rfind('.') + 1);
+    for (const double number : numbers_at(curve, time_of(scene, frame)))
+      text += " " + rough_text(number);
+    parts.push_back(std::move(text));
+  }
+  return joined(parts, ", ");
+}
+
+}  // namespace neve::app::setup

@@ -1,0 +1,23 @@
+#pragma once
+/// Keyframes of parameters: the values that curves give in a frame.
+
+#include <vector>
+
+#include "app/scene/override.h"
+#include "app/scene/scene.h"
+
+namespace neve::app::setup {
+
+/// The value of every curve while a frame is simulated, as --set would give it: that of the middle
+/// of the frame, constant in it, so that the values follow from the number of the frame alone.
+/// @param frame  counted from 0: the time from the end of the frame before it; 0: the start
+/// Check: Curves.GiveTheValueOfTheMiddleOfAFrame
+std::vector<scene::Override> curve_values(const scene::Scene& scene, int frame);
+
+/// The scene with these values. @throws UsageError, SceneError
+scene::Scene with_curves(const scene::Scene& scene, int frame);
+
+/// "wetness 0.31, gravity 0 -9.81 0": the values of a frame, for captions; "" without curves.
+std::string curves_text(const scene::Scene& scene, int frame);
+
+}  // namespace neve::app::setup

@@ -1,0 +1,185 @@
+/// Keyframes of parameters: the values of each frame, and a run that has them.
+
+#include "app/setup/curves.h"
+
+#include <gtest/gtest.h>
+
+#include "app/health/check.h"
+#include "app/scene/read.h"
+#include "app/timeline/timeline.h"
+
+namespace neve::app {
+namespace {
+
+using timeline::Timeline;
+
+/// A ball of snow that falls on a floor.
+scene::Scene falling(const std::string& more) {
+  return scene::read_scene_text(R"(
+frames = 6
+[solver]
+cell_size = 0.04
+[material.snow]
+model = "cam_clay"
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.12, 0], radius = 0.08 } }
+velocity = [0, -2, 0]
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+)" + more,
+                                "s.toml");
+}
+
+std::string error_of_curve(const std::string& curve) {
+  try {
+    falling("[[curve]]\n" + curve);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const std::string curves = R"(
+[[curve]]
+name = "fall"
+parameter = "solver.gravity"
+interpolation = "linear"
+keyframes = [{ time = 0, vector = [0, -9.81, 0] }, { time = 0.25, vector = [4, -5, 0] }]
+[[curve]]
+parameter = "material.snow.cohesion"
+interpolation = "step"
+keyframes = [{ time = 0, value = 0 }, { time = 0.125, value = 0.5 }]
+[[curve]]
+parameter = "material.snow.hardening"
+keyframes = [{ time = 0.05, value = 10 }, { time = 0.2, value = 3 }]
+)";
+
+std::string value(const scene::Scene& scene, int frame, std::size_t curve) {
+  return setup::curve_values(scene, frame).at(curve).value;
+}
+
+TEST(Curves, GiveTheValueOfTheMiddleOfAFrame) {
+  const scene::Scene scene = falling(curves);
+  EXPECT_EQ(value(scene, 0, 0), "[0, -9.81, 0]");
+  // Frame 3 is from 2/24 s to 3/24 s.
+  const sim::Vec3d third = setup::with_curves(scene, 3).solver.gravity;
+  const double part = 2.5 / 24 / 0.25;
+  EXPECT_NEAR(third.x(), 4 * part, 1e-12);
+  EXPECT_NEAR(third.y(), -9.81 + part * 4.81, 1e-12);
+  EXPECT_EQ(value(scene, 7, 0), "[4, -5, 0]");
+  EXPECT_EQ(value(scene, 3, 1), "0") << "the frame that ends at the keyframe";
+  EXPECT_EQ(value(scene, 4, 1), "0.5") << "the frame that begins there";
+  const double smooth = setup::with_curves(scene, 3).materials.front().hardening;
+  EXPECT_NEAR(smooth, 10 - 7 * (3 - 2 * 0.3611111) * 0.3611111 * 0.3611111, 1e-5);
+  EXPECT_EQ(setup::with_curves(scene, 48).materials.front().hardening, 3);
+}
+
+TEST(Curves, AreWrittenAndReadAgain) {
+  const scene::Scene scene = falling(curves);
+  const scene::Scene again = scene::read_scene_text(scene::write_scene(scene), "again");
+  EXPECT_EQ(scene::write_scene(again), scene::write_scene(scene));
+  ASSERT_EQ(again.curves.size(), 3u);
+  EXPECT_EQ(again.curves[0].name, "fall");
+  EXPECT_EQ(again.curves[1].name, "2");
+}
+
+std::shared_ptr<const setup::SeededScene> seeded(const scene::Scene& scene) {
+  return std::make_shared<const setup::SeededScene>(setup::seed_scene(scene));
+}
+
+TEST(Curves, MoveTheirParameterWhileARunRuns) {
+  const scene::Scene scene = falling(curves);
+  Timeline run(scene, {}, seeded(scene), 1);
+  for (int frame = 1; frame <= 5; ++frame) {
+    ASSERT_TRUE(run.advance_frame());
+    EXPECT_EQ(run.scene().solver.gravity, setup::with_curves(scene, frame).solver.gravity);
+    EXPECT_EQ(run.here().scene->materials.front().own,
+              setup::with_curves(scene, frame).materials.front().own);
+  }
+  scene::Scene still = scene;
+  still.curves.clear();
+  Timeline other(still, {}, seeded(still), 1);
+  ASSERT_TRUE(other.go_to(5 / 24.0));
+  EXPECT_NE(other.simulation().state_hash(), run.simulation().state_hash());
+  EXPECT_GT(run.summary().momentum.x(), 0) << "gravity has turned towards x";
+}
+
+/// Bits do not depend on the moment that a run continues from, nor on how it got there.
+TEST(Curves, HaveTheSameBitsFromEveryMoment) {
+  const scene::Scene scene = falling(curves);
+  Timeline whole(scene, {}, seeded(scene), 1, timeline::Moments(std::uint64_t{1} << 30));
+  std::vector<std::uint64_t> hashes{whole.simulation().state_hash()};
+  whole.keep();
+  for (int frame = 1; frame <= 6; ++frame) {
+    ASSERT_TRUE(whole.advance_frame());
+    hashes.push_back(whole.simulation().state_hash());
+    whole.keep();
+  }
+  for (int frame = 0; frame < 6; ++frame) {
+    // As a file has it: without its scene.
+    timeline::Moment moment = *whole.moments().find(frame / 24.0, 24);
+    moment.scene = nullptr;
+    Timeline again(scene, {}, seeded(scene), 1);
+    again.restore(moment);
+    ASSERT_TRUE(again.go_to(6 / 24.0));
+    EXPECT_EQ(again.simulation().state_hash(), hashes.back()) << frame;
+    ASSERT_TRUE(whole.go_to(frame / 24.0));
+    EXPECT_EQ(whole.simulation().state_hash(), hashes[static_cast<std::size_t>(frame)]);
+    ASSERT_TRUE(whole.advance_frame());
+    EXPECT_EQ(whole.simulation().state_hash(), hashes[static_cast<std::size_t>(frame) + 1]);
+  }
+}
+
+TEST(Curves, GoOnWhenAnotherParameterIsChanged) {
+  const scene::Scene scene = falling(curves);
+  Timeline run(scene, {}, seeded(scene), 1);
+  ASSERT_TRUE(run.go_to(2 / 24.0));
+  // As a panel does: the scene of the start with one other number, and one of a curve.
+  scene::Scene edited = scene;
+  edited.materials.front().youngs_modulus *= 0.5;
+  edited.solver.gravity = {0, 0, 0};
+  run.change(std::make_shared<const scene::Scene>(edited));
+  ASSERT_EQ(run.changes().size(), 1u);
+  EXPECT_EQ(run.changes().front().address, "material.snow.youngs_modulus");
+  ASSERT_TRUE(run.go_to(5 / 24.0));
+  EXPECT_EQ(run.scene().solver.gravity, setup::with_curves(scene, 5).solver.gravity);
+  Timeline again(run.start(), run.changes(), seeded(scene), 1);
+  ASSERT_TRUE(again.go_to(5 / 24.0));
+  EXPECT_EQ(again.simulation().state_hash(), run.simulation().state_hash());
+}
+
+TEST(Curves, MistakesAreToldAtTheirPlace) {
+  const auto expect = [](const std::string& curve, const std::string& words) {
+    const std::string error = error_of_curve(curve);
+    EXPECT_NE(error.find(words), std::string::npos) << error;
+  };
+  expect("keyframes = [{ time = 0, value = 1 }]", "the curve names no parameter");
+  expect("parameter = \"material.snow.hardning\"",
+         "s.toml:15:13: error: nothing in the scene is called \"material.snow.hardning\"; did you "
+         "mean material.snow.hardening?");
+  expect("parameter = \"material.wet.hardening\"", "nothing in the scene is called");
+  expect("parameter = \"solver.cell_size\"",
+         "solver.cell_size cannot change while a simulation runs");
+  expect("parameter = \"light.intensity\"", "only concerns pictures");
+  expect("parameter = \"solver.transfer\"", "solver.transfer is a choice");
+  expect("parameter = \"solver.cfl\"", "the curve has no keyframes");
+  expect(
+      "parameter = \"solver.cfl\"\nkeyframes = [{ time = 1, value = 1 }, { time = 1, value = 2 }]",
+      "s.toml:16:48: error: keyframe 2 is at 1 s, the one before at 1 s");
+  expect("parameter = \"solver.cfl\"\nkeyframes = [{ time = 0, vector = [1, 2, 3] }]",
+         "solver.cfl is a number; give value = 0.5");
+  expect("parameter = \"solver.gravity\"\nkeyframes = [{ time = 0, value = 3 }]",
+         "solver.gravity is a vector; give vector = [0, -9.81, 0]");
+  expect("parameter = \"solver.cfl\"\nkeyframes = [{ time = 0 }]", "the keyframe has no value");
+  expect("parameter = \"collider.floor.friction\"\nkeyframes = [{ time = 0, value = -1 }]",
+         "collider.floor.friction would be -1; expected 0 <= value <= 1000");
+  expect(
+      "parameter = \"solver.cfl\"\nkeyframes = [{ time = 0, value = 1 }]\n[[curve]]\nparameter = "
+      "\"solver.cfl\"\nkeyframes = [{ time = 0, value = 1 }]",
+      "solver.cfl has the curve 1 already");
+}
+
+}  // namespace
+}  // namespace neve::app
