@@ -438,6 +438,8 @@ struct Renderer::Impl {
     const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());
     Frame drawn = frame;
     drawn.is_transparent = true;
+    // All grounds of a plate take shadows only.
+    for (GroundPlane& ground : drawn.grounds) ground.is_holdout = false;
     cpu::LinearSamples shadow, front;
     with_lit_surfaces(drawn, view, [&](const channels::LitSurfaces& lit) {
       shadow = channels::ground_shadow(lit);

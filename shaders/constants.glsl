@@ -9,6 +9,7 @@ const int kind_snow = 3;
 const int kind_attribute = 4;
 const int kind_flat = 5;  // shown in its own colour, without light
 const int kind_lit = 6;   // light is in its colour already
+const int kind_holdout = 7;  // hides what is behind it and shows the background, in shadow
 
 // Light that falls on things.
 const vec3 sun_color = vec3(1.30f, 1.22f, 1.08f);

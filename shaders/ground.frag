@@ -19,6 +19,9 @@ uniform vec3 fade_center;
 uniform float fade_distance;
 uniform vec3 color;  // linear
 uniform float line_width;  // samples
+#ifndef GHOST
+uniform float kind;
+#endif
 
 // Share of a sample that the lines of one direction cover, from the number of lines that it spans.
 float line_cover(float at, float span) {
@@ -44,7 +47,7 @@ void main() {
   const float line_opacity = 0.55;
   out_color = vec4(vec3(0.62, 0.68, 0.76), left * mix(fill, line_opacity, line));
 #else
-  out_normal_kind = vec4(plane_normal, kind_ground);
+  out_normal_kind = vec4(plane_normal, kind);
   out_albedo = vec4(sqrt(color * (1.0 + line_brightness * line)), left);
 #endif
   gl_FragDepth = depth_of(z);

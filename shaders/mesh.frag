@@ -8,11 +8,12 @@ in vec3 position;
 in vec3 normal;
 
 uniform vec3 color;  // linear
+uniform float kind;
 
 void main() {
   vec3 n = dot(normal, normal) > 0.0 ? normalize(normal)
                                      : normalize(cross(dFdx(position), dFdy(position)));
   if (dot(n, position) > 0.0) n = -n;
-  out_normal_kind = vec4(n, kind_solid);
+  out_normal_kind = vec4(n, kind);
   out_albedo = vec4(sqrt(color), 1.0);
 }

@@ -76,17 +76,20 @@ vec3 surface(vec3 p, vec4 normal_kind, vec3 albedo) {
   vec3 n = normal_kind.xyz;
   float kind = normal_kind.w;
   if (kind == kind_flat || kind == kind_lit) return before_tone_map(albedo);
-  bool is_hard = kind == kind_ground || kind == kind_solid;
+  bool is_holdout = kind == kind_holdout;
+  bool is_hard = kind == kind_ground || kind == kind_solid || is_holdout;
   // A stray particle has no body.
   vec3 body = is_in_box(p) ? texture(body_volume, texture_position(p)).xyz : vec3(0.0);
   float certainty = min(length(body), 1.0);
   if (!is_hard) n = normalize(mix(n, body / max(certainty, 1e-3), body_share * certainty));
   vec3 above =
-      p + (is_hard ? n * cell * (kind == kind_solid ? solid_offset : ground_offset)
+      p + (is_hard ? n * cell * (kind == kind_ground ? ground_offset : solid_offset)
                    : body * (snow_offset * cell));
   float key = key_light(is_hard ? above : above + toward_light * cell);
   float contrast = is_hard || kind == kind_snow ? 1.0 : value_contrast;
   vec3 color = lit(albedo, n, key, sky_light(above), contrast);
+  // The share of the light that shadows leave.
+  if (is_holdout) return min(color / max(lit(albedo, n, 1.0, 1.0, contrast), 1e-6), 1.0);
   if (kind == kind_solid) {
     float rim = 1.0 - abs(dot(n, normalize(p)));
     color += rim_light * rim * rim * rim * rim * sky_color;
@@ -156,8 +159,14 @@ void main() {
   if (normal_kind.w > 0.0) {
     vec4 albedo = texelFetch(albedo_map, at, 0);
     vec3 p = position_at(gl_FragCoord.xy, depth);
-    color = mix(color, surface(p, normal_kind, albedo.rgb * albedo.rgb), albedo.a);
-    cover = mix(cover, 1.0, albedo.a);
+    vec3 light = surface(p, normal_kind, albedo.rgb * albedo.rgb);
+    if (normal_kind.w == kind_holdout) {
+      color *= mix(vec3(1.0), light, albedo.a);
+      cover = mix(cover, 1.0, albedo.a * (1.0 - light.g));
+    } else {
+      color = mix(color, light, albedo.a);
+      cover = mix(cover, 1.0, albedo.a);
+    }
   }
   // Darker corners; but a colour that shows a value is the one of the legend, and the background
   // behind a transparent picture would not have them.

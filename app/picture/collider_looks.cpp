@@ -31,13 +31,20 @@ void add_plane(const sim::shapes::Plane& plane, const sim::shapes::Pose& pose,
   ground.normal = to_float((pose.rotation * plane.normal).normalized());
   ground.line_spacing = line_spacing;
   if (style == scene::ColliderStyle::wire) ground.fill = 0;
-  (style == scene::ColliderStyle::solid ? frame.grounds : frame.ghost_grounds).push_back(ground);
+  ground.is_holdout = style == scene::ColliderStyle::holdout;
+  const bool is_solid = style == scene::ColliderStyle::solid || ground.is_holdout;
+  (is_solid ? frame.grounds : frame.ghost_grounds).push_back(ground);
 }
 
 void add_lines(render::Lines lines, float opacity, render::Frame& frame) {
   lines.color = wire_color;
   lines.opacity = opacity;
   frame.lines.push_back(std::move(lines));
+}
+
+void add_mesh(render::TriangleMesh mesh, scene::ColliderStyle style, render::Frame& frame) {
+  mesh.is_holdout = style == scene::ColliderStyle::holdout;
+  (style == scene::ColliderStyle::ghost ? frame.ghosts : frame.meshes).push_back(std::move(mesh));
 }
 
 void add_sphere(const sim::shapes::Sphere& sphere, const sim::shapes::Pose& pose,
@@ -47,8 +54,7 @@ void add_sphere(const sim::shapes::Sphere& sphere, const sim::shapes::Pose& pose
   if (style == scene::ColliderStyle::wire)
     return add_lines(render::shapes::sphere_lines(center, radius, to_rotation(pose.rotation)), 0.7f,
                      frame);
-  (style == scene::ColliderStyle::ghost ? frame.ghosts : frame.meshes)
-      .push_back(render::shapes::sphere_mesh(center, radius));
+  add_mesh(render::shapes::sphere_mesh(center, radius), style, frame);
 }
 
 /// Flat faces have no rim: a ghost shows its edges instead.
@@ -56,12 +62,11 @@ void add_box(const sim::shapes::Box& box, const sim::shapes::Pose& pose, scene::
              render::Frame& frame) {
   const Vec3f center = to_float(pose.point), size = to_float(box.size);
   const render::shapes::Rotation rotation = to_rotation(pose.rotation);
-  if (style != scene::ColliderStyle::solid)
+  if (style == scene::ColliderStyle::wire || style == scene::ColliderStyle::ghost)
     add_lines(render::shapes::box_lines(center, size, rotation),
               style == scene::ColliderStyle::wire ? 0.8f : 0.5f, frame);
   if (style == scene::ColliderStyle::wire) return;
-  (style == scene::ColliderStyle::ghost ? frame.ghosts : frame.meshes)
-      .push_back(render::shapes::box_mesh(center, size, rotation));
+  add_mesh(render::shapes::box_mesh(center, size, rotation), style, frame);
 }
 
 /// Adds any other form, placed: solid or ghost as triangles, otherwise as lines. Edges replace the
@@ -70,7 +75,7 @@ void add_form(render::TriangleMesh mesh, render::Lines lines, scene::ColliderSty
               bool has_rim, render::Frame& frame) {
   if (style == scene::ColliderStyle::wire) return add_lines(std::move(lines), 0.7f, frame);
   if (style == scene::ColliderStyle::ghost && !has_rim) add_lines(std::move(lines), 0.35f, frame);
-  (style == scene::ColliderStyle::ghost ? frame.ghosts : frame.meshes).push_back(std::move(mesh));
+  add_mesh(std::move(mesh), style, frame);
 }
 
 std::optional<render::shapes::Profile> profile_of(const sim::shapes::Shape& shape) {

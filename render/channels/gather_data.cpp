@@ -96,7 +96,7 @@ void Gatherer::take_tile(int tile) {
           if (drawn.kind[at] == light::kind_nothing) continue;
           if (nearest < 0 || drawn.inverse[at] > drawn.inverse[nearest]) nearest = at;
         }
-      if (nearest < 0) continue;
+      if (nearest < 0 || drawn.kind[nearest] == light::kind_holdout) continue;
       const int row = frame_.height - 1 - (low + y) / ss, column = (left + x) / ss;
       SeenSurface seen = surface(drawn, points, nearest, left + nearest % light::tile_width,
                                  low + nearest / light::tile_width);

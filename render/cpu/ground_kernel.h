@@ -88,7 +88,7 @@ NEVE_INLINE void ground_lanes(const GroundJob& job, light::GBufferTile& tile, in
   put(tile.normal_x, all<V>(job.normal.x));
   put(tile.normal_y, all<V>(job.normal.y));
   put(tile.normal_z, all<V>(job.normal.z));
-  put_words(tile.kind, all<I>(light::kind_ground));
+  put_words(tile.kind, all<I>(job.kind));
   put_words(tile.albedo, albedo);
 }
 

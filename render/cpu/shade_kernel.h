@@ -91,7 +91,9 @@ NEVE_INLINE Points3<V> surface_light(const ShadeJob& job, const RowPart<V>& part
   const Points3<V> p = part.ray * z;
   Points3<V> n = {load_lanes<V>(tile.normal_x + part.at), load_lanes<V>(tile.normal_y + part.at),
                   load_lanes<V>(tile.normal_z + part.at)};
-  const I is_solid = kind == light::kind_solid, is_hard = is_solid | (kind == light::kind_ground);
+  const I is_holdout = kind == light::kind_holdout;
+  const I is_solid = (kind == light::kind_solid) | is_holdout;
+  const I is_hard = is_solid | (kind == light::kind_ground);
   const I is_soft = is_there & ~is_hard;
   Points3<V> out =
       n * (cells.cell * (is_solid ? all<V>(light::solid_offset) : all<V>(light::ground_offset)));
@@ -118,6 +120,18 @@ NEVE_INLINE Points3<V> surface_light(const ShadeJob& job, const RowPart<V>& part
     const V facing = (n.x * p.x + n.y * p.y + n.z * p.z) * back;
     const V rim = 1 - absolute_lanes(facing), rim2 = rim * rim;
     color = color + light::sky_color * (is_solid ? light::rim_light * rim2 * rim2 : V{});
+  }
+  if (any_lane(is_holdout)) {
+    // The share of the light that shadows leave.
+    const V one = all<V>(1), least = all<V>(1e-6f);
+    const Points3<V> white{one, one, one};
+    const Points3<V> left = lit(job, white, n, key, open, one),
+                     full = lit(job, white, n, one, one, one);
+    const auto share = [&](V a, V b) NEVE_INLINE_BODY {
+      return smaller_lanes(a / larger_lanes(b, least), one);
+    };
+    color = choose(is_holdout,
+                   {share(left.x, full.x), share(left.y, full.y), share(left.z, full.z)}, color);
   }
   return color;
 }
@@ -173,8 +187,20 @@ NEVE_INLINE Covered<V> behind_smoke(const ShadeJob& job, const RowPart<V>& part)
     }
     if (job.lit) color = choose(kind == light::kind_lit, lit_in_parts<V>(job, part.at), color);
     color = choose(is_there, color, Points3<V>{});
-    out.color = out.color * (1 - alpha) + color * alpha;
-    out.cover = mix_lanes(out.cover, all<V>(1), alpha);
+    const I is_holdout = kind == light::kind_holdout;
+    const Points3<V> over = out.color * (1 - alpha) + color * alpha;
+    if (any_lane(is_holdout)) {
+      const auto shaded = [&](V behind, V share)
+                              NEVE_INLINE_BODY { return behind * (1 - alpha * (1 - share)); };
+      out.color = choose(is_holdout,
+                         {shaded(out.color.x, color.x), shaded(out.color.y, color.y),
+                          shaded(out.color.z, color.z)},
+                         over);
+      out.cover = mix_lanes(out.cover, all<V>(1), is_holdout ? alpha * (1 - color.y) : alpha);
+    } else {
+      out.color = over;
+      out.cover = mix_lanes(out.cover, all<V>(1), alpha);
+    }
   }
   out.color = out.color * vignette;
   return out;

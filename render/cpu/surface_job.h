@@ -19,6 +19,7 @@ struct GroundJob {
   float fade_distance;
   Vec3f root_color;  ///< square root of linear light
   float line_width;  ///< samples
+  int kind;          ///< light::kind_ground or light::kind_holdout
 };
 
 /// Samples that OpenGL has drawn, as the textures of the G-buffer hold them.

@@ -28,7 +28,7 @@ GroundJob ground_job(const GroundPlane& ground, const Frame& frame, const View& 
           place.bitangent,     {place.eye_on_grid[0], place.eye_on_grid[1]},
           place.line_spacing,  place.fade_center,
           place.fade_distance, {root(ground.color.x), root(ground.color.y), root(ground.color.z)},
-          place.line_width};
+          place.line_width,    ground.is_holdout ? light::kind_holdout : light::kind_ground};
 }
 
 light::LightCells light_cells(const light::LightVolume& volume, Vec3f eye) {

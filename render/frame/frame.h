@@ -121,6 +121,8 @@ struct TriangleMesh {
   Values<Vec3f> position, normal;
   Values<std::uint32_t> index;
   Vec3f color{0.35f, 0.35f, 0.36f};
+  /// Hides what is behind it, casts no shadow, and shows the background where none falls on it.
+  bool is_holdout = false;
   bool operator==(const TriangleMesh&) const = default;
 };
 
@@ -130,7 +132,8 @@ struct GroundPlane {
   Vec3f point{0, 0, 0}, normal{0, 1, 0};
   float line_spacing = 0.125f;  ///< m
   Vec3f color{0.20f, 0.215f, 0.24f};
-  float fill = 0.16f;  ///< of a ghost: opacity between its lines
+  float fill = 0.16f;       ///< of a ghost: opacity between its lines
+  bool is_holdout = false;  ///< likewise
   bool operator==(const GroundPlane&) const = default;
 };
 
@@ -146,6 +149,7 @@ struct Legend {
   std::string unit;   ///< "m/s", may be empty
   ColorMap colormap = ColorMap::viridis;
   float min = 0, max = 1;
+  std::vector<std::array<std::uint8_t, 3>> colors = {};  ///< sRGB, from min to max, for the map's
   bool operator==(const Legend&) const = default;
 };
 

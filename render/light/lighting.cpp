@@ -130,7 +130,7 @@ LightInputs inputs_of(const Frame& frame, const SmokeGrid& smoke) {
   inputs.points.position = frame.points.position;
   inputs.points.spacing = frame.points.spacing;
   for (const TriangleMesh& mesh : frame.meshes)
-    inputs.meshes.push_back({mesh.position, {}, mesh.index});
+    if (!mesh.is_holdout) inputs.meshes.push_back({mesh.position, {}, mesh.index});
   inputs.smoke = smoke;
   inputs.toward_light = toward_light(frame.light);
   return inputs;

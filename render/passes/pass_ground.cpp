@@ -1,4 +1,5 @@
 #include "render/frame/ground_place.h"
+#include "render/light/shading_constants.h"
 #include "render/passes/passes.h"
 #include "render/passes/view_uniforms.h"
 
@@ -16,7 +17,10 @@ void GroundPass::draw(const Frame& frame, const View& view) {
   program_.use();
   set_view(program_, view);
   for (const GroundPlane& ground : frame.grounds) {
-    if (is_seen_from_above(ground, view)) draw_plane(program_, ground, frame, view);
+    if (!is_seen_from_above(ground, view)) continue;
+    program_.set("kind",
+                 static_cast<float>(ground.is_holdout ? light::kind_holdout : light::kind_ground));
+    draw_plane(program_, ground, frame, view);
   }
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "render/light/shading_constants.h"
 #include "render/passes/passes.h"
 #include "render/passes/view_uniforms.h"
 
@@ -70,7 +71,11 @@ void MeshPass::draw(const std::vector<TriangleMesh>& meshes, const View& view) {
   gl::set_solid_state(gl_);
   program_.use();
   set_view(program_, view);
-  for (const TriangleMesh& mesh : meshes) draw_mesh(program_, mesh, view);
+  for (const TriangleMesh& mesh : meshes) {
+    program_.set("kind",
+                 static_cast<float>(mesh.is_holdout ? light::kind_holdout : light::kind_solid));
+    draw_mesh(program_, mesh, view);
+  }
 }
 
 void MeshPass::draw_ghosts(const std::vector<TriangleMesh>& meshes, Vec3f toward_light,

@@ -96,8 +96,8 @@ TEST(ColliderStyle, ColliderStyleDoesNotAffectTheSimulation) {
   EXPECT_EQ(colliders[0].friction, 0.3);
   EXPECT_EQ(
       view_error("[[collider]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\nstyle = \"glass\""),
-      "s.toml:5:9: error: collider.1.style = \"glass\"; expected \"solid\", \"wire\" or "
-      "\"ghost\"");
+      "s.toml:5:9: error: collider.1.style = \"glass\"; expected \"solid\", \"wire\", "
+      "\"ghost\" or \"holdout\"");
 }
 
 TEST(Clip, ClipRemovesTheParticlesOnItsSide) {
