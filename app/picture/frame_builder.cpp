@@ -22,6 +22,7 @@
 #include "app/scene/flat.h"
 #include "app/scene/override.h"
 #include "app/setup/camera_path.h"
+#include "app/setup/curves.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/laws/law.h"
@@ -106,8 +107,9 @@ FrameBuilder::FrameBuilder(const scene::Scene& scene, const setup::SeededScene& 
                            PictureOptions options)
     : scene_(scene), seeded_(seeded), options_(std::move(options)) {}
 
-render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snapshot,
+render::Frame FrameBuilder::build(const scene::View& wanted, const Snapshot& snapshot,
                                   std::optional<render::Points> points) const {
+  const scene::View view = with_ranges_of_frame(wanted, snapshot.fields);
   render::Frame frame;
   const scene::PictureSize size = setup::size_of(scene_, view);
   frame.width = size.width;
@@ -133,7 +135,7 @@ render::Frame FrameBuilder::build(const scene::View& view, const Snapshot& snaps
   add_grid(view, snapshot, frame);
   if (scene::has_layer(view, scene::Layer::scale))
     add_scale_bar(view, snapshot, plane_of(view, snapshot), frame);
-  if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(view);
+  if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(scene_, view);
   if (is_of_stage) add_stage_change(snapshot, *look, frame);
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
   if (scene::has_layer(view, scene::Layer::plots))
@@ -239,6 +241,8 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
     add_dust(view, *snapshot.dust, frame);
   const SlicePlane plane = plane_of(view, snapshot);
   add_slice(scene_, view, snapshot, plane, {pixels_on(plane, frame), seeded_.spacing}, frame);
+  if (scene::has_layer(view, scene::Layer::extremes))
+    mark_extremes(view, fields, snapshot.advance.dt_max, frame);
 }
 
 SlicePlane FrameBuilder::plane_of(const scene::View& view, const Snapshot& snapshot) const {
@@ -374,6 +378,8 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
                        ? ", coarsened " + scene::coarsening_text(options_.coarsening)
                        : "") +
                   (snapshot.advance.steps > 0 ? "   " + steps_text(snapshot.advance) : ""));
+  if (const std::string curves = setup::curves_text(scene_, snapshot.frame); !curves.empty())
+    lines.push_back(curves);
   if (snapshot.warnings.rules_ignored > 0) lines.push_back(ignored_rule_text(snapshot.warnings));
   lines.insert(lines.end(), options_.prediction.begin(), options_.prediction.end());
   std::vector<std::string> different = override_lines(options_.overrides);

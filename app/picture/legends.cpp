@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "app/picture/attributes.h"
+#include "app/picture/smoke_layer.h"
+#include "render/smoke_legend.h"
 
 namespace neve::app::picture {
 
@@ -17,7 +19,7 @@ render::Legend legend(const AttributeName& name, render::ColorMap colormap,
 
 }  // namespace
 
-std::vector<render::Legend> legends_of(const scene::View& view) {
+std::vector<render::Legend> legends_of(const scene::Scene& scene, const scene::View& view) {
   std::vector<render::Legend> legends;
   const scene::ParticleStyle& particles = view.particles;
   const scene::SmokeStyle& smoke = view.smoke;
@@ -29,15 +31,27 @@ std::vector<render::Legend> legends_of(const scene::View& view) {
   };
   if (scene::shows_particles(view) && particles.color_by != scene::ColorBy::snow)
     add(legend(attribute_name(particles.color_by), particles.colormap, particles.range));
-  if (scene::has_layer(view, scene::Layer::smoke) && smoke.field != scene::ScalarField::mass)
-    add(legend(attribute_name(smoke.field), smoke.colormap, smoke.range));
+  // Ends that change with the frame are told apart from those that do not.
+  const auto add_of_slice = [&](const AttributeName& name, render::ColorMap colormap,
+                                const std::optional<scene::Range>& range) {
+    render::Legend bar = legend(name, colormap, range);
+    if (slice.range_from == scene::RangeFrom::frame) bar.title += ", this frame";
+    add(bar);
+  };
+  if (scene::has_layer(view, scene::Layer::smoke)) {
+    if (smoke.field != scene::ScalarField::mass)
+      add(legend(attribute_name(smoke.field), smoke.colormap, smoke.range));
+    else if (smoke.density_scale > 0)
+      add(render::smoke_legend(static_cast<float>(packed_density(scene)),
+                               static_cast<float>(smoke.density_scale)));
+  }
   if (scene::has_layer(view, scene::Layer::heatmap))
-    add(legend(attribute_name(slice.scalar), slice.scalar_colormap, slice.scalar_range));
+    add_of_slice(attribute_name(slice.scalar), slice.scalar_colormap, slice.scalar_range);
   // Lines on a heat map are white.
   if (scene::has_layer(view, scene::Layer::arrows) ||
       (scene::has_layer(view, scene::Layer::streamlines) &&
        !scene::has_layer(view, scene::Layer::heatmap)))
-    add(legend(attribute_name(slice.field), slice.colormap, slice.range));
+    add_of_slice(attribute_name(slice.field), slice.colormap, slice.range);
   return legends;
 }
 

@@ -8,7 +8,8 @@
 
 namespace neve::app::picture {
 
-/// One for each thing that the view colours by a value. @param view resolved: it has ranges
-std::vector<render::Legend> legends_of(const scene::View& view);
+/// One for each thing that the view colours by a value, and for white smoke.
+/// @param view resolved: it has ranges
+std::vector<render::Legend> legends_of(const scene::Scene& scene, const scene::View& view);
 
 }  // namespace neve::app::picture

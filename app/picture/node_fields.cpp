@@ -86,6 +86,13 @@ void add_needs(const scene::View& view, FieldNeeds& needs) {
       scene::has_layer(view, scene::Layer::streamlines))
     needs.vectors.insert(view.slice.field);
   if (scene::has_layer(view, scene::Layer::heatmap)) needs.scalars.insert(view.slice.scalar);
+  if (scene::has_layer(view, scene::Layer::extremes) &&
+      scene::has_layer(view, scene::Layer::arrows) &&
+      !scene::has_layer(view, scene::Layer::heatmap))
+    needs.vectors.insert(view.slice.field);
+  else if (scene::has_layer(view, scene::Layer::extremes) &&
+           !scene::has_layer(view, scene::Layer::smoke))
+    needs.scalars.insert(view.slice.scalar);
   if (scene::has_layer(view, scene::Layer::blocks) || scene::has_layer(view, scene::Layer::smoke))
     needs.is_needed = true;
   if (scene::has_layer(view, scene::Layer::smoke) && view.smoke.field != scene::ScalarField::mass)

@@ -7,6 +7,7 @@
 #include "app/picture/slice_parts.h"
 #include "app/picture/to_float.h"
 #include "app/scene/toml/value.h"
+#include "app/support/text.h"
 
 namespace neve::app::picture {
 
@@ -32,6 +33,12 @@ SlicePlane snapped_to_nodes(SlicePlane plane, double h) {
 std::string short_number(double x, double parts = 1000) {
   const double rounded = std::round(x * parts) / parts;
   return scene::toml::number_text(rounded == 0 ? 0 : rounded);
+}
+
+/// Ends of the scene are round; those of a frame are rounded for its words.
+std::string longest_text(const scene::View& view, double value) {
+  return view.slice.range_from == scene::RangeFrom::frame ? rough_text(value)
+                                                          : scene::toml::number_text(value);
 }
 
 std::string describe_place(const SlicePlane& plane) {
@@ -92,8 +99,10 @@ void add_slice(const scene::Scene& scene, const scene::View& view, const Snapsho
     const int every = add_arrows(slice, frame);
     if (every > 1) frame.footnote += ", one arrow per " + std::to_string(every) + " nodes";
     const scene::Range range = view.slice.range.value_or(scene::Range{});
-    frame.footnote += ", longest arrow " + scene::toml::number_text(range.max) + " " +
-                      attribute_name(view.slice.field).unit;
+    frame.footnote +=
+        ", longest arrow " + longest_text(view, range.max) + " " +
+        attribute_name(view.slice.field).unit +
+        (view.slice.range_from == scene::RangeFrom::frame ? ", the largest of this frame" : "");
   }
   add_frame(plane, shape.rectangle(), frame);
 }

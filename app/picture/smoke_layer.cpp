@@ -14,15 +14,14 @@ namespace {
 /// m2/kg, what dust takes out of a beam: of ice, drops of 0.15 mm have 3 / (2 rho r) = 11.
 constexpr double dust_cross_section = 11;
 
-/// Density of packed snow: that of the densest material in use.
-double full_density(const scene::Scene& scene) {
+}  // namespace
+
+double packed_density(const scene::Scene& scene) {
   double density = 0;
   for (const setup::SnowPiece& piece : setup::snow_places(scene))
     density = std::max(density, piece.material->density);
   return density;
 }
-
-}  // namespace
 
 void add_smoke(const scene::Scene& scene, const scene::View& view, const FieldSamples& fields,
                render::Frame& frame) {
@@ -30,7 +29,7 @@ void add_smoke(const scene::Scene& scene, const scene::View& view, const FieldSa
   render::Smoke& smoke = frame.smoke;
   smoke.nodes = fields.lattice;
   smoke.density = fields.density;
-  smoke.full_density = static_cast<float>(full_density(scene));
+  smoke.full_density = static_cast<float>(packed_density(scene));
   smoke.density_scale = static_cast<float>(style.density_scale);
   if (frame.supersampling > 1) smoke.samples_per_ray = frame.supersampling;  // one for each pixel
   if (style.field == scene::ScalarField::mass) return;

@@ -7,6 +7,9 @@
 
 namespace neve::app::picture {
 
+/// kg/m3, of packed snow: that of the densest material in use.
+double packed_density(const scene::Scene& scene);
+
 /// @param fields with the mass and the colouring field, see field_needs; none: no smoke
 void add_smoke(const scene::Scene& scene, const scene::View& view, const FieldSamples& fields,
                render::Frame& frame);

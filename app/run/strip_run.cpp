@@ -90,7 +90,7 @@ class Strip {
         renderer_(renderer),
         words_(words_of(job)),
         legends_(scene::has_layer(scene.views.front(), scene::Layer::legend)
-                     ? picture::legends_of(scene.views.front())
+                     ? picture::legends_of(scene, with_one_scale(scene.views.front()))
                      : std::vector<render::Legend>{}),
         layout_(layout_with(scene)) {
     // One that is too high is wrapped.
@@ -157,7 +157,14 @@ class Strip {
     return {job_, setup::size_of(scene, scene.views.front()), words_.size(), !legends_.empty()};
   }
 
+  /// All tiles have the ranges of the scene.
+  static scene::View with_one_scale(scene::View view) {
+    view.slice.range_from = scene::RangeFrom::scene;
+    return view;
+  }
+
   scene::View tile_view(scene::View view) const {
+    view = with_one_scale(std::move(view));
     view.size = scene::PictureSize{layout_.tile_width, layout_.tile_height};
     view.background = scene::Background::gradient;
     for (const scene::Layer layer :

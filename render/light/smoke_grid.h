@@ -7,6 +7,9 @@
 
 namespace neve::render::light {
 
+/// Extinction over a node spacing at opacity 1: three nodes of packed snow pass 40 % of the light.
+inline constexpr float smoke_extinction = 0.3054f;  // -ln(0.4) / 3
+
 /// Texels lie on nodes, or on cubes of nodes where the smoke is too wide for that; the outermost
 /// ones are empty. Index = (z * size.y + y) * size.x + x.
 struct SmokeGrid {
@@ -18,9 +21,8 @@ struct SmokeGrid {
   Values<float> value;     ///< place in the range, [0, 1], times opacity; empty without values
 
   bool operator==(const SmokeGrid&) const = default;
-  /// Extinction at opacity 1: packed snow at density_scale 1. Three nodes of it pass 40 % of the
-  /// light.
-  float extinction() const { return 0.3054f / node_spacing; }  // 1/m; -ln(0.4) / 3
+  /// Extinction at opacity 1: packed snow at density_scale 1.
+  float extinction() const { return smoke_extinction / node_spacing; }  // 1/m
   bool is_empty() const { return opacity.empty(); }
   std::size_t index(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) +

@@ -177,9 +177,9 @@ TEST(Legends, TwoLayersOfOneQuantityShareALegend) {
   view.smoke.field = app::scene::ScalarField::J_P;
   view.particles.range = view.smoke.range = app::scene::Range{0.8, 1.2};
   view.smoke.colormap = view.particles.colormap;
-  EXPECT_EQ(app::picture::legends_of(view).size(), 1u);
+  EXPECT_EQ(app::picture::legends_of({}, view).size(), 1u);
   view.smoke.range = app::scene::Range{0.5, 2};
-  EXPECT_EQ(app::picture::legends_of(view).size(), 2u);
+  EXPECT_EQ(app::picture::legends_of({}, view).size(), 2u);
 }
 
 TEST(Slice, ArrowsKeepTheirDistanceInThePicture) {
@@ -301,6 +301,101 @@ TEST(Wires, SharedEdgesAreDrawnOnceAndJoined) {
   render::Lines box;
   app::picture::append_box({0, 0, 0}, {1, 2, 3}, box);
   EXPECT_EQ(box.ends.size(), 24u);
+}
+
+/// Four nodes in one block, of which one has no mass.
+app::picture::FieldSamples four_nodes() {
+  app::picture::FieldSamples fields;
+  auto lattice = std::make_shared<render::NodeLattice>();
+  lattice->spacing = 0.5f;
+  lattice->block = {{-1, 0, 2}};
+  fields.lattice = lattice;
+  fields.density.assign(64, 0);
+  std::vector<float>& speed = fields.scalars[app::scene::ScalarField::speed];
+  speed.assign(64, 0);
+  for (const auto& [node, value] : {std::pair{3, 2.5f}, std::pair{21, 7.0f}, std::pair{40, 0.5f}}) {
+    fields.density[static_cast<std::size_t>(node)] = 1;
+    speed[static_cast<std::size_t>(node)] = value;
+  }
+  speed[50] = 99;  // a node without mass says nothing
+  return fields;
+}
+
+app::scene::View extremes_of_speed() {
+  app::scene::View view;
+  view.layers = {app::scene::Layer::heatmap, app::scene::Layer::extremes};
+  view.slice.scalar = app::scene::ScalarField::speed;
+  return view;
+}
+
+TEST(Extremes, AreMarkedWithNodeAndValue) {
+  render::Frame frame;
+  app::picture::mark_extremes(extremes_of_speed(), four_nodes(), 0.01, frame);
+  ASSERT_EQ(frame.labels.size(), 2u);
+  // Node 21 is (1, 1, 1) in its block.
+  EXPECT_EQ(frame.labels[0].text, "largest speed 7 m/s, node -3 1 9");
+  EXPECT_EQ(frame.labels[0].position.x, -1.5f);
+  EXPECT_EQ(frame.labels[0].position.z, 4.5f);
+  EXPECT_EQ(frame.labels[1].text, "smallest speed 0.5 m/s, node -2 2 8");
+  ASSERT_EQ(frame.lines.size(), 1u);
+  EXPECT_EQ(frame.lines[0].ends.size(), 12u) << "two crosses of three lines";
+  EXPECT_TRUE(frame.footnote.empty());
+}
+
+TEST(Extremes, NodesThatAreNoNumberOrCrossACellInAStepAreRed) {
+  app::picture::FieldSamples fields = four_nodes();
+  fields.scalars[app::scene::ScalarField::speed][40] = std::nanf("");
+  render::Frame frame;
+  app::picture::mark_extremes(extremes_of_speed(), fields, 0.1, frame);
+  EXPECT_EQ(frame.footnote, "2 nodes are red: no number, or more than a cell in a step");
+  ASSERT_EQ(frame.lines.size(), 2u);
+  EXPECT_EQ(frame.lines[1].ends.size(), 12u);
+  EXPECT_GT(frame.lines[1].color.x, 0.9f);
+  EXPECT_LT(frame.lines[1].color.y, 0.2f);
+  EXPECT_EQ(frame.labels[1].text, "smallest speed 2.5 m/s, node -4 0 11")
+      << "not the one that is none";
+}
+
+TEST(Ranges, MayBeThoseOfTheFrameAndTheLegendSaysSo) {
+  app::scene::View view = extremes_of_speed();
+  view.slice.scalar_range = app::scene::Range{0, 3};
+  EXPECT_EQ(app::picture::with_ranges_of_frame(view, four_nodes()).slice.scalar_range->max, 3);
+  EXPECT_EQ(app::picture::legends_of({}, view).front().title, "speed");
+  view.slice.range_from = app::scene::RangeFrom::frame;
+  const app::scene::View of_frame = app::picture::with_ranges_of_frame(view, four_nodes());
+  EXPECT_EQ(of_frame.slice.scalar_range->min, 0.5);
+  EXPECT_EQ(of_frame.slice.scalar_range->max, 7);
+  EXPECT_EQ(app::picture::legends_of({}, of_frame).front().title, "speed, this frame");
+  const FieldMoment moment = moment_of(R"(
+[[view]]
+name = "arrows"
+layers = ["arrows", "legend"]
+slice = { field = "velocity", range_from = "frame" }
+)");
+  const render::Frame frame = frame_of_slice(
+      moment, 0, app::picture::slice_plane(moment.scene.views[0].slice, 0, std::nullopt));
+  EXPECT_NE(frame.footnote.find("longest arrow"), std::string::npos) << frame.footnote;
+  EXPECT_NE(frame.footnote.find("the largest of this frame"), std::string::npos) << frame.footnote;
+}
+
+/// Twice the mass of packed snow is brighter on the bar by more than can be overlooked.
+TEST(Legends, WhiteSmokeHasOneOnWhichTwiceTheMassShows) {
+  const app::scene::Scene scene = read_thrown("");
+  app::scene::View view;
+  view.layers = {app::scene::Layer::smoke, app::scene::Layer::legend};
+  view.smoke.field = app::scene::ScalarField::mass;
+  const std::vector<render::Legend> legends = app::picture::legends_of(scene, view);
+  ASSERT_EQ(legends.size(), 1u);
+  EXPECT_EQ(legends[0].unit, "kg/m3");
+  EXPECT_EQ(legends[0].max, 800);
+  const auto& colors = legends[0].colors;
+  ASSERT_GT(colors.size(), 10u);
+  const int none = colors.front()[0], packed = colors[colors.size() / 2][0],
+            twice = colors.back()[0];
+  EXPECT_GT(packed, none + 80);
+  EXPECT_GT(twice, packed + 25);
+  view.smoke.density_scale = 0;
+  EXPECT_TRUE(app::picture::legends_of(scene, view).empty()) << "nothing is seen of it";
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(SmokeLayer, SmokeLayerHoldsTheMassOfTheSnow) {
   ASSERT_NE(frame.smoke.nodes, nullptr);
   ASSERT_EQ(frame.smoke.density.size(), 64 * frame.smoke.nodes->block.size());
   EXPECT_TRUE(frame.smoke.value.empty());
-  EXPECT_TRUE(frame.legends.empty());
+  EXPECT_EQ(frame.legends.size(), 1u);
   EXPECT_TRUE(frame.points.position.empty());
   // Particles have the mass of the body between them; feather-light nodes are left out.
   const double mass = 400 * 4.0 / 3 * 3.14159265 * std::pow(0.1, 3);

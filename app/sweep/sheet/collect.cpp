@@ -43,7 +43,7 @@ std::vector<render::Legend> shared_legends(const fs::path& folder,
   if (!fs::exists(file, error)) return {};
   const scene::Scene shared = scene::read_scene_file(file.string());
   for (const scene::View& view : shared.views)
-    if (view.name == manifest.view) return picture::legends_of(view);
+    if (view.name == manifest.view) return picture::legends_of(shared, view);
   return {};
 }
 
