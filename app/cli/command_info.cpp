@@ -35,10 +35,13 @@ void print_picture(const record::PictureRecord& record, const std::string& pictu
       << (record.plate.empty() ? "" : "plate       " + record.plate + "\n")
       << (record.lut.empty() ? "" : "lut         " + record.lut + "\n")
       << (record.shutter > 0 ? "shutter     " + rough_text(record.shutter) + " degrees\n" : "")
+      << (record.cards.empty() ? ""
+                               : "card        of " + joined(record.cards, ", ") + "; neve card " +
+                                     picture + " makes it again\n")
       << (record.strip ? strip_line(*record.strip, picture) : "")
       << (record.passes.empty() ? "" : "passes      " + joined(record.passes, ", ") + "\n")
       << "seed        " << record.seed << "\n"
-      << "state hash  " << record.state_hash << "\n"
+      << (record.state_hash.empty() ? "" : "state hash  " + record.state_hash + "\n")
       << "again       " << timeline::again_text(record, picture) << "\n";
   for (const std::string& change : record.overrides) out << "override    " << change << "\n";
   for (const scene::LiveChange& change : record.changes)
@@ -157,6 +160,19 @@ int run_info(const PlainOptions& options) {
     return exit_ok;
   }
   require_picture(path, "neve info");
+  if (const auto sheet = record::read_sheet_record(path)) {
+    if (options.is_json)
+      std::cout << to_text({{"sheet", sheet->what},
+                            {"version", sheet->version},
+                            {"lines", sheet->lines}})
+                << "\n";
+    else
+      std::cout << printable_text(
+          "neve        " + sheet->version + "\n" + "sheet       " + sheet->what + "\n" +
+          joined(sheet->lines, "\n") + "\n" + "again       neve sweep collect " +
+          fs::path(path).parent_path().string() + " draws it from the pictures of the runs\n");
+    return exit_ok;
+  }
   const record::PictureRecord record = record::read_picture_record(path);
   if (options.is_json) {
     std::cout << to_text(record::to_json(record)) << "\n";

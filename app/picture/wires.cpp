@@ -186,7 +186,7 @@ scene::View with_ranges_of_frame(scene::View view, const FieldSamples& fields) {
 void mark_extremes(const scene::View& view, const FieldSamples& fields, double dt,
                    render::Frame& frame) {
   if (!fields.lattice) return;
-  constexpr std::size_t most_bad = 500;
+  constexpr std::size_t max_bad = 500;
   const render::NodeLattice& lattice = *fields.lattice;
   const MarkedField field = field_shown(view, fields);
   std::optional<std::size_t> smallest, largest;
@@ -214,7 +214,7 @@ void mark_extremes(const scene::View& view, const FieldSamples& fields, double d
     frame.labels.push_back(
         {at, extreme_text(which, field, field.values[*n], node_of(lattice, *n))});
   }
-  for (std::size_t k = 0; k < std::min(bad.size(), most_bad); ++k)
+  for (std::size_t k = 0; k < std::min(bad.size(), max_bad); ++k)
     add_cross(place_of(lattice, bad[k]), reach, wrong);
   if (!bad.empty())
     frame.footnote += fmt::format("{}{} {} red: no number, or more than a cell in a step",

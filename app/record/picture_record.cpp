@@ -165,18 +165,51 @@ Json to_json(const PictureRecord& record) {
   return json;
 }
 
-PictureRecord read_picture_record(const std::filesystem::path& file) {
+namespace {
+
+constexpr const char *sheet_key = "neve:sheet", *card_key = "neve:card";
+
+render::PngText text_in(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = output::read_file(file);
-  render::PngText text;
   try {
-    text = is_exr(bytes) ? render::read_exr_text(bytes) : render::read_png_text(bytes);
+    return is_exr(bytes) ? render::read_exr_text(bytes) : render::read_png_text(bytes);
   } catch (const render::ImageError& error) {
     throw Error(exit_invalid_scene, file.string() + ": error: " + error.what(), file.string());
   }
-  return picture_record_of(text, file.string());
+}
+
+std::optional<SheetRecord> sheet_in(const render::PngText& text, const std::string& file) {
+  if (!text.contains(sheet_key) || text.contains("neve:scene")) return std::nullopt;
+  const TextReader reader(file, text);
+  const Json json = reader.json(sheet_key);
+  if (!json.is_object() || !json.value("what", Json()).is_string())
+    reader.fail("its text neve:sheet does not say what it is");
+  SheetRecord record{json["what"].get<std::string>(), {}, reader.text("neve:version")};
+  for (const Json& line : json.value("lines", Json::array()))
+    if (line.is_string()) record.lines.push_back(line.get<std::string>());
+  return record;
+}
+
+}  // namespace
+
+render::PngText to_png_text(const SheetRecord& record) {
+  return {{sheet_key, to_text({{"what", record.what}, {"lines", record.lines}}, -1)},
+          {"neve:version", record.version}};
+}
+
+std::optional<SheetRecord> read_sheet_record(const std::filesystem::path& file) {
+  return sheet_in(text_in(file), file.string());
+}
+
+PictureRecord read_picture_record(const std::filesystem::path& file) {
+  return picture_record_of(text_in(file), file.string());
 }
 
 PictureRecord picture_record_of(const render::PngText& text, const std::string& file) {
+  if (const std::optional<SheetRecord> sheet = sheet_in(text, file))
+    throw Error(exit_invalid_scene,
+                file + ": error: is " + sheet->what + ", not one picture of a run", file,
+                "name a picture of one of its runs, as in runs/0000; neve info says more");
   const TextReader reader(file, text);
   PictureRecord record;
   record.scene = reader.text("neve:scene");
@@ -202,6 +235,10 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
     reader.fail("its shutter is not from 0 to 360");
   if (text.contains("neve:passes")) record.passes = reader.list("neve:passes");
   if (text.contains("neve:strip")) record.strip = reader.strip("neve:strip");
+  if (text.contains(card_key))
+    for (const Json& card : reader.json(card_key))
+      if (card.is_object() && card.value("title", Json()).is_string() && record.cards.size() < 100)
+        record.cards.push_back(card["title"].get<std::string>());
   const Json files = reader.json("neve:files");
   for (const auto& [path, hash] : files.items())
     if (hash.is_string()) record.files[path] = hash.get<std::string>();

@@ -40,7 +40,19 @@ struct PictureRecord {
   std::vector<std::string> passes;           ///< of --passes; none: only PNGs
   std::map<std::string, std::string> files;  ///< of the scene: path to content hash
   std::optional<StripRecord> strip;          ///< frame and state_hash are those of its last moment
+  std::vector<std::string> cards;            ///< titles of a picture made by neve card
 };
+
+/// Of a picture that is put together from pictures of several runs.
+struct SheetRecord {
+  std::string what;                ///< "a contact sheet of 12 runs"
+  std::vector<std::string> lines;  ///< "scene       drop.toml": of what, as `neve info` prints it
+  std::string version;
+};
+
+render::PngText to_png_text(const SheetRecord& record);
+/// Empty for any other picture. @throws Error as read_picture_record
+std::optional<SheetRecord> read_sheet_record(const std::filesystem::path& file);
 
 render::PngText to_png_text(const PictureRecord& record);
 Json to_json(const PictureRecord& record);

@@ -144,6 +144,9 @@ void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   for (const auto& [frame, steps] : output::checkpoint_steps(job_.folder))
     newest_checkpoint_ = std::max(newest_checkpoint_, frame);
   result_.is_addition = true;
+  const std::string status = earlier->json.value("status", "");
+  was_cut_off_ = status != record::name(record::RunStatus::ok) &&
+                 status != record::name(record::RunStatus::diverged);
   result_.has_checkpoint = newest_checkpoint_ >= 0;
   if (const Json warnings = earlier->json.value("warnings", Json::array()); warnings.is_array())
     for (const Json& warning : warnings)
@@ -166,6 +169,10 @@ timeline::StatesFolder RenderRun::states_folder() const {
       1, std::min(static_cast<std::uint64_t>(options.states_budget),
                   error ? UINT64_MAX : static_cast<std::uint64_t>(disk.available / 2)));
   return states;
+}
+
+bool RenderRun::is_done(int frame) const {
+  return ledger_.is_made(frame) && !(was_cut_off_ && timeline_.moments().wants(frame));
 }
 
 void RenderRun::note_states() {
@@ -210,12 +217,12 @@ bool RenderRun::mend(const std::vector<int>& frames) {
 void RenderRun::make_frames() {
   const double fps = timeline_.fps();
   int wanted = frames_.first;
-  while (wanted <= frames_.last && ledger_.is_made(wanted)) ++wanted;
+  while (wanted <= frames_.last && is_done(wanted)) ++wanted;
   if (wanted > frames_.last) return;
   int first = is_continued_ ? timeline_.here().frame + 1 : 0;
   if (const auto kept = timeline_.moments().find(wanted / fps, fps, first)) first = kept->frame;
   for (int frame = first; frame <= frames_.last; ++frame) {
-    if (frame > wanted && ledger_.is_made(frame)) continue;
+    if (frame > wanted && is_done(frame)) continue;
     if (frame > 0 && !go_to_frame(frame)) {
       if (result_.status == record::RunStatus::interrupted) write_checkpoint();
       return;
@@ -262,7 +269,7 @@ void RenderRun::begin_next(int frame) {
   // A checkpoint of this frame needs the simulation as it is.
   if (timeline_.simulation().threads() < threads_for_overlap || frame >= frames_.last ||
       is_mending_ || checkpoint_is_due(frame) || timeline_.moments().has(frame + 1) ||
-      ledger_.is_made(frame + 1) || is_interrupted())
+      is_done(frame + 1) || is_interrupted())
     return;
   next_ = std::async(std::launch::async, [this, frame] { return simulate_to(frame + 1); });
 }

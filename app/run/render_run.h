@@ -51,6 +51,9 @@ class RenderRun {
   void begin_beside(const std::optional<EarlierRun>& earlier);
   timeline::StatesFolder states_folder() const;
   void note_states();
+  /// True where the run has the pictures of a frame already; of a run that was cut off its state
+  /// too, if it is to be kept.
+  bool is_done(int frame) const;
   /// Starts, or resumes. @return frames before with pictures that are missing or damaged
   std::vector<int> begin();
   void continue_from(const timeline::Moment& moment);
@@ -87,6 +90,7 @@ class RenderRun {
   RenderResult result_;
   setup::FrameRange frames_;                ///< to draw, counted from 0
   int newest_checkpoint_ = -1;              ///< of an earlier command that this one adds to
+  bool was_cut_off_ = false;                ///< that command
   std::vector<std::string> told_before_;    ///< warnings of that command
   double seconds_ = 0;                      ///< that the simulation of the frame took
   std::optional<std::size_t> kept_blocks_;  ///< of the grid, of a frame whose state was kept

@@ -170,7 +170,7 @@ void Moments::stop_keeping(const std::string& why) {
   output::remove_states(states_.folder);
   if (progress_)
     progress_->warning(why +
-                       "; the run goes on without states: to draw it otherwise, it will be "
+                       "; the run continues without states: to draw it otherwise, it will be "
                        "simulated again");
 }
 

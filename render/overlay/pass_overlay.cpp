@@ -78,7 +78,7 @@ struct LegendPlace {
   float title_left;
 };
 
-Rgb8 color_of(const Legend& legend, float part) {
+Rgb8 legend_color(const Legend& legend, float part) {
   if (legend.colors.empty()) return map_color(legend.colormap, part);
   const auto last = static_cast<float>(legend.colors.size() - 1);
   const auto& c =
@@ -99,7 +99,7 @@ void draw_legend(const Legend& legend, const LegendText& text, const ImFont& fon
     y_title += 1.1f * font.FontSize;
   }
   for (float y = top; y < bottom; y += 1) {
-    const Rgb8 c = color_of(legend, (bottom - y - 0.5f) / (bottom - top));
+    const Rgb8 c = legend_color(legend, (bottom - y - 0.5f) / (bottom - top));
     list.AddRectFilled(ImVec2(left, y), ImVec2(right, y + 1), IM_COL32(c.r, c.g, c.b, 255));
   }
   list.AddRect(ImVec2(left, top), ImVec2(right, bottom), IM_COL32(0, 0, 0, 110));

@@ -189,7 +189,7 @@ TEST_F(Addition, StatesAreThinnedToTheirBudgetAndTheSameIsDrawnFromThem) {
 TEST_F(Addition, StatesThatCannotBeWrittenCostNoPicture) {
   folder.write("a/states", "in the way");
   const auto done = render({"scene.toml", "--out", "a", "--no-movie"});
-  EXPECT_TRUE(contains(done.errors, "the run goes on without states")) << done.errors;
+  EXPECT_TRUE(contains(done.errors, "the run continues without states")) << done.errors;
   EXPECT_EQ(pictures("a/particles").size(), 5u);
   EXPECT_EQ(read_text(folder / "a/states"), "in the way");
   render({"scene.toml", "--out", "a", "--no-movie", "--replace", "--keep-states"}, 6);

@@ -117,6 +117,7 @@ inline constexpr Folder folders[] = {
      "app/sweep/store"},
     {"app/sweep/sheet",
      "render/image render/frame render/gl render/overlay render app/support app/scene app/output "
+     "app/record "
      "app/setup app/options app/picture app/predict app/sweep/plan app/sweep/store "
      "app/sweep/jobs"},
     {"app/pick/search", "sim/base app/sweep/plan"},

@@ -25,12 +25,14 @@ inline std::string lasting_contents(const std::filesystem::path& file) {
   return hashes;
 }
 
-/// By the names of all files, without checkpoints, whose number depends on the moments of a run.
+/// By the names of all files, without checkpoints, whose number depends on the moments of a run,
+/// and without states, which a run continues without where there is no room.
 inline std::map<std::string, std::string> folder_contents(const std::filesystem::path& folder) {
   std::map<std::string, std::string> found;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).string();
-    if (entry.is_regular_file() && name.find("checkpoint/") == std::string::npos)
+    if (entry.is_regular_file() && name.find("checkpoint/") == std::string::npos &&
+        name.find("states/") == std::string::npos)
       found[name] = lasting_contents(entry.path());
   }
   return found;

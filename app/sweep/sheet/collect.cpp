@@ -13,9 +13,11 @@
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/picture/legends.h"
+#include "app/record/picture_record.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
+#include "app/support/text.h"
 #include "app/sweep/plan/shared_view.h"
 #include "app/sweep/sheet/data_csv.h"
 #include "app/sweep/sheet/effects.h"
@@ -120,6 +122,30 @@ int last_drawn(const store::Manifest& manifest, const std::vector<store::RunResu
   return std::min(newest, manifest.last_frame());
 }
 
+/// Origin of a page of sheets or strips: neither folders nor times, so that equal sweeps have equal
+/// pictures.
+render::PngText origin_of(const store::Manifest& manifest, const std::string& kind, int frame) {
+  record::SheetRecord record;
+  const auto number = [](std::size_t count) { return std::to_string(count); };
+  record.what = "a " + kind + " of " + number(manifest.runs.size()) +
+                (manifest.runs.size() == 1 ? " run" : " runs");
+  const auto add = [&](std::string name, const std::string& text) {
+    name.resize(12, ' ');
+    if (!text.empty()) record.lines.push_back(name + text);
+  };
+  const auto file_name = [](const std::string& file) { return fs::path(file).filename().string(); };
+  add("title", manifest.title);
+  add("scene", file_name(manifest.scene_file));
+  add("sweep", file_name(manifest.sweep_file));
+  add("view", manifest.view);
+  add("frame", std::to_string(frame));
+  add("varies", joined(manifest.varied.value_or(std::vector<std::string>{}), ", "));
+  for (const scene::Override& fixed : manifest.fixed)
+    add("override", fixed.address + "=" + fixed.value);
+  record.version = manifest.version;
+  return record::to_png_text(record);
+}
+
 void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
                       std::size_t page, int last, const output::MovieStyle& movie,
                       Progress& progress) {
@@ -130,8 +156,9 @@ void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, S
   output::PictureWriter writer;
   for (int frame = first; frame <= last && !is_interrupted(); ++frame) {
     render::Image image = maker.sheet(frame, page);
-    if (frame == last) writer.write({folder / (name + ".png"), image, {}});
-    writer.write({output::frame_path(folder, name, frame), std::move(image), {}});
+    const render::PngText origin = origin_of(manifest, "contact sheet", frame);
+    if (frame == last) writer.write({folder / (name + ".png"), image, origin});
+    writer.write({output::frame_path(folder, name, frame), std::move(image), origin});
     progress.line(name + " " + std::to_string(frame) + "/" + std::to_string(last));
   }
   writer.finish();
@@ -147,7 +174,8 @@ void write_sheets(const fs::path& folder, const store::Manifest& manifest, Sheet
   output::PictureWriter writer;
   std::size_t page = 0;
   for (render::Image& image : maker.strips())
-    writer.write({folder / (page_name("strips", page++) + ".png"), std::move(image), {}});
+    writer.write({folder / (page_name("strips", page++) + ".png"), std::move(image),
+                  origin_of(manifest, "page of strips", last)});
   writer.finish();
 }
 
