@@ -22,8 +22,8 @@ assert np.isnan(run.force("floor")[0, 0]) and np.nanmin(run.force("floor")[:, 1]
 assert neve.Run("out/scene").json == run.json
 
 # A collider that moves by itself.
-moved = neve.render("scene.toml", frames=2, flags=[
-    "--no-movie", "--out", "out/moved", "--set", "collider.can={ shape = { sphere = { center = "
+moved = neve.render("scene.toml", out="out/moved", frames=2, flags=[
+    "--no-movie", "--set", "collider.can={ shape = { sphere = { center = "
     "[0.5, 0.5, 0], radius = 0.1 } }, density = 900, velocity = [1, 0, 0] }"])
 can = moved.body("can")
 assert can["position"].shape == (3, 3) and list(can["position"][0]) == [0.5, 0.5, 0]

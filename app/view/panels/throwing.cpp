@@ -15,12 +15,12 @@ namespace {
 
 using sim::Vec3d;
 
-/// Numbers that suit what is looked at: a ball that snow of these cells feels, and half a second
-/// of flight.
+/// Numbers that suit what is looked at: a ball that snow of these cells feels, and less than half a
+/// second of flight.
 void choose_numbers(ViewerState& state) {
   Throwing& throwing = state.throwing;
   if (throwing.radius > 0 || !state.live) return;
-  constexpr double size = 0.04, flight = 0.5, fewest_cells = 3;
+  constexpr double size = 0.018, flight = 0.8, fewest_cells = 3;
   const double distance = state.orbit.distance();
   const double radius =
       std::max(size * distance, fewest_cells * state.live->scene->solver.cell_size);
@@ -40,7 +40,7 @@ void slider(const char* name, const char* format, double low, double high, doubl
 
 /// Where a ball begins: a part of the way to what it is thrown at, in front of all colliders.
 Vec3d start_of(const ViewerState& state, const Vec3d& ray, double reach) {
-  constexpr double part = 0.25;
+  constexpr double part = 0.5;
   const session::LiveFrame& live = *state.live;
   const double radius = state.throwing.radius;
   double along = std::max(0.0, std::min(part * reach, reach - 2 * radius));
