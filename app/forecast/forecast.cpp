@@ -356,7 +356,7 @@ double work_at_rest(const scene::Scene& scene, const setup::Plan& plan) {
   // Snow that is packed conducts sound about three times as fast as at rest.
   constexpr double packed = 3;
   sim::StateLimits limits;
-  limits.max_speed = setup::impact_speed(scene);
+  limits.max_speed = setup::largest_speed(scene);
   for (const sim::Material& material : scene.materials)
     limits.max_sound_speed = std::max(limits.max_sound_speed, packed * sim::sound_speed(material));
   const double dt = sim::choose_dt(scene.solver, limits, 1e9).dt;

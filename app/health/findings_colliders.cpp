@@ -9,6 +9,7 @@
 #include "app/health/places.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/toml/value.h"
+#include "app/setup/auto_ranges.h"
 #include "app/support/text.h"
 #include "sim/shapes/deforming_mesh.h"
 
@@ -108,7 +109,7 @@ void check_motion(const scene::Scene& scene, const Check& check, std::vector<Fin
   for (const sim::shapes::Collider& collider : scene.colliders) {
     // One that falls gets faster than it starts.
     const double speed = std::max(sim::shapes::largest_speed(collider),
-                                  collider.body.moves() ? check.impact_speed : 0),
+                                  collider.body.moves() ? setup::body_speed(scene, collider) : 0),
                  cells = speed * dt / s.cell_size;
     const double c = check.start.max_sound_speed;
     const std::string at = "collider." + collider.name + fastest_part(collider, speed);

@@ -130,21 +130,14 @@ double step_at_rest(const sim::SolverSettings& solver,
   return step;
 }
 
-double snow_speed(const scene::Scene& scene) {
-  double speed = 0;
-  for (const SnowPiece& piece : snow_places(scene))
-    speed = std::max(speed, impact_speed(scene, piece));
-  return speed;
-}
-
-/// Heights and speeds of bodies: until they fall on something, or are stopped by it.
-struct BodyRanges {
-  double low = 1e300, high = -1e300;  ///< m
-  double speed = 0;                   ///< m/s
+/// Heights of bodies until they fall on something, m.
+struct BodyHeights {
+  double low = 1e300, high = -1e300;
 };
 
-/// m, along gravity to what is below; until the end of the scene where nothing is.
+/// m, along gravity to what is below; until the end of the scene where nothing is. A joint holds.
 double fall_of(const scene::Scene& scene, const sim::shapes::Collider& body, const Vec3d& down) {
+  if (body.body.joint != sim::shapes::Joint::none) return 0;
   const double duration = scene::duration(scene);
   double fall = 0.5 * scene.solver.gravity.norm() * duration * duration;
   for (const sim::shapes::Collider& collider : scene.colliders) {
@@ -155,27 +148,32 @@ double fall_of(const scene::Scene& scene, const sim::shapes::Collider& body, con
   return fall;
 }
 
-BodyRanges body_ranges(const scene::Scene& scene) {
-  BodyRanges ranges;
+/// m, from the middle of a body to its corners.
+double radius_around(const sim::shapes::Bounds& box) {
+  return 0.5 * (box.max - box.min).norm();
+}
+
+/// Unit vector; without gravity that of the pictures.
+Vec3d down_in(const scene::Scene& scene) {
   const double g = scene.solver.gravity.norm();
-  const Vec3d down = g > 0 ? Vec3d(scene.solver.gravity / g) : Vec3d(-Vec3d::UnitY());
-  // What snow hits is at most about as fast.
-  const double snow = snow_speed(scene);
+  return g > 0 ? Vec3d(scene.solver.gravity / g) : Vec3d(-Vec3d::UnitY());
+}
+
+BodyHeights body_heights(const scene::Scene& scene) {
+  BodyHeights heights;
+  const double g = scene.solver.gravity.norm();
+  const Vec3d down = down_in(scene);
   for (const sim::shapes::Collider& body : scene.colliders) {
     if (!body.body.moves()) continue;
     const sim::shapes::Bounds box = sim::shapes::bounds_at(body, 0);
-    const double size = 0.5 * (box.max - box.min).norm(), y = 0.5 * (box.min + box.max).y();
+    const double size = radius_around(box), y = 0.5 * (box.min + box.max).y();
     const double up = std::max(0.0, -body.velocity.dot(down));
     const double rise = g > 0 ? 0.5 * up * up / g : up * scene::duration(scene);
-    const bool is_joined = body.body.joint != sim::shapes::Joint::none;
-    const double fall = is_joined ? 0 : fall_of(scene, body, down);
-    ranges.low = std::min(ranges.low, y - std::max(fall * -down.y(), size));
-    ranges.high = std::max(ranges.high, y + std::max(rise, size));
-    ranges.speed =
-        std::max({ranges.speed, snow,
-                  std::sqrt(body.velocity.squaredNorm() + 2 * g * std::max(fall, size))});
+    const double fall = fall_of(scene, body, down);
+    heights.low = std::min(heights.low, y - std::max(fall * -down.y(), size));
+    heights.high = std::max(heights.high, y + std::max(rise, size));
   }
-  return ranges;
+  return heights;
 }
 
 /// Ends that are multiples of a round step.
@@ -187,7 +185,25 @@ scene::Range rounded_range(double low, double high) {
 }  // namespace
 
 double impact_speed(const scene::Scene& scene) {
-  return scene::has_moving_bodies(scene) ? body_ranges(scene).speed : snow_speed(scene);
+  double speed = 0;
+  for (const SnowPiece& piece : snow_places(scene))
+    speed = std::max(speed, impact_speed(scene, piece));
+  return speed;
+}
+
+double body_speed(const scene::Scene& scene, const sim::shapes::Collider& body) {
+  const double size = radius_around(sim::shapes::bounds_at(body, 0));
+  const double fall = std::max(fall_of(scene, body, down_in(scene)), size);
+  const double falling =
+      std::sqrt(body.velocity.squaredNorm() + 2 * scene.solver.gravity.norm() * fall);
+  return std::max(impact_speed(scene), falling);
+}
+
+double largest_speed(const scene::Scene& scene) {
+  double speed = impact_speed(scene);
+  for (const sim::shapes::Collider& body : scene.colliders)
+    if (body.body.moves()) speed = std::max(speed, body_speed(scene, body));
+  return speed;
 }
 
 double energy_of_impact(const scene::Scene& scene) {
@@ -214,7 +230,7 @@ scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
     case scene::ColorBy::snow:
       break;
     case scene::ColorBy::speed: {
-      const double speed = impact_speed(scene);
+      const double speed = largest_speed(scene);
       return {0, speed > 0 ? round_up(speed) : 1};
     }
     case scene::ColorBy::density:
@@ -297,10 +313,10 @@ void resolve_plot_ranges(const scene::Scene& scene, scene::PlotRanges& ranges) {
   if (!ranges.energy) ranges.energy = from_zero(energy_of_impact(scene));
   if (!ranges.speed) ranges.speed = automatic_range(scene, scene::ColorBy::speed, 0);
   if (!ranges.force) ranges.force = from_zero(force_of_impact(scene));
-  if (scene::has_moving_bodies(scene) && !(ranges.body_height && ranges.body_speed)) {
-    const BodyRanges bodies = body_ranges(scene);
-    if (!ranges.body_height) ranges.body_height = rounded_range(bodies.low, bodies.high);
-    if (!ranges.body_speed) ranges.body_speed = from_zero(bodies.speed);
+  if (scene::has_moving_bodies(scene)) {
+    const BodyHeights heights = body_heights(scene);
+    if (!ranges.body_height) ranges.body_height = rounded_range(heights.low, heights.high);
+    if (!ranges.body_speed) ranges.body_speed = from_zero(largest_speed(scene));
   }
   if (!ranges.dt) ranges.dt = from_zero(1.05 * step_at_rest(scene.solver, scene.materials));
 }

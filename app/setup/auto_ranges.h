@@ -10,9 +10,15 @@ namespace neve::app::setup {
 scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
                              std::size_t particle_count);
 
-/// m/s: speed of the quickest snow, or collider that moves by itself, when it meets the surface
-/// below it, or at the end of the scene.
+/// m/s: speed of the quickest body when it meets the surface below it, or at the end of the scene.
 double impact_speed(const scene::Scene& scene);
+
+/// m/s, of a collider that moves by itself: until it falls on something; at most about as fast as
+/// the snow that hits it.
+double body_speed(const scene::Scene& scene, const sim::shapes::Collider& body);
+
+/// m/s, that snow may have: its own at impact, or that of a body that hits it.
+double largest_speed(const scene::Scene& scene);
 
 /// Automatic range of a field on nodes.
 scene::Range automatic_range(const scene::Scene& scene, scene::ScalarField field);

@@ -73,8 +73,9 @@ TEST_F(Resume, ACheckpointOfOtherSourcesIsNamed) {
   ASSERT_EQ(render("out", {"--frames", "0-2"}).exit_code, 0);
   app::output::Checkpoint checkpoint = *app::output::find_checkpoint(folder / "out").checkpoint;
   checkpoint.sources = "0123456789abcdef";
-  // Earlier versions wrote no forces either.
-  for (app::Json& row : checkpoint.progress["history"]) row.erase(6);
+  // Earlier versions wrote no forces and no bodies either.
+  for (app::Json& row : checkpoint.progress["history"])
+    for (const int column : {7, 6}) row.erase(column);
   app::output::write_checkpoint(folder / "out", checkpoint);
   const auto more = render("out", {"--resume"});
   ASSERT_EQ(more.exit_code, 0) << more.errors;

@@ -22,7 +22,7 @@ assert np.isnan(run.force("floor")[0, 0]) and np.nanmin(run.force("floor")[:, 1]
 assert neve.Run("out/scene").json == run.json
 
 # A collider that moves by itself.
-moved = neve.render("scene.toml", out="out/moved", frames=2, flags=[
+moved = neve.render("scene.toml", out="out/moved", frames=(0, 2), flags=[
     "--no-movie", "--set", "collider.can={ shape = { sphere = { center = "
     "[0.5, 0.5, 0], radius = 0.1 } }, density = 900, velocity = [1, 0, 0] }"])
 can = moved.body("can")
