@@ -207,9 +207,11 @@ PictureRecord read_picture_record(const std::filesystem::path& file) {
 
 PictureRecord picture_record_of(const render::PngText& text, const std::string& file) {
   if (const std::optional<SheetRecord> sheet = sheet_in(text, file))
-    throw Error(exit_invalid_scene,
-                file + ": error: is " + sheet->what + ", not one picture of a run", file,
-                "name a picture of one of its runs, as in runs/0000; neve info says more");
+    throw Error(
+        exit_invalid_scene,
+        file + ": error: is " + sheet->what +
+            ", not one picture of a run; name a picture of one of its runs, as in runs/0000",
+        file, "neve info says more of it");
   const TextReader reader(file, text);
   PictureRecord record;
   record.scene = reader.text("neve:scene");

@@ -162,7 +162,11 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
     for (const std::string& view : record_.views) write_movie(view, movies);
   for (const output::WrittenFile& file : exporter_.finish()) note_file(file);
   record_.status = status;
-  if (is_inside_earlier()) record_.carried_status = earlier_->json.value("status", "");
+  // A run that ended early has not got further by other pictures of its frames.
+  const std::string before = earlier_ ? earlier_->json.value("status", "") : "";
+  if (is_inside_earlier() && (before == record::name(record::RunStatus::diverged) ||
+                              before == record::name(record::RunStatus::interrupted)))
+    record_.carried_status = before;
   bring_to_disk();
   return movies;
 }
@@ -190,7 +194,7 @@ void Ledger::write_movie(const std::string& view, std::vector<std::filesystem::p
     request.time_code =
         scene::time_code_of(job_.scene, first, style.fps > 0 ? style.fps : job_.scene.fps);
   const output::MovieResult movie = output::write_movie(request);
-  const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
+  const std::string failure = no_movie + request.file.string() + ": " + movie.reason;
   switch (movie.outcome) {
     case output::MovieOutcome::written:
       movies.push_back(request.file);
@@ -235,7 +239,8 @@ record::ViewFrames Ledger::frames_of(const std::string& view) const {
 
 /// True where the frames of this command are some that the run had before.
 bool Ledger::is_inside_earlier() const {
-  return earlier_ && record_.status == record::RunStatus::ok &&
+  return earlier_ && !earlier_->pictures.frames.empty() &&
+         record_.status == record::RunStatus::ok &&
          scene::number_of(job_.scene, job_.frames.last) <= earlier_->pictures.frames.back().frame;
 }
 

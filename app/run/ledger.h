@@ -16,6 +16,9 @@
 
 namespace neve::app::run {
 
+/// Begins the warning of a movie that was not made: the next command may make it.
+inline const std::string no_movie = "no movie ";
+
 class Ledger {
  public:
   /// @param job, progress  outlive it

@@ -150,7 +150,8 @@ void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   result_.has_checkpoint = newest_checkpoint_ >= 0;
   if (const Json warnings = earlier->json.value("warnings", Json::array()); warnings.is_array())
     for (const Json& warning : warnings)
-      if (warning.is_string()) told_before_.push_back(warning);
+      if (warning.is_string() && !warning.get<std::string>().starts_with(no_movie))
+        told_before_.push_back(warning);
 }
 
 timeline::StatesFolder RenderRun::states_folder() const {
