@@ -70,7 +70,7 @@ TEST_F(PastRun, AFinishedRunIsScrubbedWithoutAStep) {
 }
 
 TEST_F(PastRun, WithoutStatesItHasItsCheckpointsAndTheStart) {
-  render({"scene.toml", "--out", "a", "--checkpoint-every", "2"});
+  render({"scene.toml", "--out", "a", "--checkpoint-every", "2", "--no-keep-states"});
   view::session::Workbench bench = open("a");
   view::session::Session& session = bench.session();
   EXPECT_EQ(session.latest()->frame, 4);
