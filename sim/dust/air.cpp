@@ -82,7 +82,7 @@ void Air::cover(const AirBox& box, const Vec3d& wind) {
   FaceVelocities u;
   for (std::size_t a = 0; a < 3; ++a)
     u[a].assign(box.count(), static_cast<float>(wind[static_cast<int>(a)]));
-  const bool is_same_grid = !box_.is_empty() && box_.spacing == box.spacing;
+  const bool is_same_grid = !box_.is_empty() && !box.is_empty() && box_.spacing == box.spacing;
   const Vec3i shift = box.low - box_.low;
   for (int k = 0; is_same_grid && k <= box.size.z(); ++k)
     for (int j = 0; j <= box.size.y(); ++j)

@@ -164,6 +164,57 @@ TEST(Air, WindThatMeetsNothingStaysAsItIs) {
     EXPECT_LT((air.velocity(x, wind) - wind).norm(), 1e-5);
 }
 
+TEST(Air, KeepsWhatTwoBoxesShareAndForgetsTheRest) {
+  ThreadPool pool(1);
+  const Vec3d wind(1, 0, 0), x(1.1, 1.1, 1.1);
+  dust::Air air;
+  air.cover({0.25, {0, 0, 0}, {8, 8, 8}}, wind);
+  air.cover({0.25, {-4, 0, 0}, {16, 8, 8}}, Vec3d::Zero());
+  EXPECT_LT((air.velocity(x, Vec3d::Zero()) - wind).norm(), 1e-6);
+  EXPECT_EQ(air.velocity({-0.9, 1, 1}, Vec3d::Zero()), Vec3d::Zero());
+  // Nothing moves any more, and then something does.
+  air.cover({0.25, {0, 0, 0}, {0, 0, 0}}, Vec3d::Zero());
+  EXPECT_EQ(air.velocity(x, wind), wind);
+  EXPECT_EQ(air.fill(x), 0);
+  air.step(0.01, wind, {0, 1, 0}, {}, pool);
+  air.cover({0.25, {0, 0, 0}, {8, 8, 8}}, Vec3d::Zero());
+  EXPECT_EQ(air.velocity(x, wind), Vec3d::Zero());
+}
+
+/// Snow comes to rest, its dust settles, and later it moves again.
+TEST(Dust, AirGoesWhenNothingMovesAndComesBack) {
+  ThreadPool pool(2);
+  const Ground ground;
+  const DustSettings settings = still_air();
+  std::vector<dust::SnowGrain> snow;
+  for (int k = 0; k < 500; ++k)
+    snow.push_back({Vec3d(0.02 * (k % 10), 0.02 * (k / 10 % 5) + 0.1, 0.02 * (k / 50)),
+                    {6.0 + 0.5 * (k / 10 % 5), 0, 0},
+                    1e-3,
+                    8e-6,
+                    1,
+                    0.1,
+                    static_cast<std::uint32_t>(k)});
+  dust::Dust dust;
+  const auto advance = [&](double until) {
+    while (dust.time() < until - 1e-9)
+      dust.advance(dust.time() + 0.02, snow, {settings, 0.02, gravity, ground, pool});
+  };
+  advance(0.1);
+  EXPECT_FALSE(dust.cloud().motes.empty());
+  EXPECT_FALSE(dust.air().box().is_empty());
+  for (dust::SnowGrain& grain : snow) grain.v.setZero();
+  advance(20);
+  EXPECT_TRUE(dust.cloud().motes.empty());
+  EXPECT_TRUE(dust.air().box().is_empty());
+  dust::Dust again;
+  again.restore(dust.save());
+  EXPECT_EQ(again.save(), dust.save());
+  for (dust::SnowGrain& grain : snow) grain.v.x() = 5;
+  advance(20.1);
+  EXPECT_FALSE(dust.air().box().is_empty());
+}
+
 /// A block of snow that flies through still air.
 TEST(Air, FollowsSnowAndMakesRoomForIt) {
   ThreadPool pool(2);
