@@ -27,7 +27,8 @@ class SweepFrom : public Cli {
   void expect_whole(const std::string& run, int last) {
     char name[32];
     std::snprintf(name, sizeof name, "%04d.png", last);
-    render({run + "/particles/" + name, "--frames", "0-" + std::to_string(last), "--out", "whole"});
+    render({run + "/particles/" + name, "--frames", "0-" + std::to_string(last), "--out", "whole",
+            "--replace"});
     const auto whole = hashes("whole");
     for (const auto& [frame, hash] : hashes(run)) EXPECT_EQ(whole.at(frame), hash) << frame;
   }
