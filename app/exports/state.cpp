@@ -65,7 +65,7 @@ std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
   state->hash = simulation.state_hash();
   const auto has_dust = [](const scene::Export& e) { return e.dust; };
   if (std::any_of(exports.begin(), exports.end(), has_dust)) state->dust = simulation.dust();
-  if (std::all_of(exports.begin(), exports.end(), has_dust)) {
+  if (!exports.empty() && std::all_of(exports.begin(), exports.end(), has_dust)) {
     state->colliders = placed_at(colliders, state->time);
     return state;
   }

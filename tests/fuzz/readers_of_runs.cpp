@@ -63,6 +63,7 @@ struct SmallRun {
                              timeline.summary(),
                              timeline.simulation().state_hash(),
                              {},
+                             {},
                              {}});
     }
     good = timeline.moment();
