@@ -71,11 +71,10 @@ void check_gravity(const scene::Scene& scene, std::vector<Finding>& findings);
 void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
                              std::vector<Finding>& findings);
 
-/// Colliders that move by themselves: in one another, held by nothing or by everything, of a density
-/// that nothing has, smaller than snow can feel.
+/// Colliders that move by themselves: in one another, held by nothing or by everything, of a
+/// density that nothing has, smaller than snow can feel.
 /// @param moments  of a coarse run
-void check_moving_bodies(const scene::Scene& scene,
-                         const std::vector<setup::CoarseMoment>& moments,
+void check_moving_bodies(const scene::Scene& scene, const std::vector<setup::CoarseMoment>& moments,
                          std::vector<Finding>& findings);
 
 /// Colliders that cross too much of a cell in a step, or outrun sound in the snow.

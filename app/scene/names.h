@@ -160,24 +160,13 @@ constexpr auto names(render::ColorMap) {
 }
 constexpr auto names(Layer) {
   using enum Layer;
-  return std::array{Name{ground, "ground"},
-                    Name{colliders, "colliders"},
-                    Name{particles, "particles"},
-                    Name{snow, "snow"},
-                    Name{arrows, "arrows"},
-                    Name{heatmap, "heatmap"},
-                    Name{smoke, "smoke"},
-                    Name{blocks, "blocks"},
-                    Name{bounds, "bounds"},
-                    Name{legend, "legend"},
-                    Name{caption, "caption"},
-                    Name{plots, "plots"},
-                    Name{counter, "counter"},
-                    Name{slate, "slate"},
-                    Name{streamlines, "streamlines"},
-                    Name{scale, "scale"},
-                    Name{dust, "dust"},
-                    Name{extremes, "extremes"}};
+  return std::array{
+      Name{ground, "ground"},   Name{colliders, "colliders"}, Name{particles, "particles"},
+      Name{snow, "snow"},       Name{arrows, "arrows"},       Name{heatmap, "heatmap"},
+      Name{smoke, "smoke"},     Name{blocks, "blocks"},       Name{bounds, "bounds"},
+      Name{legend, "legend"},   Name{caption, "caption"},     Name{plots, "plots"},
+      Name{counter, "counter"}, Name{slate, "slate"},         Name{streamlines, "streamlines"},
+      Name{scale, "scale"},     Name{dust, "dust"},           Name{extremes, "extremes"}};
 }
 constexpr auto names(ExportFormat) {
   using enum ExportFormat;

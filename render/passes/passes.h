@@ -139,8 +139,8 @@ class ShadePass {
   std::uint64_t uploaded_ = 0;  ///< serial of the volume in the textures
 };
 
-/// Makes pixels of samples: the mean of several, see shaders/resolve.frag, or one with smooth edges,
-/// see shaders/smooth.frag.
+/// Makes pixels of samples: the mean of several, see shaders/resolve.frag, or one with smooth
+/// edges, see shaders/smooth.frag.
 class ResolvePass {
  public:
   ResolvePass(const gl::Gl& gl, const gl::ShaderLibrary& library);

@@ -41,8 +41,7 @@ double lowest_of(const ParticleArrays& p) {
 shapes::Collider floating_cone(double density, double lowest) {
   shapes::Collider cone;
   const double height = 4 * cell_size, top = lowest - 0.3 * cell_size;
-  cone.shape.form =
-      shapes::Cone{{0.6 * cell_size, top - 0.5 * height, 0}, 9 * cell_size, height};
+  cone.shape.form = shapes::Cone{{0.6 * cell_size, top - 0.5 * height, 0}, 9 * cell_size, height};
   cone.shape.rotation = {180, 0, 0};
   cone.body.density = density;
   return cone;

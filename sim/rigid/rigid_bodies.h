@@ -63,8 +63,8 @@ class RigidBodies {
   Vec3d centre(std::size_t body, const shapes::Pose& pose) const;
   /// kg m2, about the centre of mass in the axes of the world, before the step.
   Mat3d inertia(std::size_t body) const;
-  /// How many parts a step of dt takes so that no body moves by more than a quarter of its thickness
-  /// in one: none passes through another, or through a thin wall. Call it after begin().
+  /// How many parts a step of dt takes so that no body moves by more than a quarter of its
+  /// thickness in one: none passes through another, or through a thin wall. Call it after begin().
   int parts_of_step(double dt, const Vec3d& gravity) const;
   /// The collider moves on: over dt, as found by respond().
   void move(std::size_t body, double dt, double time, shapes::Collider& collider) const;

@@ -37,8 +37,8 @@ struct Material {
   /// Range of J_P, and the largest factor of hardening. The paper bounds none of them. Beyond 20
   /// snow is single particles, and their J_P only says for how long they have been alone.
   double min_J_P = 0.1, max_J_P = 20, max_hardening = 1e4;
-  /// Share of its mass that snow which breaks fast sheds as dust while it is strained by 1; it keeps
-  /// its mass.
+  /// Share of its mass that snow which breaks fast sheds as dust while it is strained by 1; it
+  /// keeps its mass.
   double dust = 0;
   Variation variation;
   /// Project the F_E of an elastic law as the paper's snow's. For comparison with solvers that let

@@ -32,7 +32,8 @@ inline constexpr Folder folders[] = {
      "neve::sim::engine"},
     {"sim/dust", "sim/base sim/types"},
     {"sim/engine",
-     "sim/base sim/types sim/shapes sim/rigid sim/seeding sim/kernels sim/laws sim/health sim/state "
+     "sim/base sim/types sim/shapes sim/rigid sim/seeding sim/kernels sim/laws sim/health "
+     "sim/state "
      "sim/dust"},
     {"sim", "sim/base sim/types sim/shapes sim/seeding sim/laws sim/engine", "neve::sim"},
     {"sim/checks", "sim/base sim/types sim/shapes sim/rigid sim/seeding sim/laws sim/health sim"},
