@@ -23,8 +23,12 @@ std::string shape_with(const std::string& kind, const std::string& key) {
   return {};
 }
 
-/// The only parameter of that name in other tables, or the one of the same item; material.NAME.x
-/// before material.NAME.variation.x.
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+/// The only parameter of that name in other tables, or the one of the same item; of several that of
+/// a material, which has what snow has; material.NAME.x before material.NAME.variation.x.
 std::string other_address(const std::string& key, const std::string& here) {
   const std::string kind = here.substr(0, here.find('.')) + ".";
   std::vector<std::string> found;
@@ -33,6 +37,7 @@ std::string other_address(const std::string& key, const std::string& here) {
     if (info.address == kind + "NAME." + key) return info.address;
     if (info.address.find(".variation.") == std::string::npos) found.push_back(info.address);
   }
+  if (contains(found, "material.NAME." + key)) return "material.NAME." + key;
   return found.size() == 1 ? found.front() : "";
 }
 
@@ -70,10 +75,6 @@ std::string form_advice(const std::string& key, const std::vector<std::string>& 
   if (key == "points") return "only bodies can be points";
   if (key == "cover") return "only bodies can be covers";
   return advice::suggest(key, {"key", forms, true}, "expected " + list_of(forms));
-}
-
-bool contains(const std::vector<std::string>& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
 }
 
 }  // namespace

@@ -215,7 +215,7 @@ TEST(SceneErrors, ChoicesAreListed) {
       layer.starts_with("s.toml:2:21: error: view.1.layers[1] = \"fog\"; expected \"ground\", "
                         "\"colliders\", \"particles\", "))
       << layer;
-  EXPECT_TRUE(layer.ends_with(", \"scale\" or \"extremes\"")) << layer;
+  EXPECT_TRUE(layer.ends_with(", \"dust\" or \"extremes\"")) << layer;
   EXPECT_EQ(error_of("[[view]]\nlayers = [\"ground\", \"ground\"]"),
             "s.toml:2:21: error: view.1.layers[1] = \"ground\"; expected each at most once");
 }

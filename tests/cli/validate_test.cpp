@@ -54,7 +54,7 @@ TEST_F(Cli, DoctorTestsThePhysics) {
   const auto doctor = neve({"doctor", "--json"});
   EXPECT_EQ(doctor.exit_code, 0) << doctor.output;
   const app::Json physics = app::parse_json(std::string_view(doctor.output))["physics"];
-  ASSERT_EQ(physics.size(), 18u);
+  ASSERT_EQ(physics.size(), 19u);
   for (const app::Json& test : physics) {
     EXPECT_TRUE(test["check"].is_string());
     EXPECT_EQ(test["passed"], true) << test;
