@@ -58,7 +58,7 @@ void snow_on_a_floating_body(const SelfTestCase& test, double density,
   Vec3d moment = Vec3d::Zero();
   double size = 0;
   double fastest = 0;
-  while (simulation.time() < seconds) {
+  while (simulation.time() < seconds && !simulation.divergence()) {
     const AdvanceReport report = simulation.advance_to(seconds, {}, simulation.steps() + 1);
     const shapes::Collider body = simulation.colliders()[0];
     const shapes::Pose pose = shapes::pose_at(body, simulation.time());
@@ -68,6 +68,7 @@ void snow_on_a_floating_body(const SelfTestCase& test, double density,
     moment += report.loads[0].angular_impulse - arm.cross(report.loads[0].impulse);
     size += report.loads[0].impulse.norm();
   }
+  if (simulation.divergence()) return measure.failure(simulation.divergence()->sentence);
   const Momentum given = momentum_of(simulation.colliders()[0], simulation.time());
   const Vec3d change = simulation.summary().momentum + given.linear - before;
   measure.zero("momentum of snow and body", change.norm() / size, given_impulses);
