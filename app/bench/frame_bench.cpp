@@ -110,6 +110,7 @@ class FrameBench {
                   bool is_drawn = false);
   double first_picture();
   void coarsen_2();
+  void dust();
   void implicit_steps();
   template <class Measure>
   void measure(const std::string& name, const std::string& unit, const Measure& once);
@@ -191,6 +192,27 @@ void FrameBench::coarsen_2() {
   });
 }
 
+/// Time of a powder avalanche with its cloud, simulated and drawn, over that of one without: by
+/// programs of their own, in turns.
+void FrameBench::dust() {
+  const std::string scene = (default_scene().parent_path() / "powder_avalanche.toml").string();
+  const std::string frames = options_.is_quick ? "4" : "60";
+  const auto seconds = [&](const std::string& shed) {
+    const ScratchFolder folder;
+    const Stopwatch watch;
+    const output::ProcessResult result = output::run_process(
+        "/proc/self/exe",
+        {"render", scene, "--frames", frames, "--set", "material.powder.dust=" + shed, "--quiet",
+         "--no-movie", "--no-keep-states", "--checkpoint-every", "0", "--size", "1280x720", "--out",
+         "out", "--threads", std::to_string(options_.threads), "--backend", options_.backend},
+        folder.path());
+    if (result.exit_code != 0)
+      throw Error(exit_internal, "dust_time: neve render failed: " + result.errors);
+    return watch.wall();
+  };
+  measure("dust_time", "x without", [&] { return seconds("0.008") / seconds("0"); });
+}
+
 /// The first frame by semi-implicit steps, and how many times longer explicit ones take.
 void FrameBench::implicit_steps() {
   const BoxSize& size = options_.is_quick ? quick_box : middle_box;
@@ -224,6 +246,7 @@ std::vector<BenchRow> FrameBench::run() {
   measure("flip_cubic_4000_drawn", "s",
           [&] { return simulate("flip_cubic_4000_drawn", small, 1, true); });
   implicit_steps();
+  dust();
   coarsen_2();
   // Last: its particles are those of the default scene, which the row before it simulated.
   measure("first_picture", "s", [&] { return first_picture(); });

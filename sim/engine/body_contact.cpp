@@ -91,13 +91,11 @@ void BodyContact<Real>::show(std::size_t b, const Vec3d& arm,
     contact.surface[x] = static_cast<Real>(surface[x]);
     normal[x] = static_cast<double>(contact.normal[x]);
   }
-  const auto turning = [&](const Vec3d& along) {
-    const Vec3d moment = arm.cross(along);
-    return moment.dot(seen.inverse_inertia * moment);
-  };
-  const double about = turning(normal);
-  double all = 0;
-  for (int x = 0; x < 3; ++x) all += turning(Vec3d::Unit(x));
+  // n^T [r]^T I^-1 [r] n, and the sum of it over three directions.
+  const Vec3d turned = arm.cross(normal);
+  const double about = turned.dot(seen.inverse_inertia * turned);
+  const double all =
+      seen.inverse_inertia.trace() * arm.squaredNorm() - arm.dot(seen.inverse_inertia * arm);
   const double share = seen.gives * static_cast<double>(std::max<std::size_t>(seen.count, 1));
   const double inverse_mass = 1 / bodies_->mass(b).mass;
   contact.give = static_cast<Real>(share * (inverse_mass + about));

@@ -77,8 +77,9 @@ TEST_F(Cli, BenchFrameNamesWhatScriptsDependOn) {
   const auto result = neve({"bench", "frame", "--quick", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   auto rows = by_name(result.output);
-  for (const char* name : {"flip_cubic_300k", "mls_quadratic_300k", "flip_cubic_4000_drawn",
-                           "first_picture", "coarsen_2", "implicit_snow", "implicit_snow_gain"})
+  for (const char* name :
+       {"flip_cubic_300k", "mls_quadratic_300k", "flip_cubic_4000_drawn", "first_picture",
+        "coarsen_2", "dust_time", "implicit_snow", "implicit_snow_gain"})
     EXPECT_TRUE(rows.contains(name)) << name;
   EXPECT_EQ(rows["flip_cubic_4000_drawn"]["particles"], 4000);
   EXPECT_LT(rows["coarsen_2"]["median"], 0.5);
