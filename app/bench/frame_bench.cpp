@@ -108,7 +108,7 @@ class FrameBench {
  private:
   double simulate(const std::string& name, const scene::Scene& scene, int frames,
                   bool is_drawn = false);
-  double first_picture();
+  double seconds_of_render(const std::string& row, std::vector<std::string> arguments);
   void coarsen_2();
   void dust();
   void implicit_steps();
@@ -164,18 +164,20 @@ double FrameBench::simulate(const std::string& name, const scene::Scene& scene, 
   return is_drawn ? seconds + drawing_.draw(scene, simulation) : seconds;
 }
 
-/// Seconds from the start of the program to the end of one that makes a single picture.
-double FrameBench::first_picture() {
+/// Seconds from the start to the end of a `neve render` of its own.
+double FrameBench::seconds_of_render(const std::string& row, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "render");
+  for (const std::string& more :
+       {std::string("--quiet"), std::string("--out"), std::string("out"), std::string("--threads"),
+        std::to_string(options_.threads), std::string("--backend"), options_.backend})
+    arguments.push_back(more);
   const ScratchFolder folder;
   const Stopwatch watch;
   const output::ProcessResult result =
-      output::run_process("/proc/self/exe",
-                          {"render", "--frames", "0", "--quiet", "--out", "out", "--threads",
-                           std::to_string(options_.threads), "--backend", options_.backend},
-                          folder.path());
+      output::run_process("/proc/self/exe", arguments, folder.path());
   const double seconds = watch.wall();
   if (result.exit_code != 0)
-    throw Error(exit_internal, "first_picture: neve render failed: " + result.errors);
+    throw Error(exit_internal, row + ": neve render failed: " + result.errors);
   return seconds;
 }
 
@@ -198,17 +200,10 @@ void FrameBench::dust() {
   const std::string scene = (default_scene().parent_path() / "powder_avalanche.toml").string();
   const std::string frames = options_.is_quick ? "4" : "60";
   const auto seconds = [&](const std::string& shed) {
-    const ScratchFolder folder;
-    const Stopwatch watch;
-    const output::ProcessResult result = output::run_process(
-        "/proc/self/exe",
-        {"render", scene, "--frames", frames, "--set", "material.powder.dust=" + shed, "--quiet",
-         "--no-movie", "--no-keep-states", "--checkpoint-every", "0", "--size", "1280x720", "--out",
-         "out", "--threads", std::to_string(options_.threads), "--backend", options_.backend},
-        folder.path());
-    if (result.exit_code != 0)
-      throw Error(exit_internal, "dust_time: neve render failed: " + result.errors);
-    return watch.wall();
+    return seconds_of_render(
+        "dust_time",
+        {scene, "--frames", frames, "--set", "material.powder.dust=" + shed, "--no-movie",
+         "--no-keep-states", "--checkpoint-every", "0", "--size", "1280x720"});
   };
   measure("dust_time", "x without", [&] { return seconds("0.008") / seconds("0"); });
 }
@@ -249,7 +244,9 @@ std::vector<BenchRow> FrameBench::run() {
   dust();
   coarsen_2();
   // Last: its particles are those of the default scene, which the row before it simulated.
-  measure("first_picture", "s", [&] { return first_picture(); });
+  measure("first_picture", "s", [&] {
+    return seconds_of_render("first_picture", {"--frames", "0"});
+  });
   return rows_;
 }
 

@@ -217,14 +217,14 @@ Json Exporter::to_json(const std::string& below) const {
     const bool has_places =
         spec.format == scene::ExportFormat::usda &&
         (colliders_.size() > scene_.colliders.size() || has_own_ways(colliders_));
-    for (const Record::File& file : job.record.files) {
+    // Each file has its sample, in the same order.
+    for (std::size_t k = 0; k < job.record.files.size(); ++k) {
+      const Record::File& file = job.record.files[k];
       json["files"].push_back({{"file", folder + file_name(spec, file.number)},
                                {"number", file.number},
                                {"time", number_or_null(file.time)},
                                {"state_hash", hash_digits(file.hash)}});
-      for (const Sample& sample : job.samples)
-        if (has_places && sample.number == file.number)
-          json["files"].back()["colliders"] = places_json(sample);
+      if (has_places) json["files"].back()["colliders"] = places_json(job.samples[k]);
     }
     list.push_back(std::move(json));
   }

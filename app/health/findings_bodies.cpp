@@ -34,10 +34,7 @@ double share_inside(const std::vector<Vec3d>& places, const Collider& collider) 
 }
 
 std::vector<Vec3d> places_in_solid(const sim::shapes::Shape& shape) {
-  const bool has_volume = !std::holds_alternative<sim::shapes::Plane>(shape.form) &&
-                          !std::holds_alternative<sim::shapes::Terrain>(shape.form) &&
-                          !std::holds_alternative<sim::shapes::MeshSequence>(shape.form);
-  return has_volume ? places_in(shape) : std::vector<Vec3d>{};
+  return sim::shapes::is_rigid_solid(shape) ? places_in(shape) : std::vector<Vec3d>{};
 }
 
 /// Those that touch have no place of one in the other; what is joined may overlap, and does not

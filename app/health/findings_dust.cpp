@@ -17,15 +17,6 @@ bool is_used(const scene::Scene& scene, const sim::Material& material) {
          std::any_of(scene.emitters.begin(), scene.emitters.end(), is_of);
 }
 
-bool is_usual(const sim::DustSettings& d) {
-  const sim::DustSettings usual;
-  return d.speed == usual.speed && d.strain_rate == usual.strain_rate &&
-         d.min_J_P == usual.min_J_P && d.settling_speed == usual.settling_speed &&
-         d.buoyancy == usual.buoyancy && d.diffusion == usual.diffusion &&
-         d.turbulence == usual.turbulence && d.wind == usual.wind && d.life == usual.life &&
-         d.air_cell == usual.air_cell && d.particles == usual.particles;
-}
-
 bool is_shown(const scene::Scene& scene) {
   return std::any_of(
              scene.views.begin(), scene.views.end(),
@@ -42,7 +33,7 @@ void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& f
   for (const sim::Material& material : scene.materials)
     if (material.dust > 0 && is_used(scene, material)) dusty = &material;
   if (!dusty) {
-    if (!is_usual(d) && d.spray_drag == 0)
+    if (d != sim::DustSettings{} && d.spray_drag == 0)
       findings.push_back({Severity::warning, "dust",
                           "it has no effect: no snow of the scene sheds dust",
                           "material." + scene.materials.front().name + ".dust = 0.02"});

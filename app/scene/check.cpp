@@ -542,12 +542,6 @@ Found massless_problem(const Collider& collider, const std::string& at) {
   return {};
 }
 
-bool can_move(const sim::shapes::Shape& shape) {
-  return !std::holds_alternative<sim::shapes::Plane>(shape.form) &&
-         !std::holds_alternative<sim::shapes::Terrain>(shape.form) &&
-         !std::holds_alternative<sim::shapes::MeshSequence>(shape.form);
-}
-
 /// A body that moves by itself.
 Found body_problem(const Scene& scene, const Collider& collider) {
   const std::string at = "collider." + collider.name;
@@ -556,7 +550,7 @@ Found body_problem(const Scene& scene, const Collider& collider) {
   const char* key = body.mass > 0 ? ".mass" : ".density";
   if (body.mass > 0 && body.density > 0)
     return Problem{at + key, "the body has a mass and a density", "give one of the two"};
-  if (!can_move(collider.shape))
+  if (!sim::shapes::is_rigid_solid(collider.shape))
     return Problem{at + key, "a shape of this kind cannot move by itself",
                    "give a mass to a sphere, box, capsule, cylinder, cone, torus or mesh"};
   if (!collider.keyframes.empty())

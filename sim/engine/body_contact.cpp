@@ -36,11 +36,11 @@ void BodyContact<Real>::each_contact(const kernels::ContactArgs<Real>& a,
       if (body < 0) continue;
       const auto number = contact.collider < 0 ? -1 - contact.collider : contact.collider;
       const kernels::ColliderPose& pose = a.poses[number];
-      Vec3d arm;
+      Vec3d arm = bodies_->point(static_cast<std::size_t>(body));
       for (int x = 0; x < 3; ++x)
-        arm[x] = (static_cast<double>(contact.cell[x] - pose.cell[x]) +
-                  (static_cast<double>(contact.offset[x]) - pose.offset[x])) *
-                 a.step.constants.h_double;
+        arm[x] += (static_cast<double>(contact.cell[x] - pose.cell[x]) +
+                   (static_cast<double>(contact.offset[x]) - pose.offset[x])) *
+                  a.step.constants.h_double;
       visit(static_cast<std::size_t>(body), contact, arm);
     }
 }
@@ -105,19 +105,12 @@ void BodyContact<Real>::show(std::size_t b, const Vec3d& arm,
 template <class Real>
 void BodyContact<Real>::answer(const State<Real>& state, const kernels::ContactArgs<Real>& a,
                                const std::vector<std::uint32_t>& blocks) {
-  const double time = state.progress.colliders_time;
-  std::vector<Vec3d> to_centre;
-  for (std::size_t b = 0; b < seen_.size(); ++b)
-    to_centre.push_back(shapes::pose_at(state.colliders.list()[bodies_->collider(b)], time).point -
-                        bodies_->before(b).centre);
   collect(a, blocks);
-  for (std::size_t b = 0; b < seen_.size(); ++b)
-    pushes_[b].moment += to_centre[b].cross(pushes_[b].impulse);
   bodies_->respond(static_cast<double>(a.step.constants.dt), state.method.settings.gravity,
                    pushes_);
   find_out_what_gives();
   each_contact(a, blocks, [&](std::size_t b, kernels::Contact<Real>& contact, const Vec3d& arm) {
-    show(b, arm + to_centre[b], contact);
+    show(b, arm, contact);
   });
 }
 

@@ -320,19 +320,16 @@ RigidBodies& RigidBodies::operator=(const RigidBodies& other) {
 void RigidBodies::begin(const std::vector<shapes::Collider>& colliders, double time) {
   if (!world_) world_ = std::make_unique<World>(bodies_, colliders);
   for (Body& body : bodies_) {
-    body.before =
-        motion_of(shapes::pose_at(colliders[body.collider], time), body.axes * body.mass.centre);
+    const shapes::Pose pose = shapes::pose_at(colliders[body.collider], time);
+    body.before = motion_of(pose, body.axes * body.mass.centre);
     body.after = body.before;
+    body.point = pose.point - body.before.centre;
   }
   world_->place(bodies_, colliders, time);
 }
 
 void RigidBodies::respond(double dt, const Vec3d& gravity, const std::vector<Push>& pushes) {
   world_->respond(bodies_, dt, gravity, pushes);
-}
-
-Vec3d RigidBodies::centre(std::size_t body, const shapes::Pose& pose) const {
-  return pose.point + pose.rotation * bodies_[body].axes * bodies_[body].mass.centre;
 }
 
 Mat3d RigidBodies::inertia(std::size_t body) const {

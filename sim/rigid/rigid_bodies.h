@@ -59,8 +59,8 @@ class RigidBodies {
   /// Before the step, and as it was found by respond().
   const Motion& before(std::size_t body) const { return bodies_[body].before; }
   const Motion& after(std::size_t body) const { return bodies_[body].after; }
-  /// m, centre of mass of a body with that pose.
-  Vec3d centre(std::size_t body, const shapes::Pose& pose) const;
+  /// m, from its centre of mass to the point of its collider's pose, before the step.
+  const Vec3d& point(std::size_t body) const { return bodies_[body].point; }
   /// kg m2, about the centre of mass in the axes of the world, before the step.
   Mat3d inertia(std::size_t body) const;
   /// How many parts a step of dt takes so that no body moves by more than a quarter of its
@@ -77,6 +77,7 @@ class RigidBodies {
     double thickness;  ///< m, the least, of its bounds
     double furthest;   ///< m, of its places from the centre of mass
     Motion before, after;
+    Vec3d point{0, 0, 0};  ///< see point()
   };
   class World;
 

@@ -88,6 +88,12 @@ Mat3d form_axes(const Shape& shape) {
   return capsule ? capsule_axes(*capsule) : Mat3d(Mat3d::Identity());
 }
 
+bool is_rigid_solid(const Shape& shape) {
+  return !std::holds_alternative<Plane>(shape.form) &&
+         !std::holds_alternative<Terrain>(shape.form) &&
+         !std::holds_alternative<MeshSequence>(shape.form);
+}
+
 Vec3d center(const Shape& shape) {
   return std::visit(CenterOf{}, shape.form);
 }

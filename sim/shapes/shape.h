@@ -117,6 +117,9 @@ struct Bounds {
 /// place of the file's origin for meshes, points or terrain.
 Vec3d center(const Shape& shape);
 
+/// True for solids that keep their form: neither endless, as planes and terrain, nor deforming.
+bool is_rigid_solid(const Shape& shape);
+
 /// Paths of all files of a sequence. @throws ShapeError for a path that is no pattern, or too many
 std::vector<std::string> files_of(const MeshSequence& sequence);
 

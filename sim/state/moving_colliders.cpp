@@ -1,5 +1,7 @@
 #include "sim/state/moving_colliders.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -140,7 +142,9 @@ void MovingColliders::move_bodies(double time, double dt, const Vec3d& gravity,
   has_begun_ = false;
   const int parts = bodies_.parts_of_step(dt, gravity);
   std::vector<rigid::Push> shares = pushes;
-  for (rigid::Push& push : shares) {
+  for (std::size_t b = 0; b < shares.size(); ++b) {
+    rigid::Push& push = shares[b];
+    push.moment += bodies_.point(b).cross(push.impulse);
     push.impulse /= parts;
     push.moment /= parts;
   }

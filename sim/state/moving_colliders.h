@@ -32,14 +32,11 @@ class MovingColliders {
   /// Bodies that move by themselves, at the beginning of a step.
   /// @param time  of their poses  @return nothing where there is none
   rigid::RigidBodies* begin_bodies(double time);
-  /// They take a step of dt. @param pushes  see RigidBodies::respond
+  /// They take a step of dt. @param pushes  as in RigidBodies::respond, but with moments about the
+  /// points of the colliders
   void move_bodies(double time, double dt, const Vec3d& gravity,
                    const std::vector<rigid::Push>& pushes);
   const rigid::RigidBodies& bodies() const { return bodies_; }
-  /// m, its centre of mass at a time.
-  Vec3d centre_of_body(std::size_t body, double time) const {
-    return bodies_.centre(body, shapes::pose_at(list_[bodies_.collider(body)], time));
-  }
 
   /// Largest speed of a surface that snow may meet in a step of dt from `time`, m/s; 0 if those
   /// within reach rest.

@@ -1,6 +1,5 @@
 #include "sim/state/state.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -135,12 +134,10 @@ void State<Real>::move_bodies(double dt) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const std::size_t k = bodies.collider(b);
     if (particles.size() == 0 || k >= grid.loads.size()) continue;
-    const Vec3d point = shapes::pose_at(colliders.list()[k], progress.colliders_time).point;
     const auto moment = [&](int a) { return static_cast<double>(grid.loads[k].moment[a]); };
     const auto impulse = [&](int a) { return static_cast<double>(grid.loads[k].impulse[a]); };
-    const Vec3d J = -method.load_unit * Vec3d(impulse(0), impulse(1), impulse(2));
-    const Vec3d M = -method.load_unit * Vec3d(moment(0), moment(1), moment(2));
-    pushes[b] = {J, M + (point - colliders.centre_of_body(b, progress.colliders_time)).cross(J)};
+    pushes[b] = {-method.load_unit * Vec3d(impulse(0), impulse(1), impulse(2)),
+                 -method.load_unit * Vec3d(moment(0), moment(1), moment(2))};
   }
   colliders.move_bodies(progress.colliders_time, dt, method.settings.gravity, pushes);
 }

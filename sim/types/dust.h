@@ -23,6 +23,8 @@ struct DustSettings {
   double air_cell = 3;          ///< cells of the snow's grid in one of the air's, along an axis
   int particles = 100'000;      ///< of dust, at most
   double spray_drag = 0;        ///< 1/m, k in dv/dt = k |u - v| (u - v) of loose snow; 0: none
+
+  bool operator==(const DustSettings&) const = default;
 };
 
 /// Dust that there has been: born = airborne + settled + faded, in number and in mass.

@@ -74,8 +74,8 @@ std::vector<Mistake> contact_mistakes() {
          "(seen.free_spin + seen.inverse_inertia * pushes_[b].moment).cross(arm)).eval()"}}},
       {"moment_about_the_point",
        "bodies that snow moves: turned about the shape's centre, not the centre of mass",
-       {{"sim/state/state.cpp",
-         "M + (point - colliders.centre_of_body(b, progress.colliders_time)).cross(J)", "M"}}},
+       {{"sim/state/moving_colliders.cpp", "push.moment += bodies_.point(b).cross(push.impulse);",
+         ""}}},
   };
 }
 
