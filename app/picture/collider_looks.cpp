@@ -32,8 +32,7 @@ void add_plane(const sim::shapes::Plane& plane, const sim::shapes::Pose& pose,
   ground.line_spacing = line_spacing;
   if (style == scene::ColliderStyle::wire) ground.fill = 0;
   ground.is_holdout = style == scene::ColliderStyle::holdout;
-  const bool is_solid = style == scene::ColliderStyle::solid || ground.is_holdout;
-  (is_solid ? frame.grounds : frame.ghost_grounds).push_back(ground);
+  (hides(style) ? frame.grounds : frame.ghost_grounds).push_back(ground);
 }
 
 void add_lines(render::Lines lines, float opacity, render::Frame& frame) {
@@ -44,7 +43,7 @@ void add_lines(render::Lines lines, float opacity, render::Frame& frame) {
 
 void add_mesh(render::TriangleMesh mesh, scene::ColliderStyle style, render::Frame& frame) {
   mesh.is_holdout = style == scene::ColliderStyle::holdout;
-  (style == scene::ColliderStyle::ghost ? frame.ghosts : frame.meshes).push_back(std::move(mesh));
+  (hides(style) ? frame.meshes : frame.ghosts).push_back(std::move(mesh));
 }
 
 void add_sphere(const sim::shapes::Sphere& sphere, const sim::shapes::Pose& pose,
@@ -264,6 +263,10 @@ scene::Layer layer_of(const scene::Collider& collider) {
   const bool is_ground = std::holds_alternative<sim::shapes::Plane>(collider.shape.form) ||
                          std::holds_alternative<sim::shapes::Terrain>(collider.shape.form);
   return is_ground ? scene::Layer::ground : scene::Layer::colliders;
+}
+
+bool hides(scene::ColliderStyle style) {
+  return style == scene::ColliderStyle::solid || style == scene::ColliderStyle::holdout;
 }
 
 void add_colliders(const scene::Scene& scene, const scene::View& view, double time,

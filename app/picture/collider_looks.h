@@ -16,6 +16,10 @@ void add_colliders(const scene::Scene& scene, const scene::View& view, double ti
 /// The layer of a view that draws a collider: the ground for planes and terrain.
 scene::Layer layer_of(const scene::Collider& collider);
 
+/// Whether a collider of this style hides what is behind it: it is among the meshes and grounds
+/// of a frame, and else among its ghosts and lines.
+bool hides(scene::ColliderStyle style);
+
 /// A collider that is no plane and keeps its shape, as triangles about its own point:
 /// pose_at(...).point is where it goes, and pose_at(...).rotation turns it.
 render::TriangleMesh local_mesh(const sim::shapes::Shape& shape);

@@ -21,7 +21,7 @@ Displacement displacement(const sim::shapes::Pose& from, const sim::shapes::Pose
   return out;
 }
 
-/// Colliders drawn as solid surfaces, in the order in which add_colliders() makes them.
+/// Colliders that hide what is behind them, in the order in which add_colliders() makes them.
 std::vector<Thing> moving_things(const MotionSource& source, bool are_planes, double interval) {
   std::vector<Thing> things;
   const std::vector<scene::Collider>& colliders = source.scene.colliders;
@@ -30,7 +30,7 @@ std::vector<Thing> moving_things(const MotionSource& source, bool are_planes, do
     const scene::Collider& collider = colliders[c];
     const bool is_plane = std::holds_alternative<sim::shapes::Plane>(collider.shape.form);
     if (!scene::has_layer(source.view, layer_of(collider))) continue;
-    if (is_plane != are_planes || collider.style != scene::ColliderStyle::solid) continue;
+    if (is_plane != are_planes || !hides(collider.style)) continue;
     const sim::shapes::Pose pose = sim::shapes::pose_at(collider, now);
     const auto at = [&](double time) {
       return displacement(pose, sim::shapes::pose_at(collider, time));

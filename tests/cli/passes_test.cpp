@@ -66,6 +66,20 @@ TEST_F(Passes, AFileHasTheChannelsThatAreAskedFor) {
                                              "R", "depth.Z", "pressure.Y"}));
 }
 
+/// A holdout is a surface like any other to passes and to the shutter, though it is not seen.
+TEST_F(Passes, HoldoutsAreAmongTheSurfaces) {
+  folder.write("holdout.toml",
+               std::string(flying_scene) +
+                   "[[collider]]\nname = \"hand\"\nstyle = \"holdout\"\nvelocity = [2, 0, 0]\n"
+                   "shape = { sphere = { center = [0, 0.3, 0.4], radius = 0.05 } }\n"
+                   "[[collider]]\nname = \"table\"\nstyle = \"holdout\"\n"
+                   "shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }\n");
+  render({"holdout.toml", "--passes", "all", "--quality", "final", "--frames", "1-1", "--out",
+          "held"});
+  const render::ExrPicture drawn = picture("held/particles/0001.exr");
+  EXPECT_EQ(drawn.width, 160);
+}
+
 TEST_F(Passes, UnknownNamesAreRefusedWithAProposal) {
   const auto result = neve({"render", "flying.toml", "--passes", "depth,normals"});
   EXPECT_EQ(result.exit_code, 2);
