@@ -161,7 +161,7 @@ double mean_of(const std::vector<double>& values) {
 struct CopyRun {
   Forecast forecast;
   double particle_steps = 0;
-  double work = 0;  ///< particle-steps, where a step of few particles costs as much as a hundred
+  double work = 0;  ///< particle-steps, where a step of few particles counts as one of 400
   int reached = 0;  ///< the last frame that ran
 };
 
@@ -179,7 +179,8 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
   result.spread = spread_of(simulation);
   const auto start = Clock::now();
   FrameForecast frame_forecast = foresee_frame(scene, *coarse, 1, simulation.step_limits(), {}, {});
-  constexpr double min_work_of_step = 100, max_steps_of_frame = 1e15;
+  // Where few particles lie far apart, or meet meshes, a step costs far more than they do.
+  constexpr double min_work_of_step = 400, max_steps_of_frame = 1e15;
   double seconds = 0;
   bool is_over = false;
   const auto is_late = [&] { return is_interrupted() || seconds_since(start) >= budget.seconds; };

@@ -20,8 +20,8 @@ namespace {
 using sim::Vec3d;
 
 constexpr const char* why_move_it =
-    "move it out; contact stops snow at surfaces but does not push it out (solver.push_out does, "
-    "and crushes it)";
+    "move it out; contact lets snow out slowly, by 5 cells a second (solver.push_out at once, and "
+    "crushes it)";
 
 /// A plane that has the snow on its solid side is likelier turned the wrong way than a ceiling.
 std::string way_out(const scene::Scene& scene, const sim::shapes::Collider& collider) {

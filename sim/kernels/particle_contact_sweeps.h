@@ -10,6 +10,8 @@ namespace neve::sim::kernels {
 inline constexpr double touching_slack = 0.1;
 /// A particle inside is brought out by these shares of its depth, per step and per second at most.
 inline constexpr double out_per_step = 0.2, out_per_second = 50;
+/// The depth that counts for this, in cells.
+inline constexpr double max_out = 0.1;
 /// x^(1/3) of positive numbers.
 template <class V>
 NEVE_INLINE V cube_root_lanes(V x) {
@@ -254,8 +256,10 @@ struct ContactSweepsFor {
     const bool lets_go = collider.contact == ContactLaw::separate;
     const Real out =
         lets_go ? smaller(static_cast<Real>(out_per_step) / c.dt, Real(out_per_second)) : Real(0);
-    const V apart = -gap * a.apart;
-    const V inside = lets_go ? larger_lanes(-distance * out, apart) : V{};
+    // What is deeper was put there, and is let out as slowly as what is a little inside.
+    const V depth = smaller_lanes(-distance, all<V>(static_cast<Real>(max_out) * c.h));
+    const V apart = (depth + memory.touches) * a.apart;
+    const V inside = lets_go ? larger_lanes(depth * out, apart) : V{};
     const V least = gap > V{} ? -gap / c.dt : distance > V{} ? apart : inside;
     const Vec3<V> lost = collider.contact == ContactLaw::sticky ? v.own
                          : lets_go                              ? Vec3<V>{}
