@@ -236,6 +236,24 @@ struct ContactSweepsFor {
     return memory;
   }
 
+  /// What a surface that lets go takes of a particle's own velocity: as much of its way in as
+  /// brings it past what it may not, and the friction of that. The grid must not stop it, which
+  /// throws its neighbours back: n of them at rest would fly as fast as it came, with n times its
+  /// energy.
+  NEVE_INLINE static Vec3<V> lost_at_impact(const Velocities& v, const Vec3<V>& n,
+                                            const Vec3<V>& surface, const V& least,
+                                            const V& friction) {
+    const Vec3<V> u = v.of_grid + v.own * v.kept - surface;
+    const V own = dot(v.own, n) * v.kept, u_n = dot(u, n);
+    const V impact = smaller_lanes(larger_lanes(-own, V{}), larger_lanes(least - u_n, V{}));
+    const Vec3<V> along = u - n * u_n;
+    const V speed = square_root_lanes(dot(along, along)), most = friction * impact;
+    const V share = speed > most ? most / speed : all<V>(1);
+    const I keeps = v.kept > V{};
+    const V inverse = all<V>(1) / (keeps ? v.kept : all<V>(1));
+    return select(keeps & (impact > V{}), (along * share - n * impact) * inverse, Vec3<V>{});
+  }
+
   /// Finds the particles of a batch that would come nearer to a collider than they may, and those
   /// that it pressed or held in the last step.
   /// @param given  gets what they begin with, and 1 in their lanes
@@ -261,11 +279,13 @@ struct ContactSweepsFor {
     const V apart = (depth + memory.touches) * a.apart;
     const V inside = lets_go ? larger_lanes(depth * out, apart) : V{};
     const V least = gap > V{} ? -gap / c.dt : distance > V{} ? apart : inside;
-    const Vec3<V> lost = collider.contact == ContactLaw::sticky ? v.own
-                         : lets_go                              ? Vec3<V>{}
-                                                                : normal * dot(v.own, normal);
+    const Vec3<V> lost =
+        collider.contact == ContactLaw::sticky ? v.own
+        : lets_go ? lost_at_impact(v, normal, surface, least, all<V>(friction_of(collider)))
+                  : normal * dot(v.own, normal);
     const Vec3<V> own = (v.own - lost) * v.kept;
-    const V v_n = dot(v.of_grid + own - surface, normal);
+    // What stops a particle by its own velocity alone is a contact, too.
+    const V v_n = dot(v.of_grid + (lets_go ? v.own * v.kept : own) - surface, normal);
     const I is_shallow = memory.touches < touching;
     const I is_near = gap <= all<V>(static_cast<Real>(touching_slack) * c.h);
     // In the solve, elasticity may yet bring to it what is near.
