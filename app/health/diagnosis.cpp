@@ -376,6 +376,33 @@ Hypothesis hardening(const Case& c) {
       c.at("hardening")};
 }
 
+Hypothesis doubts_of_the_law(const Case& c) {
+  const std::vector<Finding> doubts = law_findings(c.material);
+  if (doubts.empty()) return std::nullopt;
+  return Diagnosis{Cause::law, doubts.front().what, doubts.front().hint, doubts.front().address};
+}
+
+/// Single precision: F_E is known to 6e-8, which is a stress. Where that is as large as what moves
+/// the snow, steps make energy out of rounding.
+Hypothesis rounding(const Case& c) {
+  if (c.scene.solver.precision != sim::Precision::single) return std::nullopt;
+  constexpr double epsilon = 6e-8, notable = 0.1;
+  const sim::Material& m = *std::max_element(c.scene.materials.begin(), c.scene.materials.end(),
+                                             [](const sim::Material& a, const sim::Material& b) {
+                                               return a.youngs_modulus < b.youngs_modulus;
+                                             });
+  const double sound = sim::sound_speed(m), stress = epsilon * m.density * sound * sound;
+  const double speed = c.speed_before_failure();
+  if (!(stress > notable * m.density * speed * speed)) return std::nullopt;
+  return Diagnosis{
+      Cause::rounding,
+      fmt::format("single precision knows F_E to 6e-8: in snow of youngs_modulus {} Pa "
+                  "that is a stress of {} Pa, and its motion is worth {} Pa",
+                  rough_text(m.youngs_modulus), rough_text(stress),
+                  rough_text(m.density * speed * speed)),
+      "solver.precision = \"double\", or softer snow", "solver.precision"};
+}
+
 Hypothesis far_flight(const Case& c) {
   if (c.d.rule != "overflow") return std::nullopt;
   return Diagnosis{
@@ -407,7 +434,7 @@ Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence,
   for (const auto hypothesis :
        {bypass, initial_state, units, raised_limits, too_long_at_rest, collider_speed,
         colliders_closing, incompressible, hardened_beyond_fixed_step, shock, too_soft, hardening,
-        far_flight, raised_acoustic_limit})
+        far_flight, raised_acoustic_limit, doubts_of_the_law, rounding})
     if (Hypothesis found = hypothesis(c)) {
       found->coarsening = coarsening;
       return *found;

@@ -24,6 +24,8 @@ enum class Cause {
   incompressible,     ///< Poisson's ratio next to 0.5
   shock,              ///< an impact faster than sound
   too_soft,           ///< snow crushed by its own impact
+  law,                ///< numbers that the law of the material itself doubts
+  rounding,           ///< snow so stiff that single precision does not resolve its strain
   far_flight,         ///< out of the lattice, in good health
   unexplained
 };
@@ -43,6 +45,8 @@ constexpr auto names(Cause) {
                     scene::Name{incompressible, "incompressible"},
                     scene::Name{shock, "shock"},
                     scene::Name{too_soft, "too_soft"},
+                    scene::Name{law, "law"},
+                    scene::Name{rounding, "rounding"},
                     scene::Name{far_flight, "far_flight"},
                     scene::Name{unexplained, "unexplained"}};
 }

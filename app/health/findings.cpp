@@ -105,16 +105,6 @@ void check_material_units(const sim::Material& m, std::vector<Finding>& findings
                         "steps shorten with its square root; the paper's snow has 1.4e5"});
 }
 
-/// What its law doubts.
-void check_law(const sim::Material& m, std::vector<Finding>& findings) {
-  std::vector<sim::laws::Concern> concerns;
-  if (const auto find = sim::laws::of(m).concerns) find(m, concerns);
-  for (const sim::laws::Concern& concern : concerns)
-    findings.push_back({Severity::warning, "material." + m.name + "." + concern.key,
-                        filled(concern.text, concern.numbers),
-                        filled(concern.remedy, {round_up(concern.remedy_number)})});
-}
-
 /// Index of a grid cell.
 using CellIndex = std::array<long, 3>;
 
@@ -248,6 +238,17 @@ double seen_height(const scene::CameraSettings& camera, const setup::CoarseMomen
 
 }  // namespace
 
+std::vector<Finding> law_findings(const sim::Material& m) {
+  std::vector<sim::laws::Concern> concerns;
+  if (const auto find = sim::laws::of(m).concerns) find(m, concerns);
+  std::vector<Finding> findings;
+  for (const sim::laws::Concern& concern : concerns)
+    findings.push_back({Severity::warning, "material." + m.name + "." + concern.key,
+                        filled(concern.text, concern.numbers),
+                        filled(concern.remedy, {round_up(concern.remedy_number)})});
+  return findings;
+}
+
 std::string vector_text(const Vec3d& v) {
   using scene::toml::number_text;
   return fmt::format("[{}, {}, {}]", number_text(v.x()), number_text(v.y()), number_text(v.z()));
@@ -299,7 +300,8 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
                     [&](const setup::SnowPiece& piece) { return piece.material == &material; });
     if (is_used) {
       check_material_units(material, findings);
-      check_law(material, findings);
+      const std::vector<Finding> doubts = law_findings(material);
+      findings.insert(findings.end(), doubts.begin(), doubts.end());
     } else if (material.name != sim::Material{}.name) {  // snow is there in every scene
       findings.push_back(
           {Severity::warning, "material." + material.name,

@@ -27,6 +27,9 @@ bool is_too_large(const scene::Scene& scene);
 /// @param coarsening the N of --coarsen, for advice
 void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening = 1);
 
+/// What the law of a material doubts about its numbers.
+std::vector<Finding> law_findings(const sim::Material& m);
+
 /// Numbers that mean something else than they seem to: gravity in g, thresholds in thousandths,
 /// radians, a turntable in degrees, a light from below. check_units asks it.
 void check_senses(const scene::Scene& scene, std::vector<Finding>& findings);

@@ -389,8 +389,29 @@ inline double largest_pressure(const Material& m) {
   return 0.5 * bulk_modulus(m);
 }
 
+/// The slope M from which plastic flow never makes energy. Left of the centre c of the surface,
+/// shear that yields raises the pressure: it costs p (c - p)/K and pays q^2/(3 mu), for small
+/// strains.
+inline double least_slope(const Material& m) {
+  const double beta = m.own[cohesion], c = 0.5 * (1 - beta);
+  constexpr int places = 64;
+  double most = 0;
+  for (int k = 1; k < places; ++k) {
+    const double p = c * k / places;
+    most = std::max(most, p * (c - p) * (1 + 2 * beta) / ((p + beta) * (1 - p)));
+  }
+  return std::sqrt(3 * shear_modulus(m) / bulk_modulus(m) * most);
+}
+
 inline void concerns(const Material& m, std::vector<Concern>& found) {
-  const double K = bulk_modulus(m);
+  const double K = bulk_modulus(m), least = friction_angle(least_slope(m));
+  if (m.friction_angle < least)
+    found.push_back({"friction_angle",
+                     "at {} degrees shear packs this snow by more energy than it has: flow makes "
+                     "energy out of nothing",
+                     {m.friction_angle},
+                     "a friction_angle of {} or more",
+                     least});
   if (m.consolidation_pressure < 0.4 * K) return;
   found.push_back({"consolidation_pressure",
                    "{} Pa is more than snow of youngs_modulus {} Pa can bear ({} Pa): it is "

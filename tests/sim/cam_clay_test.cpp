@@ -218,6 +218,47 @@ TEST(CamClay, ShearAtConstantVolumeEndsInTheCriticalState) {
   }
 }
 
+/// The most that the return adds to the energy of a state on the surface that is sheared on by a
+/// hundredth of its shear, over all pressures; J/m3 over that of the centre.
+double energy_gained(const Material& m) {
+  const double top = cam_clay::p0(m, 1), beta = m.own[cam_clay::cohesion];
+  const double K = bulk_modulus(m), M = laws::critical_slope(m.friction_angle);
+  const double centre = 0.5 * (1 - beta) * top;
+  double most = -1;
+  for (int k = -9; k < 20; ++k) {
+    const double p = centre * k / 20;
+    if (p <= -0.95 * beta * top) continue;
+    const double q = M * std::sqrt((p + beta * top) * (top - p) / (1 + 2 * beta));
+    const double shear = q / std::sqrt(3.0) / cam_clay::shear_modulus(m);
+    Mat3d F = std::pow(1 - 2 * p / K, 1.0 / 6) * Mat3d::Identity();
+    F(0, 1) = 1.01 * shear * F(0, 0);
+    Sample<double> sample(m);
+    sample.set_F(F);
+    sample.settle();
+    most = std::max(most, cam_clay::energy_density(m, sample.F()) - cam_clay::energy_density(m, F));
+  }
+  return most / (0.5 * centre * centre / K);
+}
+
+/// From the angle that `neve check` names, for every stiffness and cohesion; below, it does.
+TEST(CamClay, FlowMakesNoEnergyFromTheLeastFrictionAngle) {
+  for (const double nu : {0.05, 0.2, 0.4})
+    for (const double cohesion : {0.05, 0.4, 0.8}) {
+      Material m = clay();
+      m.poisson_ratio = nu;
+      m.own[cam_clay::cohesion] = cohesion;
+      const double least = laws::friction_angle(cam_clay::least_slope(m));
+      m.friction_angle = 1.05 * least;
+      EXPECT_LE(energy_gained(m), 0) << nu << " " << cohesion << " " << least;
+      m.friction_angle = 0.8 * least;
+      EXPECT_GT(energy_gained(m), 1e-4) << nu << " " << cohesion << " " << least;
+      std::vector<laws::Concern> found;
+      laws::of(m).concerns(m, found);
+      ASSERT_EQ(found.size(), 1u);
+      EXPECT_EQ(found[0].key, std::string("friction_angle"));
+    }
+}
+
 TEST(CamClay, SnowTornByTensionLosesItsStrengthForGood) {
   const Material m = clay();
   Sample<double> sample(m);
