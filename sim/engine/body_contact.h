@@ -18,34 +18,61 @@ class BodyContact {
  public:
   bool empty() const { return bodies_ == nullptr; }
 
-  /// @param a  of the step
-  void begin(State<Real>& state, const kernels::ContactArgs<Real>& a);
-  /// @param a       with its contacts
+  /// @param a       of the step, with its contacts
   /// @param blocks  of particles, that have contacts
-  void answer(const State<Real>& state, const kernels::ContactArgs<Real>& a,
-              const std::vector<std::uint32_t>& blocks);
+  void begin(State<Real>& state, const kernels::ContactArgs<Real>& a,
+             const std::vector<std::uint32_t>& blocks);
+  void answer(const State<Real>& state, const kernels::ContactArgs<Real>& a);
+  /// True if the last pass changed no impulse on a body by more than `settled` of it.
+  bool are_settled() const { return are_settled_; }
+  /// Blocks of particles that touch a body, a part of those in begin().
+  const std::vector<std::uint32_t>& blocks() const { return blocks_; }
+  std::size_t memory_bytes() const {
+    return sizeof(Touch) * touches_.capacity() + sizeof(std::uint32_t) * blocks_.capacity();
+  }
+
+  /// Of the impulse of snow on a body in the step, and of that of gravity.
+  static constexpr double settled = 0.01;
 
  private:
   /// A body in the step.
   struct Seen {
-    Mat3d inverse_inertia;
-    Vec3d free_velocity, free_spin;  ///< at the end of the step, without contact of snow
+    Mat3d inverse_inertia = Mat3d::Identity();
+    /// At the end of the step, without contact of snow.
+    Vec3d free_velocity = Vec3d::Zero(), free_spin = Vec3d::Zero();
     double gives = 1;   ///< how far it follows impulses, as a share of how far it would if nothing
                         ///< stopped it
-    std::size_t count;  ///< contacts that press
+    double weight = 0;  ///< kg m/s, of gravity in the step
+    double radius = 0;  ///< m, of gyration
+    int count = 0;      ///< contacts that press
+    // What contacts are shown.
+    Real share = 1;  ///< they give way by so many times what a free body alone would
+    Vec3<Real> velocity{}, spin{};
   };
-  template <class Visit>
-  void each_contact(const kernels::ContactArgs<Real>& a, const std::vector<std::uint32_t>& blocks,
-                    const Visit& visit) const;
-  void collect(const kernels::ContactArgs<Real>& a, const std::vector<std::uint32_t>& blocks);
+  /// A contact with a body.
+  struct Touch {
+    std::uint64_t contact;  ///< in ContactArgs::contacts
+    std::size_t body;
+    Vec3<Real> arm;    ///< m, from the body's centre of mass
+    Real give, along;  ///< 1/kg: a free body gives way by so much to an impulse along the normal,
+                       ///< and in both directions along the surface
+  };
+  void list_touches(const kernels::ContactArgs<Real>& a, const std::vector<std::uint32_t>& blocks);
+  Touch touch_of(std::uint64_t contact, std::size_t body,
+                 const kernels::ContactArgs<Real>& a) const;
+  void collect(const kernels::ContactArgs<Real>& a);
+  bool is_settled(std::size_t body) const;
   void find_out_what_gives();
-  void show(std::size_t body, const Vec3d& arm, kernels::Contact<Real>& contact) const;
+  void show(const kernels::ContactArgs<Real>& a) const;
 
   rigid::RigidBodies* bodies_ = nullptr;
   std::vector<int> body_of_;  ///< per collider; -1: the scene moves it
   std::vector<Seen> seen_;
-  std::vector<rigid::Push> pushes_;
+  std::vector<Touch> touches_;
+  std::vector<std::uint32_t> blocks_;
+  std::vector<rigid::Push> pushes_, before_;
   bool is_first_ = true;
+  bool are_settled_ = false;
 };
 
 }  // namespace neve::sim::engine

@@ -12,7 +12,8 @@ namespace {
 constexpr int passes = 2;
 /// After a solve: springs gave way, at each particle by another share.
 constexpr int passes_after_solve = 4;
-/// With bodies that move by themselves, which answer after each.
+/// With bodies that move by themselves, which answer after each, at most: until they are settled.
+/// Only contacts near bodies take part in more than the others need.
 constexpr int passes_with_bodies = 6;
 
 /// ContactArgs::carried. Loads go on in a longer step; what stopped snow in a short one does not.
@@ -108,23 +109,43 @@ void ParticleContact<Real>::list_blocks() {
     if (counts_[b] > 0) blocks_.push_back(static_cast<std::uint32_t>(b));
 }
 
+/// @param node_blocks  get those that blocks of particles reach
 template <class Real>
-void ParticleContact<Real>::list_node_blocks(const Partition& partition) {
+void ParticleContact<Real>::list_node_blocks(const Partition& partition,
+                                             const std::vector<std::uint32_t>& blocks,
+                                             std::vector<std::uint32_t>& node_blocks) {
   std::fill(is_reached_.begin(), is_reached_.end(), std::uint8_t{0});
-  for (const std::uint32_t b : blocks_)
+  for (const std::uint32_t b : blocks)
     for (const std::uint32_t n : partition.blocks()[b].node_block) is_reached_[n] = 1;
-  node_blocks_.clear();
+  node_blocks.clear();
   for (std::size_t n = 0; n < is_reached_.size(); ++n)
-    if (is_reached_[n]) node_blocks_.push_back(static_cast<std::uint32_t>(n));
+    if (is_reached_[n]) node_blocks.push_back(static_cast<std::uint32_t>(n));
+}
+
+/// Blocks that touch bodies are worked on as if there were no others.
+template <class Real>
+void ParticleContact<Real>::list_near_bodies(const Partition& partition) {
+  if (bodies_.empty()) return;
+  near_bodies_.blocks = bodies_.blocks();
+  near_bodies_.node_blocks.reserve(is_reached_.size());
+  list_node_blocks(partition, near_bodies_.blocks, near_bodies_.node_blocks);
+  near_bodies_.counts.assign(counts_.size(), 0);
+  for (const std::uint32_t b : near_bodies_.blocks) near_bodies_.counts[b] = counts_[b];
 }
 
 template <class Real>
 void ParticleContact<Real>::over(const std::vector<std::uint32_t>& blocks, Sweep sweep,
                                  const State<Real>& state) const {
-  state.pool->ranges(
-      blocks.size(), state.active_threads(), [&](std::size_t begin, std::size_t end) {
-        sweep(args_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
-      });
+  over(blocks, sweep, args_, state);
+}
+
+template <class Real>
+void ParticleContact<Real>::over(const std::vector<std::uint32_t>& blocks, Sweep sweep,
+                                 const kernels::ContactArgs<Real>& a, const State<Real>& state) {
+  state.pool->ranges(blocks.size(), state.active_threads(),
+                     [&](std::size_t begin, std::size_t end) {
+                       sweep(a, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+                     });
 }
 
 template <class Real>
@@ -152,34 +173,52 @@ void ParticleContact<Real>::act(State<Real>& state, const kernels::SweepArgs<Rea
   list_blocks();
   if (blocks_.empty()) return kept.keep_none();
   const std::uint32_t count = place_kept();
-  list_node_blocks(partition);
+  list_node_blocks(partition, blocks_, node_blocks_);
   a.node_blocks = node_blocks_.data();
   over(node_blocks_, sweeps.weigh, state);
   kept_count_ = count;
-  bodies_.begin(state, a);
+  bodies_.begin(state, a, blocks_);
+  list_near_bodies(partition);
   follow_bodies(state);
   if (is_before_solve) return over(blocks_, sweeps.rows, state);
-  const int wanted = bodies_.empty() ? passes : passes_with_bodies;
-  for (int k = 1; k <= wanted; ++k) {
-    a.is_last = k == wanted;
+  for (int k = 1; !a.is_last; ++k) {
+    a.is_last = is_enough(k, passes);
     // What was remembered has been read.
     if (a.is_last) a.keep = kept.room_for(count);
-    pass(state);
+    pass(k, passes, state);
     if (!a.is_last) follow_bodies(state);
   }
+}
+
+/// @param wanted  passes where there are no bodies
+template <class Real>
+bool ParticleContact<Real>::is_enough(int pass, int wanted) const {
+  if (pass < wanted) return false;
+  return bodies_.empty() || bodies_.are_settled() || pass == passes_with_bodies;
 }
 
 /// Bodies answer the impulses that there are.
 template <class Real>
 void ParticleContact<Real>::follow_bodies(const State<Real>& state) {
   if (bodies_.empty()) return;
-  bodies_.answer(state, args_, blocks_);
+  bodies_.answer(state, args_);
 }
 
+/// The last one is for all: the step gets its impulses from it.
 template <class Real>
-void ParticleContact<Real>::pass(const State<Real>& state) {
-  over(blocks_, state.method.contact_sweeps->press, state);
-  over(node_blocks_, state.method.contact_sweeps->yield, state);
+void ParticleContact<Real>::pass(int number, int wanted, const State<Real>& state) {
+  const kernels::ContactSweeps<Real>& sweeps = *state.method.contact_sweeps;
+  if (number < wanted || args_.is_last) {
+    over(blocks_, sweeps.press, state);
+    over(node_blocks_, sweeps.yield, state);
+    return;
+  }
+  kernels::ContactArgs<Real> a = args_;
+  a.blocks = near_bodies_.blocks.data();
+  a.node_blocks = near_bodies_.node_blocks.data();
+  a.counts = near_bodies_.counts.data();
+  over(near_bodies_.blocks, sweeps.press, a, state);
+  over(near_bodies_.node_blocks, sweeps.yield, a, state);
 }
 
 template <class Real>
@@ -252,11 +291,11 @@ void ParticleContact<Real>::share(const Vec3d& unexplained) {
 template <class Real>
 void ParticleContact<Real>::pass_again(const State<Real>& state) {
   over(node_blocks_, state.method.contact_sweeps->take, state);
-  const int wanted = bodies_.empty() ? passes_after_solve : passes_with_bodies;
-  for (int k = 1; k <= wanted; ++k) {
+  args_.is_last = false;
+  for (int k = 1; !args_.is_last; ++k) {
     follow_bodies(state);
-    args_.is_last = k == wanted;
-    pass(state);
+    args_.is_last = is_enough(k, passes_after_solve);
+    pass(k, passes_after_solve, state);
   }
 }
 
@@ -280,7 +319,10 @@ std::size_t ParticleContact<Real>::memory_bytes() const {
               blocks_.capacity() + node_blocks_.capacity()) +
          sizeof(std::uint64_t) * first_.capacity() + 4 * first_to_keep_.capacity() +
          8 * sums_.capacity() + is_reached_.capacity() +
-         sizeof(kernels::Contact<Real>) * contacts_.capacity() +
+         sizeof(std::uint32_t) *
+             (near_bodies_.blocks.capacity() + near_bodies_.node_blocks.capacity() +
+              near_bodies_.counts.capacity()) +
+         bodies_.memory_bytes() + sizeof(kernels::Contact<Real>) * contacts_.capacity() +
          sizeof(kernels::ContactNodes<Real>) * nodes_.capacity();
 }
 

@@ -45,6 +45,8 @@ class ParticleContact {
  private:
   using Sweep = kernels::ContactSweep<Real>;
   void over(const std::vector<std::uint32_t>& blocks, Sweep sweep, const State<Real>& state) const;
+  static void over(const std::vector<std::uint32_t>& blocks, Sweep sweep,
+                   const kernels::ContactArgs<Real>& a, const State<Real>& state);
   void over_springs(Sweep sweep, const State<Real>& state, const kernels::SolveArgs<Real>& solve,
                     bool is_first);
   kernels::ContactArgs<Real> contact_args(State<Real>& state, const kernels::SweepArgs<Real>& step);
@@ -52,12 +54,15 @@ class ParticleContact {
   std::uint64_t place_contacts();
   std::uint32_t place_kept();
   void follow_bodies(const State<Real>& state);
-  void pass(const State<Real>& state);
+  bool is_enough(int pass, int wanted) const;
+  void pass(int number, int wanted, const State<Real>& state);
   void pass_again(const State<Real>& state);
   void share(const Vec3d& unexplained);
   void book(State<Real>& state);
   void list_blocks();
-  void list_node_blocks(const Partition& partition);
+  void list_node_blocks(const Partition& partition, const std::vector<std::uint32_t>& blocks,
+                        std::vector<std::uint32_t>& node_blocks);
+  void list_near_bodies(const Partition& partition);
 
   std::vector<std::uint32_t> candidates_;            ///< per sorted position
   std::vector<std::uint32_t> near_counts_, counts_;  ///< per particle block, see ContactArgs
@@ -71,6 +76,10 @@ class ParticleContact {
   std::uint32_t kept_count_ = 0;       ///< of its contacts, that may be remembered
   std::vector<double> sums_;           ///< see ContactArgs
   BodyContact<Real> bodies_;
+  /// The part of the blocks, and of their counts, that touches bodies.
+  struct {
+    std::vector<std::uint32_t> blocks, node_blocks, counts;
+  } near_bodies_;
 };
 
 }  // namespace neve::sim::engine

@@ -180,7 +180,8 @@ class RigidBodies::World {
   /// Everything that Bullet remembers is made anew: what it finds depends on the places alone.
   void detect() {
     world_.reset();
-    dispatcher_ = std::make_unique<Dispatcher>(&configuration_, things_);
+    // It costs more than a step of a few bodies, and has nothing left once the world has gone.
+    if (!dispatcher_) dispatcher_ = std::make_unique<Dispatcher>(&configuration_, things_);
     broadphase_ = std::make_unique<btSimpleBroadphase>(static_cast<int>(things_.size()) + 1);
     world_ =
         std::make_unique<btCollisionWorld>(dispatcher_.get(), broadphase_.get(), &configuration_);

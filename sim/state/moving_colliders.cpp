@@ -46,18 +46,56 @@ double speed_around(const kernels::LocalCollider<double>& c, const Vec3<double>&
   return std::sqrt(dot(c.velocity, c.velocity)) + turning + c.shape_speed;
 }
 
-/// Speed of the surface at a block of particles; 0 if the two cannot meet within dt.
-/// @param c  seen from cell 0
-double speed_near(const kernels::LocalCollider<double>& c, std::uint64_t key, double h, double dt,
-                  double snow_speed) {
-  const Vec3<double> middle = middle_of(key, h);
-  // Particles lie within 4 cells of the middle; they touch within half a cell of the surface, and
-  // the block is where they were before the last step.
-  const double around = 4 * h;
-  const double speed = speed_around(c, middle, around);
-  const double reach = around + 1.5 * h + (speed + snow_speed) * dt;
-  return kernels::is_out_of_reach(c, middle, reach) ? 0 : speed;
-}
+/// The largest speed of a surface at blocks of particles that it can meet within dt: blocks are
+/// looked at in fours.
+class SpeedNear {
+ public:
+  /// @param c  seen from cell 0  @param snow_speed  m/s  @param fastest  gets it, if it is larger
+  SpeedNear(const kernels::LocalCollider<double>& c, double h, double dt, double snow_speed,
+            double& fastest)
+      : c_(c), h_(h), dt_(dt), snow_speed_(snow_speed), fastest_(fastest) {}
+  SpeedNear(const SpeedNear&) = delete;
+  SpeedNear& operator=(const SpeedNear&) = delete;
+  ~SpeedNear() { look(); }
+
+  void add(std::uint64_t key) {
+    const Vec3<double> middle = middle_of(key, h_);
+    // Particles lie within 4 cells of the middle; they touch within half a cell of the surface, and
+    // the block is where they were before the last step.
+    const double around = 4 * h_, speed = speed_around(c_, middle, around);
+    if (speed <= fastest_) return;
+    for (int a = 0; a < 3; ++a) middle_[a][count_] = middle[a];
+    reach_[count_] = around + 1.5 * h_ + (speed + snow_speed_) * dt_;
+    speed_[count_] = speed;
+    if (++count_ == 4) look();
+  }
+
+ private:
+  void look() {
+    if (count_ == 0) return;
+    // Places that are left repeat the first.
+    for (int l = count_; l < 4; ++l)
+      for (int a = 0; a < 3; ++a) middle_[a][l] = middle_[a][0];
+    const Quad<double> distance = clearance();
+    for (int l = 0; l < count_; ++l)
+      if (!(distance[l] > reach_[l] + 2 * c_.spacing)) fastest_ = std::max(fastest_, speed_[l]);
+    count_ = 0;
+  }
+
+  /// As kernels::is_out_of_reach, which looks at one place.
+  Quad<double> clearance() const {
+    if (c_.shape == kernels::ColliderShape::heights) return kernels::heights_clearance(c_, middle_);
+    Vec3<Quad<double>> normal;
+    return kernels::surface_distance(c_, middle_, normal);
+  }
+
+  const kernels::LocalCollider<double>& c_;
+  const double h_, dt_, snow_speed_;
+  double& fastest_;
+  Vec3<Quad<double>> middle_{};
+  double reach_[4] = {}, speed_[4] = {};
+  int count_ = 0;
+};
 
 }  // namespace
 
@@ -168,8 +206,10 @@ double MovingColliders::fastest_near(const std::vector<kernels::BlockRange>& blo
       const auto pose = pose_at(k, lattice, when, time + dt);
       if (!pose || !moves(*pose)) continue;
       const auto c = seen_from_cell_0(*pose, lattice.cell_size);
-      for (const kernels::BlockRange& block : blocks)
-        fastest = std::max(fastest, speed_near(c, block.key, lattice.cell_size, dt, snow_speed));
+      SpeedNear near(c, lattice.cell_size, dt, snow_speed, fastest);
+      for (const kernels::BlockRange& block : blocks) near.add(block.key);
+      // A body keeps its velocity until it is pushed.
+      if (list_[k].body.moves()) break;
     }
   return fastest;
 }
