@@ -38,15 +38,15 @@ class Blocks {
     const auto [found, is_new] = index_.try_emplace(key_of(block), list_.size());
     if (is_new) {
       list_.push_back(block);
-      mass.resize(mass.size() + block_nodes, 0.0);
-      momentum.resize(momentum.size() + block_nodes, Vec3d::Zero());
+      nodes.resize(nodes.size() + block_nodes, Node::Zero());
     }
     return found->second;
   }
   const std::vector<Vec3i>& list() const { return list_; }
 
-  std::vector<double> mass;
-  std::vector<Vec3d> momentum;
+  /// Momentum, and in the fourth number mass.
+  using Node = Eigen::Vector4d;
+  std::vector<Node> nodes;
 
  private:
   std::unordered_map<std::uint64_t, std::size_t> index_;
@@ -71,8 +71,10 @@ void spread(const Vec3d& place, double m, const Vec3d& v, Blocks& blocks) {
   for (std::size_t n = 0; n < 8; ++n)
     around[n] = blocks.at(low + Vec3i(n & 1 ? 1 : 0, n & 2 ? 1 : 0, n & 4 ? 1 : 0));
   const Vec3i in = first - block_side * low;
+  const Blocks::Node all(m * v.x(), m * v.y(), m * v.z(), m);
   for (int i = 0; i < reach; ++i)
-    for (int j = 0; j < reach; ++j)
+    for (int j = 0; j < reach; ++j) {
+      const double w_xy = w[0][static_cast<std::size_t>(i)] * w[1][static_cast<std::size_t>(j)];
       for (int k = 0; k < reach; ++k) {
         const int x = in.x() + i, y = in.y() + j, z = in.z() + k;
         // Five nodes from the last of a block end in the next one.
@@ -80,11 +82,9 @@ void spread(const Vec3d& place, double m, const Vec3d& v, Blocks& blocks) {
             (x >= block_side) | (y >= block_side) << 1 | (z >= block_side) << 2)];
         const std::size_t node =
             block_nodes * block + static_cast<std::size_t>(16 * (x & 3) + 4 * (y & 3) + (z & 3));
-        const double share = m * w[0][static_cast<std::size_t>(i)] *
-                             w[1][static_cast<std::size_t>(j)] * w[2][static_cast<std::size_t>(k)];
-        blocks.mass[node] += share;
-        blocks.momentum[node] += share * v;
+        blocks.nodes[node] += w_xy * w[2][static_cast<std::size_t>(k)] * all;
       }
+    }
 }
 
 }  // namespace
@@ -105,13 +105,14 @@ RasterizedNodes dust_nodes(const DustArrays& dust) {
             [&](std::size_t a, std::size_t b) { return key_of(list[a]) < key_of(list[b]); });
   for (const std::size_t b : order) {
     // A block that only a wider reach would touch.
-    const double* mass = blocks.mass.data() + block_nodes * b;
-    if (std::all_of(mass, mass + block_nodes, [](double m) { return !(m > 0); })) continue;
+    const Blocks::Node* first = blocks.nodes.data() + block_nodes * b;
+    if (std::all_of(first, first + block_nodes, [](const auto& node) { return !(node[3] > 0); }))
+      continue;
     out.block.push_back(list[b]);
-    for (std::size_t n = block_nodes * b; n < block_nodes * (b + 1); ++n) {
-      out.mass.push_back(blocks.mass[n]);
-      out.velocity.push_back(blocks.mass[n] > 0 ? Vec3d(blocks.momentum[n] / blocks.mass[n])
-                                                : Vec3d::Zero());
+    for (const Blocks::Node* node = first; node < first + block_nodes; ++node) {
+      const double mass = (*node)[3];
+      out.mass.push_back(mass);
+      out.velocity.push_back(mass > 0 ? Vec3d(node->head<3>() / mass) : Vec3d::Zero());
     }
   }
   return out;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace neve::sim::dust {
 
@@ -12,6 +13,8 @@ namespace {
 constexpr double snow_drag = 10;
 /// Sweeps of successive over-relaxation from a pressure of 0, and its factor.
 constexpr int pressure_sweeps = 24;
+/// Air that moves less far in a step stays as it is, cells.
+constexpr double still = 0.01;
 constexpr float over_relaxation = 1.7f;
 
 /// False for particles of a run that has diverged and goes on: they have no part in the sums.
@@ -83,6 +86,13 @@ void Air::cover(const AirBox& box, const Vec3d& wind) {
   for (std::size_t a = 0; a < 3; ++a)
     u[a].assign(box.count(), static_cast<float>(wind[static_cast<int>(a)]));
   const bool is_same_grid = !box_.is_empty() && !box.is_empty() && box_.spacing == box.spacing;
+  const bool has_solids = is_same_grid && distance_.size() == box_.count();
+  std::vector<float> distance;
+  std::array<std::vector<float>, 3> solid_v;
+  if (has_solids) {
+    distance.assign(box.count(), std::numeric_limits<float>::quiet_NaN());
+    for (std::vector<float>& v : solid_v) v.assign(box.count(), 0);
+  }
   const Vec3i shift = box.low - box_.low;
   for (int k = 0; is_same_grid && k <= box.size.z(); ++k)
     for (int j = 0; j <= box.size.y(); ++j)
@@ -91,8 +101,17 @@ void Air::cover(const AirBox& box, const Vec3d& wind) {
         if ((old.array() < 0).any() || (old.array() > box_.size.array()).any()) continue;
         const std::size_t from = box_.index(old.x(), old.y(), old.z()), to = box.index(i, j, k);
         for (std::size_t a = 0; a < 3; ++a) u[a][to] = u_[a][from];
+        if (!has_solids || (old.array() == box_.size.array()).any()) continue;
+        distance[to] = distance_[from];
+        for (std::size_t a = 0; a < 3; ++a) solid_v[a][to] = solid_v_[a][from];
       }
+  const std::uint64_t key = solids_key_;
   restore(box, std::move(u));
+  if (!has_solids) return;
+  solids_key_ = key;
+  distance_ = std::move(distance);
+  solid_v_ = std::move(solid_v);
+  has_unseen_ = true;
 }
 
 void Air::restore(const AirBox& box, FaceVelocities faces) {
@@ -120,12 +139,17 @@ void Air::see_solids(const Solids& solids, ThreadPool& pool) {
     return;
   }
   const std::uint64_t key = solids.pose_key();
-  if (key != 0 && key == solids_key_ && distance_.size() == box_.count()) return;
+  const bool are_as_before = key != 0 && key == solids_key_ && distance_.size() == box_.count();
+  if (are_as_before && !has_unseen_) return;
   solids_key_ = key;
-  distance_.assign(box_.count(), 0);
-  for (std::vector<float>& v : solid_v_) v.assign(box_.count(), 0);
+  has_unseen_ = false;
+  if (!are_as_before) {
+    distance_.assign(box_.count(), std::numeric_limits<float>::quiet_NaN());
+    for (std::vector<float>& v : solid_v_) v.assign(box_.count(), 0);
+  }
   each_cell(pool, [&](int i, int j, int k) {
     const std::size_t n = box_.index(i, j, k);
+    if (!std::isnan(distance_[n])) return;
     const Surface surface = solids.at(box_.middle(i, j, k));
     distance_[n] = static_cast<float>(std::min(surface.distance, 1e30));
     for (std::size_t a = 0; a < 3; ++a)
@@ -146,7 +170,7 @@ void Air::see_snow(std::span<const SnowGrain> snow, ThreadPool& pool) {
   const double per_mass = largest_mass > 0 ? unit / largest_mass : 0;
   const double per_volume = largest_volume > 0 ? unit / largest_volume : 0;
   const double per_momentum = largest_speed > 0 ? per_mass / largest_speed : 0;
-  for (std::vector<std::int64_t>& sum : sums_) sum.assign(box_.count(), 0);
+  sums_.assign(box_.count(), SnowSum{});
   for (const SnowGrain& grain : snow) {
     if (!is_sound(grain)) continue;
     const Vec3d q = box_.place(grain.x) - Vec3d::Constant(0.5);
@@ -158,23 +182,24 @@ void Air::see_snow(std::span<const SnowGrain> snow, ThreadPool& pool) {
       const double w = (c & 1 ? part.x() : 1 - part.x()) * (c & 2 ? part.y() : 1 - part.y()) *
                        (c & 4 ? part.z() : 1 - part.z());
       const std::size_t n = box_.index(at.x() + (c & 1), at.y() + (c >> 1 & 1), at.z() + (c >> 2));
-      sums_[0][n] += static_cast<std::int64_t>(w * grain.m * per_mass);
-      sums_[1][n] += static_cast<std::int64_t>(w * grain.volume * per_volume);
+      SnowSum& sum = sums_[n];
+      sum[0] += static_cast<std::int64_t>(w * grain.m * per_mass);
+      sum[1] += static_cast<std::int64_t>(w * grain.volume * per_volume);
       for (int a = 0; a < 3; ++a)
-        sums_[static_cast<std::size_t>(a) + 2][n] +=
+        sum[static_cast<std::size_t>(a) + 2] +=
             static_cast<std::int64_t>(w * grain.m * grain.v[a] * per_momentum);
     }
   }
   const double cell = box_.spacing * box_.spacing * box_.spacing;
   each_cell(pool, [&](int i, int j, int k) {
     const std::size_t n = box_.index(i, j, k);
-    const auto mass = static_cast<double>(sums_[0][n]);
+    const auto mass = static_cast<double>(sums_[n][0]);
     fill_[n] = per_volume > 0
-                   ? static_cast<float>(static_cast<double>(sums_[1][n]) / (per_volume * cell))
+                   ? static_cast<float>(static_cast<double>(sums_[n][1]) / (per_volume * cell))
                    : 0;
     for (std::size_t a = 0; a < 3; ++a)
       snow_v_[a][n] =
-          mass > 0 ? static_cast<float>(static_cast<double>(sums_[a + 2][n]) * largest_speed / mass)
+          mass > 0 ? static_cast<float>(static_cast<double>(sums_[n][a + 2]) * largest_speed / mass)
                    : 0;
   });
   // Of neighbours with snow alone: the edge of snow is no shear.
@@ -237,33 +262,62 @@ Vec3d Air::velocity_at_face(int a, int i, int j, int k) const {
   return v;
 }
 
-/// Backwards along the flow. Air that stays within a hundredth of a cell stays as it is.
+void Air::find_row_speeds(ThreadPool& pool) {
+  const std::size_t row = box_.step(1), rows = row > 0 ? box_.count() / row : 0;
+  row_speed_.resize(rows);
+  pool.ranges(rows, pool.thread_count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r) {
+      float fastest = 0;
+      for (const std::vector<float>& u : u_)
+        for (std::size_t n = r * row; n < (r + 1) * row; ++n)
+          fastest = std::max(fastest, std::abs(u[n]));
+      row_speed_[r] = fastest;
+    }
+  });
+}
+
+/// Of the row, and of those that the speed at its faces is a mean of.
+float Air::fastest_around(int j, int k) const {
+  const int rows = box_.size.y() + 1;
+  float fastest = 0;
+  for (int c = std::max(k - 1, 0); c <= std::min(k + 1, box_.size.z()); ++c)
+    for (int b = std::max(j - 1, 0); b <= std::min(j + 1, box_.size.y()); ++b)
+      fastest = std::max(fastest, row_speed_[static_cast<std::size_t>(c * rows + b)]);
+  return fastest;
+}
+
+/// Backwards along the flow.
 void Air::advect(double dt, const Vec3d& wind, ThreadPool& pool) {
   for (std::vector<float>& field : next_) field.resize(box_.count());
   const double cells = dt / box_.spacing;
-  const Vec3d size = box_.size.cast<double>();
+  find_row_speeds(pool);
   pool.ranges(static_cast<std::size_t>(box_.size.z() + 1), pool.thread_count(),
               [&](std::size_t begin, std::size_t end) {
                 for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
-                  for (int j = 0; j <= box_.size.y(); ++j)
-                    for (int i = 0; i <= box_.size.x(); ++i)
-                      for (int a = 0; a < 3; ++a) {
-                        const auto axis = static_cast<std::size_t>(a);
-                        const std::size_t n = box_.index(i, j, k);
-                        if (!is_face(a, i, j, k)) continue;
-                        const Vec3d way = cells * velocity_at_face(a, i, j, k);
-                        next_[axis][n] = u_[axis][n];
-                        if (way.cwiseAbs().maxCoeff() < 0.01) continue;
-                        const Vec3d from = Vec3d(i, j, k) + face_offset(a) - way;
-                        const bool is_inside =
-                            (from.array() >= 0).all() && (from.array() <= size.array()).all();
-                        next_[axis][n] = static_cast<float>(
-                            is_inside
-                                ? sample(box_, u_[axis], from, face_offset(a), last_face(box_, a))
-                                : wind[a]);
-                      }
+                  for (int j = 0; j <= box_.size.y(); ++j) advect_row(j, k, cells, wind);
               });
   std::swap(u_, next_);
+}
+
+/// @param cells  per m/s: how far air gets in the step
+void Air::advect_row(int j, int k, double cells, const Vec3d& wind) {
+  const std::size_t first = box_.index(0, j, k), row = box_.step(1);
+  for (std::size_t a = 0; a < 3; ++a)
+    std::copy_n(u_[a].begin() + static_cast<std::ptrdiff_t>(first), row,
+                next_[a].begin() + static_cast<std::ptrdiff_t>(first));
+  if (cells * static_cast<double>(fastest_around(j, k)) < still) return;
+  const Vec3d size = box_.size.cast<double>();
+  for (int i = 0; i <= box_.size.x(); ++i)
+    for (int a = 0; a < 3; ++a) {
+      if (!is_face(a, i, j, k)) continue;
+      const Vec3d way = cells * velocity_at_face(a, i, j, k);
+      if (way.cwiseAbs().maxCoeff() < still) continue;
+      const Vec3d from = Vec3d(i, j, k) + face_offset(a) - way;
+      const bool is_inside = (from.array() >= 0).all() && (from.array() <= size.array()).all();
+      const auto axis = static_cast<std::size_t>(a);
+      next_[axis][first + static_cast<std::size_t>(i)] = static_cast<float>(
+          is_inside ? sample(box_, u_[axis], from, face_offset(a), last_face(box_, a)) : wind[a]);
+    }
 }
 
 /// Snow drags the air along, by its density and the difference of velocities; dust lifts it.
@@ -404,12 +458,15 @@ Vec3d Air::snow_velocity(const Vec3d& x) const {
           static_cast<double>(snow_v_[2][n])};
 }
 
+/// A place in a solid is as far from the middle of its cell as the solid is, or further: distances
+/// are bounds from below. Some is added for samples of meshes, which may be too large.
 bool Air::is_near_solid(const Vec3d& x) const {
   if (!has_solids_) return false;
   const std::size_t n = cell_of(x);
   if (n >= box_.count() || distance_.empty()) return true;
-  // Half a diagonal to the middle of the cell, and as much for a bound that is loose.
-  return static_cast<double>(distance_[n]) < 1.8 * box_.spacing;
+  const Vec3d place = box_.place(x);
+  const Vec3d in_cell = place.array() - place.array().floor() - 0.5;
+  return static_cast<double>(distance_[n]) < (1.2 * in_cell.norm() + 0.2) * box_.spacing;
 }
 
 double Air::largest_speed() const {
@@ -425,7 +482,7 @@ std::size_t Air::memory_bytes() const {
     for (const std::vector<float>& field : *fields) bytes += 4 * field.capacity();
   for (const auto* field : {&pressure_, &divergence_, &per_open_, &fill_, &strain_, &distance_})
     bytes += 4 * field->capacity();
-  for (const std::vector<std::int64_t>& sum : sums_) bytes += 8 * sum.capacity();
+  bytes += sizeof(SnowSum) * sums_.capacity() + 4 * row_speed_.capacity();
   return bytes;
 }
 

@@ -52,6 +52,9 @@ class Air {
   void see_solids(const Solids& solids, ThreadPool& pool);
   void see_snow(std::span<const SnowGrain> snow, ThreadPool& pool);
   void advect(double dt, const Vec3d& wind, ThreadPool& pool);
+  void advect_row(int j, int k, double cells, const Vec3d& wind);
+  void find_row_speeds(ThreadPool& pool);
+  float fastest_around(int j, int k) const;
   void push(double dt, const Vec3d& up, std::span<const float> lift, ThreadPool& pool);
   void hold_at_solids(ThreadPool& pool);
   void project(ThreadPool& pool);
@@ -72,14 +75,20 @@ class Air {
 
   AirBox box_;
   FaceVelocities u_, next_;
-  std::vector<float> pressure_;                    ///< with a slab of zeros before and after
-  std::vector<float> divergence_, per_open_;       ///< per cell; 1 / its neighbours, 0 in solids
-  std::vector<float> fill_, strain_;               ///< per cell
-  std::array<std::vector<float>, 3> snow_v_;       ///< per cell, m/s
-  std::array<std::vector<std::int64_t>, 5> sums_;  ///< see see_snow
-  std::vector<float> distance_;  ///< of the middle of a cell to a solid, m; empty: none
+  std::vector<float> pressure_;               ///< with a slab of zeros before and after
+  std::vector<float> divergence_, per_open_;  ///< per cell; 1 / its neighbours, 0 in solids
+  std::vector<float> fill_, strain_;          ///< per cell
+  std::array<std::vector<float>, 3> snow_v_;  ///< per cell, m/s
+  /// Mass, volume and momentum of the snow of a cell, in whole numbers of units: see see_snow.
+  using SnowSum = std::array<std::int64_t, 5>;
+  std::vector<SnowSum> sums_;
+  /// Of rows of faces along x, the largest speed along an axis; see advect.
+  std::vector<float> row_speed_;
+  /// Of the middle of a cell to a solid, m; NaN: not looked at. Empty: none.
+  std::vector<float> distance_;
   std::array<std::vector<float>, 3> solid_v_;  ///< per cell, m/s
   std::uint64_t solids_key_ = 0;
+  bool has_unseen_ = false;  ///< cells of which the solids are not known
   bool has_solids_ = false;
 };
 

@@ -18,12 +18,12 @@ class Gusts {
   Vec3d at(const Vec3d& x, double time) const;
 
  private:
-  struct Wave {
-    Vec3d k;      ///< 1/m
-    Vec3d a, b;   ///< across k
-    double rate;  ///< 1/s
-  };
-  std::array<Wave, 8> waves_;
+  static constexpr std::size_t count = 8;
+  /// One number of each wave.
+  using Each = std::array<double, count>;
+  std::array<Each, 3> k_;      ///< in turns per m
+  std::array<Each, 3> a_, b_;  ///< across k, of the cosine and of the sine
+  Each rate_;                  ///< in turns per s
 };
 
 }  // namespace neve::sim::dust
