@@ -34,12 +34,12 @@ std::array<double, reach> weights_of(double part) {
 /// Blocks in the order in which they are met.
 class Blocks {
  public:
-  std::size_t at(const Vec3i& block) {
-    const auto [found, is_new] = index_.try_emplace(key_of(block), list_.size());
-    if (is_new) {
-      list_.push_back(block);
-      nodes.resize(nodes.size() + block_nodes, Node::Zero());
-    }
+  /// Numbers of a block and of the seven above it.
+  const std::array<std::size_t, 8>& from(const Vec3i& low) {
+    const auto [found, is_new] = around_.try_emplace(key_of(low));
+    if (is_new)
+      for (std::size_t n = 0; n < 8; ++n)
+        found->second[n] = at(low + Vec3i(n & 1 ? 1 : 0, n & 2 ? 1 : 0, n & 4 ? 1 : 0));
     return found->second;
   }
   const std::vector<Vec3i>& list() const { return list_; }
@@ -49,7 +49,16 @@ class Blocks {
   std::vector<Node> nodes;
 
  private:
+  std::size_t at(const Vec3i& block) {
+    const auto [found, is_new] = index_.try_emplace(key_of(block), list_.size());
+    if (is_new) {
+      list_.push_back(block);
+      nodes.resize(nodes.size() + block_nodes, Node::Zero());
+    }
+    return found->second;
+  }
   std::unordered_map<std::uint64_t, std::size_t> index_;
+  std::unordered_map<std::uint64_t, std::array<std::size_t, 8>> around_;  ///< by the lowest
   std::vector<Vec3i> list_;
 };
 
@@ -67,9 +76,7 @@ void spread(const Vec3d& place, double m, const Vec3d& v, Blocks& blocks) {
   }
   const Vec3i low(floor_div(first.x(), block_side), floor_div(first.y(), block_side),
                   floor_div(first.z(), block_side));
-  std::array<std::size_t, 8> around;
-  for (std::size_t n = 0; n < 8; ++n)
-    around[n] = blocks.at(low + Vec3i(n & 1 ? 1 : 0, n & 2 ? 1 : 0, n & 4 ? 1 : 0));
+  const std::array<std::size_t, 8>& around = blocks.from(low);
   const Vec3i in = first - block_side * low;
   const Blocks::Node all(m * v.x(), m * v.y(), m * v.z(), m);
   for (int i = 0; i < reach; ++i)

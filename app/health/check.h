@@ -19,6 +19,7 @@ struct Check {
   sim::DtLimit limit_start = sim::DtLimit::max_dt;
   forecast::Forecast foreseen;  ///< by a coarse run
   double seconds_per_step = 0;  ///< measured on this machine; 0: not measured
+  double dust_steps = 0;        ///< of dust and its air, at most
   sim::SolveReport solve;       ///< of these steps; zero where they are explicit
   double coarsening = 1;        ///< of --coarsen, for advice
   std::vector<Finding> findings;

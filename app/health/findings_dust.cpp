@@ -5,17 +5,12 @@
 #include <algorithm>
 
 #include "app/health/findings.h"
+#include "app/scene/coarsen.h"
 #include "app/support/text.h"
 
 namespace neve::app::health {
 
 namespace {
-
-bool is_used(const scene::Scene& scene, const sim::Material& material) {
-  const auto is_of = [&](const auto& source) { return source.material == material.name; };
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), is_of) ||
-         std::any_of(scene.emitters.begin(), scene.emitters.end(), is_of);
-}
 
 bool is_shown(const scene::Scene& scene) {
   return std::any_of(
@@ -29,9 +24,7 @@ bool is_shown(const scene::Scene& scene) {
 
 void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& findings) {
   const sim::DustSettings& d = scene.solver.dust;
-  const sim::Material* dusty = nullptr;
-  for (const sim::Material& material : scene.materials)
-    if (material.dust > 0 && is_used(scene, material)) dusty = &material;
+  const sim::Material* dusty = scene::dusty_material(scene);
   if (!dusty) {
     if (d != sim::DustSettings{} && d.spray_drag == 0)
       findings.push_back({Severity::warning, "dust",

@@ -534,7 +534,8 @@ Found massless_problem(const Collider& collider, const std::string& at) {
                                                 {".joint_stiffness", body.joint_stiffness != 0},
                                                 {".joint_damping", body.joint_damping != 0},
                                                 {".spring_stiffness", body.spring_stiffness != 0},
-                                                {".spring_damping", body.spring_damping != 0}};
+                                                {".spring_damping", body.spring_damping != 0},
+                                                {".restitution", body.restitution != 0}};
   for (const auto& [key, is_given] : given)
     if (is_given)
       return Problem{at + key, std::string(key + 1) + " is of a body that moves by itself",

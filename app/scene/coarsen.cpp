@@ -95,6 +95,16 @@ Scene without_dust(Scene scene) {
   return scene;
 }
 
+const sim::Material* dusty_material(const Scene& scene) {
+  for (const sim::Material& material : scene.materials) {
+    const auto is_of = [&](const auto& source) { return source.material == material.name; };
+    if (material.dust > 0 && (std::any_of(scene.bodies.begin(), scene.bodies.end(), is_of) ||
+                              std::any_of(scene.emitters.begin(), scene.emitters.end(), is_of)))
+      return &material;
+  }
+  return nullptr;
+}
+
 void refine_settings(Scene& scene, double factor) {
   if (factor > 1) scale_settings(scene, 1 / factor);
 }

@@ -22,6 +22,8 @@ std::vector<std::string> coarsen(Scene& scene, double factor);
 
 /// The same snow without its dust, for copies that nobody looks at.
 Scene without_dust(Scene scene);
+/// A material of bodies or emitters that sheds dust; null: none does.
+const sim::Material* dusty_material(const Scene& scene);
 
 /// The scene with the numbers that its file and --set take, for panels and messages: coarsen with
 /// the same factor gives it back, within rounding.

@@ -18,9 +18,12 @@
 #include "app/support/room.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
+#include "sim/dust_cost.h"
 #include "sim/health/limits.h"
 #include "sim/shapes/deforming_field.h"
+#include "sim/shapes/distance_field.h"
 #include "sim/shapes/height_field.h"
+#include "sim/shapes/mesh_surface.h"
 #include "sim/simulation.h"
 #include "sim/types/number_text.h"
 
@@ -173,18 +176,32 @@ double surface_memory(const scene::Scene& scene, double particles) {
   return 150 * nodes;
 }
 
-/// Counts the distances around meshes that deform, and heights of terrain. Files that cannot be
-/// read are refused before.
+double field_memory(const sim::shapes::Mesh& mesh, double cell_size) {
+  const auto surface = sim::shapes::mesh_surface(mesh);
+  const double spacing = sim::shapes::field_spacing(*surface, cell_size);
+  return sizeof(float) * std::min(sim::shapes::sample_counts(surface->bounds(), spacing).prod(),
+                                  sim::shapes::DistanceField::max_samples);
+}
+
+/// Counts the distances around meshes, and heights of terrain. Files that cannot be read are
+/// refused before.
 double collider_memory(const scene::Scene& scene) {
   double bytes = 0;
   for (const scene::Collider& collider : scene.colliders)
     if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form))
       bytes +=
           sim::shapes::memory_of(*sim::shapes::deforming_mesh(*sequence), scene.solver.cell_size);
+    else if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&collider.shape.form))
+      bytes += field_memory(*mesh, scene.solver.cell_size);
     else if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form))
       bytes += static_cast<double>(sim::shapes::height_field(*terrain)->grid().height.size()) *
                sizeof(float);
   return bytes;
+}
+
+/// Where snow of the scene sheds dust.
+double dust_memory(const scene::Scene& scene) {
+  return scene::dusty_material(scene) ? sim::most_dust_memory(scene.solver.dust) : 0;
 }
 
 }  // namespace
@@ -285,7 +302,7 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
   plan.memory =
       whole_bytes(simulated + arrays + exported + blurred + surface_memory(scene, counted) +
-                  collider_memory(scene) + picture_memory(scene, quality) +
+                  collider_memory(scene) + dust_memory(scene) + picture_memory(scene, quality) +
                   channel_memory(scene, quality, channel_bytes));
   set_limits(scene, plan);
   for (const scene::PictureSize& size : picture_sizes(scene)) {

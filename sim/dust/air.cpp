@@ -404,23 +404,28 @@ void Air::project(ThreadPool& pool) {
               });
 }
 
-/// One colour of a chess board reads the other alone: the same bits on any number of threads.
+/// One colour of a chess board reads the other alone: the same bits on any number of threads. Rows
+/// are worked out whole, in lanes.
 void Air::relax(int color, ThreadPool& pool) {
   const auto row = static_cast<std::ptrdiff_t>(box_.step(1)),
              slab = static_cast<std::ptrdiff_t>(box_.step(2));
   pool.ranges(static_cast<std::size_t>(box_.size.z()), pool.thread_count(),
               [&](std::size_t begin, std::size_t end) {
+                const int count = box_.size.x();
+                std::vector<float> change(static_cast<std::size_t>(count));
                 for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
                   for (int j = 0; j < box_.size.y(); ++j) {
                     const std::size_t first = box_.index(0, j, k);
                     float* p = pressure_.data() + slab + first;
                     const float *divergence = divergence_.data() + first,
                                 *per_open = per_open_.data() + first;
-                    for (int i = (j + k + color) & 1; i < box_.size.x(); i += 2) {
+                    float* to = change.data();
+                    for (int i = 0; i < count; ++i) {
                       const float around =
                           p[i - 1] + p[i + 1] + p[i - row] + p[i + row] + p[i - slab] + p[i + slab];
-                      p[i] += over_relaxation * ((around - divergence[i]) * per_open[i] - p[i]);
+                      to[i] = over_relaxation * ((around - divergence[i]) * per_open[i] - p[i]);
                     }
+                    for (int i = (j + k + color) & 1; i < count; i += 2) p[i] += to[i];
                   }
               });
 }

@@ -20,6 +20,9 @@ namespace neve::sim::dust {
 /// Component a of the velocity lies in the middle of the lower face of a cell along axis a.
 using FaceVelocities = std::array<std::vector<float>, 3>;
 
+/// Of all fields of Air.
+inline constexpr double bytes_of_air_cell = 4 * 18 + 8 * 5;
+
 class Air {
  public:
   /// Takes a box: what both boxes hold of the air stays, the rest is wind.

@@ -94,10 +94,15 @@ AirBox checked_box(const SavedHead& head) {
 
 }  // namespace
 
+double longest_step(const DustSettings& settings, double cell_size, double speed) {
+  const double crossing =
+      cells_per_step * spacing_of(settings, cell_size) / std::max({speed, settings.speed, 1e-9});
+  return std::min(Dust::max_step, crossing);
+}
+
 bool Dust::is_due(double time, double end, const DustSettings& settings, double cell_size) const {
-  const double crossing = cells_per_step * spacing_of(settings, cell_size) /
-                          std::max({progress_.fastest, settings.speed, 1e-9});
-  const double longest = std::min(max_step, crossing), rest = end - progress_.time;
+  const double longest = longest_step(settings, cell_size, progress_.fastest),
+               rest = end - progress_.time;
   const double step = rest > 0 ? rest / std::ceil(rest / longest - 1e-6) : longest;
   return time - progress_.time >= step * (1 - 1e-9);
 }

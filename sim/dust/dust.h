@@ -28,6 +28,9 @@ struct DustScene {
   ThreadPool& pool;
 };
 
+/// s, of a step of air and dust at a speed of snow or air, m/s.
+double longest_step(const DustSettings& settings, double cell_size, double speed);
+
 class Dust {
  public:
   /// True if a step is due at a time: no step is longer than max_step, or than what air and snow

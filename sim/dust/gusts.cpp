@@ -31,7 +31,9 @@ double sine_of(double turns) {
   const double half = std::copysign(0.5, x);
   const double folded = std::abs(x) > 0.25 ? half - x : x;
   const double z = 2 * std::numbers::pi * folded, q = z * z;
-  return z * (1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72))));
+  // Its Taylor series.
+  constexpr double c3 = 1.0 / 6, c5 = 1.0 / 120, c7 = 1.0 / 5040, c9 = 1.0 / 362880;
+  return z * (1 - q * (c3 - q * (c5 - q * (c7 - q * c9))));
 }
 
 }  // namespace

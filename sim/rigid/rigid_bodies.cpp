@@ -26,6 +26,8 @@ constexpr int iterations = 50;
 constexpr int perturbations = 8, wanted_points = 4;
 /// What holds a body in place has no slack, and what overlaps is moved apart, by this share a step.
 constexpr double taken_back = 0.2;
+/// What gravity drives together in so many steps does not bounce: it lies.
+constexpr double resting_steps = 3;
 /// Bullet's largest coefficient; sticky.
 constexpr double without_sliding = 10;
 
@@ -67,6 +69,8 @@ class RigidBodies::World {
       const bool moves = next != bodies.end() && next->collider == k;
       things_.push_back(moves ? moving_thing(*next, colliders[k]) : fixed_thing(colliders[k]));
       if (moves) moving_.push_back(k), ++next;
+      things_.back().restitution = moves ? colliders[k].body.restitution : 0;
+      any_bounces_ = any_bounces_ || things_.back().restitution > 0;
     }
     leave_out_joined(bodies, colliders);
   }
@@ -85,6 +89,8 @@ class RigidBodies::World {
       reset(bodies[b], things_[moving_[b]]);
       push(bodies[b], things_[moving_[b]], dt, gravity, pushes[b]);
     }
+    const double slowest = resting_steps * dt * gravity.norm();
+    if (any_bounces_) set_bounces(dt, slowest);
     solve(dt);
     for (std::size_t b = 0; b < bodies.size(); ++b) read(things_[moving_[b]], bodies[b]);
   }
@@ -92,6 +98,7 @@ class RigidBodies::World {
  private:
   struct Thing {
     bool moves = false;
+    double restitution = 0;
     std::unique_ptr<RigidShape> shape;
     std::unique_ptr<btRigidBody> body;
     Mat3d axes = Mat3d::Identity();       ///< of the form
@@ -193,6 +200,46 @@ class RigidBodies::World {
     world_->computeOverlappingPairs();
     dispatcher_->dispatchAllCollisionPairs(broadphase_->getOverlappingPairCache(),
                                            world_->getDispatchInfo(), dispatcher_.get());
+    distances_.clear();
+    each_point([&](const btPersistentManifold&, btManifoldPoint& point) {
+      distances_.push_back(point.getDistance());
+    });
+  }
+
+  /// body(manifold, point)
+  template <class Visit>
+  void each_point(const Visit& visit) {
+    for (int m = 0; m < dispatcher_->getNumManifolds(); ++m) {
+      btPersistentManifold& manifold = *dispatcher_->getManifoldByIndexInternal(m);
+      for (int k = 0; k < manifold.getNumContacts(); ++k)
+        visit(manifold, manifold.getContactPoint(k));
+    }
+  }
+
+  /// Bullet stops in one step what will touch at its end, and bounces it by what is left in the
+  /// next: the rebound would be too slow. Here a point that would touch in the step bounces at its
+  /// start, and all others wait.
+  /// @param slowest  m/s, that bounces
+  void set_bounces(double dt, double slowest) {
+    auto distance = distances_.begin();
+    each_point([&](const btPersistentManifold& manifold, btManifoldPoint& point) {
+      const double gap = *distance++;
+      const auto number = [](const btCollisionObject* object) {
+        return static_cast<std::size_t>(object->getUserIndex());
+      };
+      const Thing &a = things_[number(manifold.getBody0())],
+                  &b = things_[number(manifold.getBody1())];
+      const auto speed = [&](const Thing& thing, const btVector3& place) {
+        const btVector3 arm = place - thing.body->getWorldTransform().getOrigin();
+        return thing.body->getVelocityInLocalPoint(arm).dot(point.m_normalWorldOnB);
+      };
+      const double closing =
+          speed(b, point.getPositionWorldOnB()) - speed(a, point.getPositionWorldOnA());
+      const bool bounces = closing > slowest && gap < closing * dt;
+      point.m_combinedRestitution = bounces ? std::max(a.restitution, b.restitution) : 0;
+      const bool is_early = point.m_combinedRestitution > 0 && gap > 0;
+      point.setDistance(is_early ? 0 : gap);
+    });
   }
 
   void solve(double dt) {
@@ -202,6 +249,7 @@ class RigidBodies::World {
     info.m_erp = info.m_erp2 = taken_back;
     info.m_splitImpulse = true;
     info.m_splitImpulsePenetrationThreshold = 0;
+    info.m_restitutionVelocityThreshold = 0;  // see set_bounces
     info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
     std::vector<btCollisionObject*> objects;
     std::vector<btTypedConstraint*> constraints;
@@ -264,6 +312,8 @@ class RigidBodies::World {
   double heaviest_ = 0;
   std::vector<Thing> things_;        ///< per collider
   std::vector<std::size_t> moving_;  ///< per body: its thing
+  std::vector<double> distances_;    ///< m, per point of contact, as they were found
+  bool any_bounces_ = false;
   btDefaultCollisionConfiguration configuration_;
   std::unique_ptr<Dispatcher> dispatcher_;
   std::unique_ptr<btSimpleBroadphase> broadphase_;

@@ -21,8 +21,8 @@ class RigidShape {
 /// @throws ShapeError, std::invalid_argument for what deforms
 std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape);
 
-/// A body, in principal axes about its centre of mass. A mesh is its convex hull: other bodies and
-/// colliders cannot enter its hollows, snow can.
+/// A body, in principal axes about its centre of mass. A convex mesh is its hull, any other one its
+/// faces.
 /// @param principal  columns are those axes in the axes of the form
 std::unique_ptr<RigidShape> body_shape(const shapes::Shape& shape, const MassProperties& mass,
                                        const Mat3d& principal);

@@ -46,6 +46,7 @@ struct RigidBody {
   Vec3d spring_place{0, 0, 0};  ///< m, to which a spring pulls the centre of mass
   double spring_stiffness = 0;  ///< N/m
   double spring_damping = 0;    ///< N s/m
+  double restitution = 0;       ///< speed after a bounce over that before it; not of snow
 
   bool moves() const { return density > 0 || mass > 0; }
 };

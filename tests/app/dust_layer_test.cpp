@@ -13,6 +13,7 @@
 #include "app/record/run_json.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
+#include "app/setup/plan.h"
 #include "app/setup/resolve.h"
 #include "app/setup/seed_scene.h"
 
@@ -115,6 +116,23 @@ TEST(DustScene, FindingsSayWhatNobodyWillSee) {
   EXPECT_EQ(findings(none, 6), "");
   none.solver.dust.life = 3;
   EXPECT_NE(findings(none, 6).find("it has no effect"), std::string::npos);
+}
+
+TEST(DustScene, PlansAndForecastsCountIt) {
+  const scene::Scene dusty = read_dusty("[dust]\nparticles = 50_000\n"),
+                     clear = read_dusty("", {{"material.snow.dust", "0"}});
+  const setup::FrameRange frames{0, 12};
+  const setup::Plan with = setup::make_plan(dusty, frames, setup::Quality::preview, 1),
+                    without = setup::make_plan(clear, frames, setup::Quality::preview, 1);
+  EXPECT_GT(with.memory, without.memory + 50'000 * 80) << "the particles of dust alone";
+  // Nothing is faster than it falls: the longest step of dust is 0.05 s, a frame of 1/24 s has one.
+  health::Check check;
+  check.seconds_per_step = 0.01;
+  check.dust_steps = 12;
+  EXPECT_NEAR(check.seconds().expected, 1.5 * 12 * 0.01, 1e-9);
+  EXPECT_EQ(check.seconds().least, 0) << "it may be that nothing flies";
+  EXPECT_GE(health::examine(dusty, with, 1).dust_steps, 12);
+  EXPECT_EQ(health::examine(clear, without, 1).dust_steps, 0);
 }
 
 TEST(DustLayer, DrawsTheDustAsSmokeWhereAViewShowsIt) {

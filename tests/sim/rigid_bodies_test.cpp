@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 
@@ -145,6 +146,99 @@ TEST(RigidBodies, BallsThatMeetGoOnTogether) {
   EXPECT_NEAR(world.pose(0).velocity.x(), 0.5, 1e-6);
   EXPECT_NEAR(world.pose(1).velocity.x(), 0.5, 1e-6);
   EXPECT_NEAR((world.pose(1).point - world.pose(0).point).norm(), 0.2, 2e-4);
+}
+
+/// The height to which a ball rises again that falls from `height`, of its lowest point.
+double rebound(double restitution, double height) {
+  shapes::Collider ball = ball_of(700, {0, 0.1 + height, 0}, 0.1);
+  ball.body.restitution = restitution;
+  BodiesAlone world({plane({0, 0, 0}, {0, 1, 0}, 0.5), ball});
+  bool has_met = false;
+  double highest = 0;
+  while (world.time < 2) {
+    world.step(1e-4);
+    const double y = world.pose(1).point.y() - 0.1, v = world.pose(1).velocity.y();
+    has_met = has_met || y < 1e-3;
+    if (has_met) highest = std::max(highest, y);
+    if (has_met && y > 1e-3 && v < 0) break;
+  }
+  return highest;
+}
+
+TEST(RigidBodies, ABallReboundsByTheSquareOfItsRestitution) {
+  const double height = 0.5;
+  // It bounces up to one step early or late: v dt = 3e-4 m.
+  for (const double e : {0.0, 0.3, 0.5, 0.8, 1.0})
+    EXPECT_NEAR(rebound(e, height), e * e * height, 1e-3 * height + 3e-4) << e;
+}
+
+/// The larger restitution of two counts; momentum stays.
+TEST(RigidBodies, BallsBounceOffEachOtherWithTheirRestitution) {
+  shapes::Collider quick = ball_of(700, {-0.3, 0, 0}, 0.1, {2, 0, 0});
+  quick.body.restitution = 0.8;
+  BodiesAlone world({quick, ball_of(2100, {0, 0, 0}, 0.1)}, Vec3d::Zero());
+  world.run(0.3, 1e-4);
+  // v1 = (m1 - e m2) / (m1 + m2) v, v2 = (1 + e) m1 / (m1 + m2) v.
+  EXPECT_NEAR(world.pose(0).velocity.x(), (1 - 0.8 * 3) / 4 * 2, 1e-6);
+  EXPECT_NEAR(world.pose(1).velocity.x(), 1.8 / 4 * 2, 1e-6);
+}
+
+/// It bounces less and less, and then lies.
+TEST(RigidBodies, ABoxThatBouncesComesToRest) {
+  shapes::Collider box = box_of(700, {0, 0.3, 0}, {0.2, 0.2, 0.2});
+  box.body.restitution = 0.5;
+  BodiesAlone world({plane({0, 0, 0}, {0, 1, 0}, 0.5), box});
+  world.run(2, 1e-3);
+  EXPECT_NEAR(world.pose(1).point.y(), 0.1, 2e-3);
+  EXPECT_LE(world.pose(1).velocity.norm(), 0.03);
+}
+
+/// A ring of square section about z, as a mesh.
+std::string ring_file(const std::filesystem::path& folder, double inner, double outer,
+                      double depth) {
+  constexpr int pieces = 24;
+  const std::string file = (folder / "ring.obj").string();
+  std::ofstream out(file);
+  for (int k = 0; k < pieces; ++k)
+    for (const double radius : {inner, outer})
+      for (const double z : {-0.5 * depth, 0.5 * depth}) {
+        const double angle = 2 * std::numbers::pi * k / pieces;
+        out << "v " << radius * std::cos(angle) << ' ' << radius * std::sin(angle) << ' ' << z
+            << '\n';
+      }
+  for (int k = 0; k < pieces; ++k) {
+    const int a = 4 * k + 1, b = 4 * ((k + 1) % pieces) + 1;
+    const auto face = [&](int p, int q, int r, int s) {
+      out << "f " << p << ' ' << q << ' ' << r << ' ' << s << '\n';
+    };
+    face(a, a + 1, b + 1, b);          // inside
+    face(a + 2, b + 2, b + 3, a + 3);  // outside
+    face(a, b, b + 2, a + 2);          // below
+    face(a + 1, a + 3, b + 3, b + 1);  // above
+  }
+  return file;
+}
+
+/// The peg is in the hole: a ring by its convex hull would be thrown off it.
+TEST(RigidBodies, ARingThatIsAMeshHangsOnItsPeg) {
+  const TemporaryFolder folder;
+  shapes::Collider peg, ring;
+  peg.name = "peg";
+  peg.shape.form = shapes::Box{{0, 0, 0}, {0.1, 0.1, 1}};
+  ring.name = "ring";
+  ring.shape.form = shapes::Mesh{ring_file(folder.path(), 0.2, 0.3, 0.1), 1, {0, -0.13, 0}};
+  ring.body.density = 700;
+  BodiesAlone world({peg, ring});
+  world.run(4, 1e-3);
+  const shapes::Pose pose = world.pose(1);
+  // The corners of the peg are 0.05 to the sides of its middle; the ring is a polygon, 2 mm inside
+  // of its circle.
+  const double rests = 0.05 - std::sqrt(0.2 * 0.2 - 0.05 * 0.05);
+  EXPECT_NEAR(pose.point.y(), rests, 3e-3);
+  EXPECT_NEAR(pose.point.x(), 0, 5e-3);
+  EXPECT_NEAR(pose.point.z(), 0, 5e-3);
+  // It swings on the edges of the peg, and stops.
+  EXPECT_LE(pose.velocity.norm(), 0.02);
 }
 
 /// Three boxes on each other, on every kind of ground that there is: they stay.

@@ -14,7 +14,7 @@ from draw import Draw, as_text
 G = 9.81
 # Of a collider that moves by itself.
 BODY = ("density", "mass", "inertia", "hold", "joint", "joint_point", "joint_axis", "joint_stiffness",
-        "joint_damping", "spring_place", "spring_stiffness", "spring_damping")
+        "joint_damping", "spring_place", "spring_stiffness", "spring_damping", "restitution")
 
 
 class Scene:

@@ -35,7 +35,7 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim/shapes sim/rigid sim/seeding sim/kernels sim/laws sim/health "
      "sim/state "
      "sim/dust"},
-    {"sim", "sim/base sim/types sim/shapes sim/seeding sim/laws sim/engine", "neve::sim"},
+    {"sim", "sim/base sim/types sim/shapes sim/seeding sim/laws sim/dust sim/engine", "neve::sim"},
     {"sim/checks", "sim/base sim/types sim/shapes sim/rigid sim/seeding sim/laws sim/health sim"},
     {"render/image", "sim/base", "neve::render"},
     {"render/frame", "sim/base render/image", "neve::render"},
