@@ -343,7 +343,7 @@ Window::Window(const Options&) {
   refuse("built without GLFW", "libglfw3-dev and build again with NEVE_WINDOW=ON");
 }
 Window::~Window() = default;
-Context& Window::context() {
+gl::Context& Window::context() {
   refuse("built without GLFW", {});
 }
 int Window::width() const {

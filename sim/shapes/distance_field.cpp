@@ -15,6 +15,11 @@ constexpr double samples_around = 2;
 /// Limit for a lattice finer than half a cell: 8 MiB, a second.
 constexpr double max_refined = 128.0 * 128.0 * 128.0;
 
+/// Faces that are looked at for all points of a lattice, some ten seconds, where many are looked at
+/// for each. Faces of things are small or along an axis, or few; those of thousands of slabs askew
+/// are in each other's boxes.
+constexpr double max_looks = 5e7, max_overlap = 100;
+
 }  // namespace
 
 Eigen::Array3d sample_counts(const Bounds& bounds, double spacing) {
@@ -69,6 +74,13 @@ DistanceField::DistanceField(const MeshSurface& surface, const std::string& name
                      " x " + number_text(count[1]) + " x " + number_text(count[2]) +
                      " points; at most 256^3 are allowed. Make it smaller, split " +
                      "it into several colliders, or make solver.cell_size larger");
+  if (surface.overlap() > max_overlap && count.prod() * surface.overlap() > max_looks)
+    throw ShapeError(name +
+                     ": large faces of the mesh lie so close to each other that each of the " +
+                     number_text(count.prod(), 2) + " points of its distance field would look at " +
+                     number_text(surface.overlap(), 2) +
+                     " of them. Turn the mesh so that they lie along its axes, split it into "
+                     "several colliders, or make solver.cell_size larger");
   lattice_ = FieldLattice(bounds, spacing);
   values_.resize(lattice_.count());
   visit_samples(surface, lattice_, pool,

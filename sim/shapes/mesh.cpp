@@ -84,8 +84,10 @@ SolidMesh solid_mesh(const files::PolygonMesh& mesh, const std::string& name, Fi
   const double box = std::pow((b.max - b.min).maxCoeff(), 3);
   if (!std::isfinite(box) || !std::isfinite(enclosed_by_faces(solid)))
     throw ShapeError(name + ": the mesh is too large: its volume overflows. Scale it down");
+  if (!(box > 0))
+    throw ShapeError(name + ": the mesh is too small: its volume is rounded to 0. Scale it up");
   if (solid.inside == Inside::above_half)
-    measure_winding(solid);
+    measure_winding(solid, name);
   else
     read_parts(solid, part, edges.part_count);
   if (!(solid.volume > 1e-14 * box))

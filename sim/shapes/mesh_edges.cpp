@@ -173,22 +173,20 @@ int balance(std::span<const Edge> sides, const Turned& is_turned) {
 void number_parts(const std::vector<Edge>& edges, Patches& patches, MeshEdges& found) {
   const std::size_t count = found.is_turned.size();
   Patches parts(count);
-  std::vector<std::pair<std::uint32_t, int>> sums;  // of each patch at an edge
+  std::vector<std::pair<std::uint32_t, int>> sums;  // of patches at an edge
   each_edge(edges, [&](std::span<const Edge> sides) {
     if (sides.size() < 3) return;
     sums.clear();
-    for (const Edge& side : sides) {
-      const std::uint32_t patch = patches.root(side.polygon);
-      const int way = balance(std::span(&side, 1), found.is_turned);
-      const auto known = std::ranges::find(sums, patch, &std::pair<std::uint32_t, int>::first);
-      if (known == sums.end())
-        sums.emplace_back(patch, way);
-      else
-        known->second += way;
-    }
+    for (const Edge& side : sides)
+      sums.emplace_back(patches.root(side.polygon), balance(std::span(&side, 1), found.is_turned));
+    // Thousands of patches may meet at an edge.
+    std::sort(sums.begin(), sums.end());
     std::uint32_t first = 0;
     bool has_first = false;
-    for (const auto& [patch, sum] : sums) {
+    for (std::size_t k = 0; k < sums.size();) {
+      const std::uint32_t patch = sums[k].first;
+      int sum = 0;
+      for (; k < sums.size() && sums[k].first == patch; ++k) sum += sums[k].second;
       if (sum == 0) continue;
       if (has_first) parts.join(first, patch, false);
       first = patch;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <system_error>
 #include <unsupported/Eigen/BVH>
 
@@ -139,6 +140,26 @@ SolidMesh border_of(const SolidMesh& mesh, const Form& solid, const MeshLines* l
   return pieces;
 }
 
+/// Without those that are there again, whichever way they are wound: the first of two equally near
+/// triangles wins, and a search would look at all of them.
+std::vector<std::uint32_t> distinct(const std::vector<Triangle>& triangles) {
+  const auto key = [&](std::uint32_t t) {
+    Triangle corners = triangles[t];
+    std::sort(corners.begin(), corners.end());
+    return std::pair(corners, t);
+  };
+  std::vector<std::uint32_t> index(triangles.size());
+  std::iota(index.begin(), index.end(), 0u);
+  std::sort(index.begin(), index.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  const auto again = std::unique(index.begin(), index.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return key(a).first == key(b).first;
+  });
+  index.erase(again, index.end());
+  std::sort(index.begin(), index.end());
+  return index;
+}
+
 }  // namespace
 
 using Box3 = Eigen::AlignedBox<double, 3>;
@@ -178,13 +199,14 @@ MeshSurface::MeshSurface(SolidMesh mesh)
       lines_(dynamic_cast<const MeshLines*>(solid_.get())) {
   if (has_inner_faces(mesh_)) border_ = border_of(mesh_, *solid_, lines_, origin_);
   const SolidMesh& surface = origin_.empty() ? mesh_ : border_;
-  std::vector<std::uint32_t> index(surface.triangles.size());
+  const std::vector<std::uint32_t> index = distinct(surface.triangles);
   std::vector<Box3> boxes(index.size());
-  for (std::size_t t = 0; t < index.size(); ++t) {
-    index[t] = static_cast<std::uint32_t>(t);
-    for (const std::uint32_t corner : surface.triangles[t])
-      boxes[t].extend(surface.vertices[corner]);
-  }
+  for (std::size_t k = 0; k < index.size(); ++k)
+    for (const std::uint32_t corner : surface.triangles[index[k]])
+      boxes[k].extend(surface.vertices[corner]);
+  for (const Box3& box : boxes) overlap_ += box.volume();
+  const double whole = (bounds_.max - bounds_.min).prod();
+  overlap_ = whole > 0 ? overlap_ / whole : 0;
   auto tree = std::make_unique<Tree>();
   tree->boxes.init(index.begin(), index.end(), boxes.begin(), boxes.end());
   tree_ = std::move(tree);

@@ -22,6 +22,9 @@ class MeshSurface {
   const SolidMesh& mesh() const { return mesh_; }
   const Bounds& bounds() const { return bounds_; }  ///< tight
 
+  /// Boxes around faces that a place is in, on average: so many faces a search looks at, or more.
+  double overlap() const { return overlap_; }
+
   /// Exact, m; at most `most` if given: larger distances are `most`.
   double distance(const Vec3d& y, double most = INFINITY) const;
   /// As bodies are filled.
@@ -51,6 +54,7 @@ class MeshSurface {
 
   SolidMesh mesh_;
   Bounds bounds_;
+  double overlap_ = 0;
   std::unique_ptr<const Form> solid_;
   const MeshLines* lines_;             ///< solid_, if its inside is found along lines
   SolidMesh border_;                   ///< where not all faces are between inside and outside

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
+
+#include "sim/types/errors.h"
 
 namespace neve::sim::shapes {
 namespace {
@@ -81,7 +84,7 @@ void WindingNumber::sum_up(Node& node) const {
   }
 }
 
-double WindingNumber::at(const Vec3d& p) const {
+double WindingNumber::at(const Vec3d& p, std::size_t* looked) const {
   double sum = 0;
   std::array<std::uint32_t, 64> open;  // halves of halves: no deeper than the bits of a count
   std::size_t count = 0;
@@ -98,6 +101,7 @@ double WindingNumber::at(const Vec3d& p) const {
       open[count++] = node.children;
       open[count++] = node.children + 1;
     } else {
+      if (looked) *looked += node.end - node.first;
       for (std::uint32_t k = node.first; k < node.end; ++k) {
         const auto& [a, b, c] = triangles_[order_[k]];
         sum += winding_of(vertices_[a] - p, vertices_[b] - p, vertices_[c] - p);
@@ -108,8 +112,12 @@ double WindingNumber::at(const Vec3d& p) const {
 }
 
 /// Samples fill the bounds evenly, by the sequence R3 (see mesh_parts.cpp).
-void measure_winding(SolidMesh& mesh) {
+void measure_winding(SolidMesh& mesh, const std::string& name) {
   constexpr int count = 1 << 15;
+  // A second. Where faces all reach across the mesh none is far away, and each of the questions
+  // that a run asks would look at all of them.
+  constexpr std::size_t max_looked = 40'000'000;
+  std::size_t looked = 0;
   constexpr double golden = 1.22074408460575947536;
   const WindingNumber winding(mesh.vertices, mesh.triangles);
   const Bounds b = bounds_of(mesh);
@@ -118,7 +126,12 @@ void measure_winding(SolidMesh& mesh) {
     Vec3d u;
     double step = 1;
     for (double& x : u) x = std::fmod(0.5 + n * (step /= golden), 1);
-    const double w = winding.at(b.min + u.cwiseProduct(b.max - b.min));
+    const double w = winding.at(b.min + u.cwiseProduct(b.max - b.min), &looked);
+    if (looked > max_looked)
+      throw ShapeError(name +
+                       ": the mesh is open, and so many of its faces reach across it that it takes "
+                       "too long to say "
+                       "where its inside is; close its holes, or cut long faces into short ones");
     inside += w > 0.5;
     inside_out += w < -0.5;
     in_doubt += std::abs(w - 0.5) < 0.25;

@@ -21,7 +21,8 @@ class WindingNumber {
                 const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
   /// About p, to some 1e-3.
-  double at(const Vec3d& p) const;
+  /// @param looked  if given, more by the triangles that were looked at one by one
+  double at(const Vec3d& p, std::size_t* looked = nullptr) const;
 
  private:
   /// Triangles of a box, as they look from far away.
@@ -46,6 +47,8 @@ class WindingNumber {
 
 /// Sets the volume of a mesh with Inside::above_half, by samples to about 0.5 %, and the share of
 /// it that is in doubt; turns all faces where they are wound inward.
-void measure_winding(SolidMesh& mesh);
+/// @param name  only for errors
+/// @throws ShapeError where each question would look at thousands of triangles
+void measure_winding(SolidMesh& mesh, const std::string& name);
 
 }  // namespace neve::sim::shapes

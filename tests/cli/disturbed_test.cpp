@@ -12,9 +12,10 @@ TEST_P(DisturbedSample, AnAllocationThatFailsIsSaidAndTheSameCommandContinues) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, DisturbedSample,
-                         testing::ValuesIn(disturbed_commands({"view", "emit", "check",
-                                                               "scene_exports", "strip", "compare",
-                                                               "fork", "pick", "manual"})),
+                         testing::ValuesIn(disturbed_commands(
+                             {"view", "emit", "check", "scene_exports", "strip", "compare", "fork",
+                              "pick", "manual", "card", "replace", "dust", "dust_export", "promote",
+                              "refine", "pick_refine"})),
                          name_of);
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <regex>
 #include <sstream>
 
-#include "tests/cli/run_neve.h"
+#include "tests/support/faulty_cli.h"
 #include "tests/support/needs.h"
 #include "tests/support/python.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class New : public Cli {
+class New : public FaultyCli {
  protected:
   /// Every scene and sweep that neve ships.
   static std::vector<std::string> shipped() {
@@ -152,6 +152,55 @@ TEST_F(New, NothingIsOverwritten) {
   const auto schema = neve({"schema", "scenes"});
   EXPECT_EQ(schema.exit_code, 2);
   EXPECT_TRUE(contains(schema.errors, "did you mean scene?")) << schema.errors;
+}
+
+/// Of its two files the schema comes first: without the scene the same command makes the rest.
+TEST_F(New, OneThatFailsAnywhereIsRepeatedByTheSameCommand) {
+  ASSERT_EQ(neve({"new", "fresh"}).exit_code, 0);
+  const std::string scene = read_text(folder / "fresh.toml"),
+                    schema = read_text(folder / "scene.schema.json");
+  int failed = 0;
+  for (const char* operation : {"open", "write", "short", "fsync", "rename", "close", "truncate"})
+    for (int skip = 0; skip < 12; ++skip) {
+      fs::remove(folder / "fresh.toml");
+      fs::remove(folder / "scene.schema.json");
+      const std::string place = std::string(operation) + " " + std::to_string(skip);
+      const auto result =
+          failing(std::string(operation) + ":28:/:" + std::to_string(skip) + ":1", "new fresh");
+      failed += result.exit_code != 0;
+      EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 6) << place << result.errors;
+      if (result.exit_code == 0 || exists("fresh.toml")) {
+        EXPECT_EQ(read_text(folder / "fresh.toml"), scene) << place;
+      } else {
+        EXPECT_EQ(neve({"new", "fresh"}).exit_code, 0) << place;
+      }
+      EXPECT_EQ(read_text(folder / "scene.schema.json"), schema) << place;
+    }
+  EXPECT_GT(failed, 5);
+}
+
+TEST_F(New, OneThatIsInterruptedLeavesWholeFiles) {
+  ASSERT_EQ(neve({"new", "whole"}).exit_code, 0);
+  const std::string schema = read_text(folder / "scene.schema.json");
+  for (int k = 0; k < 20; ++k) {
+    fs::remove(folder / "fresh.toml");
+    fs::remove(folder / "scene.schema.json");
+    app::output::run_process("/bin/bash",
+                             {"-c",
+                              "timeout -s INT 0.0" + std::string(k < 10 ? "0" : "") +
+                                  std::to_string(k) + " \"$0\" new fresh",
+                              NEVE_BINARY},
+                             folder.path());
+    if (exists("scene.schema.json")) {
+      EXPECT_EQ(read_text(folder / "scene.schema.json"), schema) << k;
+    }
+    if (!exists("fresh.toml")) {
+      EXPECT_EQ(neve({"new", "fresh"}).exit_code, 0) << k;
+    }
+    EXPECT_TRUE(read_text(folder / "fresh.toml").starts_with("#:schema")) << k;
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+      EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path() << k;
+  }
 }
 
 }  // namespace

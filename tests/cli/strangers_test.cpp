@@ -68,6 +68,34 @@ TEST_F(Strangers, ClosedStandardStreamsAreNoFiles) {
   EXPECT_EQ(neve({"verify", "out/scene"}).exit_code, 0);
 }
 
+/// What was meant comes first: nothing listens yet that one could be warned of.
+TEST_F(Strangers, APortIsNoAddressAndNothingElseIsSaid) {
+  folder.write("clicks.txt", "1\n");
+  for (const char* command :
+       {"\"$0\" view scene.toml --listen 8000",
+        "\"$0\" pick scene.toml -p material.snow.hardening=5,7 --listen 8000"}) {
+    const auto result = shell(command);
+    EXPECT_EQ(result.exit_code, 2) << result.errors;
+    EXPECT_TRUE(contains(result.errors, "did you mean --listen 127.0.0.1:8000?")) << result.errors;
+    EXPECT_FALSE(contains(result.errors, "warning")) << result.errors;
+  }
+}
+
+/// Its author wrote them: so long a script is played, but not without a word.
+TEST_F(Strangers, ALongScriptSaysHowLongItTakes) {
+  std::string steps = "[";
+  for (int k = 0; k < 40'000; ++k) steps += "{\"move\": [5, 5]},\n";
+  folder.write("long.json", steps + "{\"quit\": true}]");
+  folder.write("waits.json", "[{\"wait\": 1000000}, {\"quit\": true}]");
+  folder.write("short.json", "[{\"wait\": 3}, {\"quit\": true}]");
+  const auto view = [&](const std::string& script) {
+    return shell("\"$0\" view scene.toml --size 320x200 --frames 5 --replay " + script).errors;
+  };
+  EXPECT_TRUE(contains(view("long.json"), "40001 steps take 28 s or more; Ctrl-C ends them"));
+  EXPECT_TRUE(contains(view("waits.json"), "2 steps take 4 h 37 min or more"));
+  EXPECT_FALSE(contains(view("short.json"), "steps take"));
+}
+
 /// Resumes from forged checkpoints, whose checksums are right.
 class ForgedCheckpoint : public Strangers {
  protected:

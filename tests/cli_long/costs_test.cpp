@@ -128,6 +128,61 @@ TEST_F(Costs, OfScenesGrowWithTheirLength) {
   });
 }
 
+/// What came after snow, floors and points.
+TEST_F(Costs, OfCurvesBodiesAndDustGrowWithTheirLength) {
+  const auto number = [](double x) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%g", x);
+    return std::string(digits);
+  };
+  const auto one_step = [](const std::string& file) {
+    return "render --frames 0 --quiet --no-movie --replace --out o " + file;
+  };
+  expect_flat("keyframes of a curve", [&](int times) {
+    return one_step(scene_with("[[curve]]\nparameter = \"material.snow.hardening\"\nkeyframes = [" +
+                               repeated(2000 * times,
+                                        [&](int k) {
+                                          return "{ time = " + number(1e-3 * k) +
+                                                 ", value = " + number(5 + k % 7) + " },\n";
+                                        }) +
+                               "]\n"));
+  });
+  expect_flat("curves", [&](int times) {
+    return one_step(scene_with(repeated(250 * times, [&](int k) {
+      return "[material.m" + number(k) + "]\nhardening = 7\n[[curve]]\nparameter = \"material.m" +
+             number(k) +
+             ".hardening\"\nkeyframes = [{ time = 0, value = 7 }, { time = 1, value = " + "9 }]\n";
+    })));
+  });
+  const auto bodies = [&](int count, const std::string& more) {
+    return scene_with(repeated(count, [&](int k) {
+      return "[[collider]]\ndensity = 300\nshape = { box = { center = [" + number(0.2 * (k % 60)) +
+             ", " + number(1 + 0.2 * (k / 60)) + ", 0], size = [0.05, 0.05, 0.05] } }\n" + more;
+    }));
+  };
+  expect_flat("bodies that snow moves", [&](int times) {
+    return "render --frames 1 --quiet --no-movie --replace --out o " + bodies(100 * times, "");
+  });
+  expect_flat("joints and springs", [&](int times) {
+    return "render --frames 1 --quiet --no-movie --replace --out o " +
+           bodies(100 * times,
+                  "joint = \"hinge\"\njoint_point = [0, 9, 0]\njoint_stiffness = 5\n"
+                  "spring_place = [0, 9, 0]\nspring_stiffness = 9\n");
+  });
+  expect_flat("exports of dust", [&](int times) {
+    return one_step(scene_with("[material.snow]\ndust = 0.02\n" + repeated(40 * times, [&](int k) {
+                                 return "[[export]]\ndust = true\nformat = \"ply\"\nname = \"e" +
+                                        number(k) + "\"\n";
+                               })));
+  });
+  expect_flat("steps of a script", [&](int times) {
+    folder.write("long.json", "[" + repeated(2000 * times, [](int) {
+                                return std::string("{\"move\": [5, 5]},\n");
+                              }) + "{\"quit\": true}]");
+    return std::string("view scene.toml --size 320x200 --frames 5 --replay long.json --out v");
+  });
+}
+
 TEST_F(Costs, OfMeshesAndSweepsGrowWithTheirLength) {
   const auto exact = [](double x) {
     char digits[32];

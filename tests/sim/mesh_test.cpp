@@ -338,6 +338,25 @@ TEST(Mesh, AnOpenMeshIsFilledByWindingNumbers) {
   EXPECT_TRUE(solid->contains(solid->inner_point()));
 }
 
+/// None of them is ever far away: each question about the inside would look at all.
+TEST(Mesh, AnOpenMeshWhoseFacesAllReachAcrossItIsRefused) {
+  std::string book = "v 0 0 -1\nv 0 0 1\n", faces;
+  constexpr int count = 20'000;
+  for (int k = 0; k < count; ++k) {
+    const double turn = 2 * std::numbers::pi * k / count;
+    book += "v " + std::to_string(std::cos(turn)) + " " + std::to_string(std::sin(turn)) + " 0\n";
+    faces += "f 1 2 " + std::to_string(3 + k) + "\n";
+  }
+  try {
+    closed(book + faces, Fill::automatic);
+    FAIL() << "is read";
+  } catch (const sim::ShapeError& error) {
+    EXPECT_NE(std::string(error.what()).find("so many of its faces reach across it"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Mesh, WindingNumbersOfAClosedMeshAreWhole) {
   const std::string text = torus(60, 30, 1.0, 0.4);
   const auto by_rays = solid(text);
@@ -358,6 +377,10 @@ TEST(Mesh, MeshesWithoutVolumeAreErrors) {
   expect_mesh_error(
       "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nv 0 0 1e200\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n",
       "too large");
+  expect_mesh_error(
+      "v 0 0 0\nv 1e-120 0 0\nv 0 1e-120 0\nv 0 0 1e-120\n"
+      "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n",
+      "too small");
 }
 
 TEST(Mesh, InnerPointOfAThinNeedleIsInside) {

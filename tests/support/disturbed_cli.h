@@ -54,6 +54,16 @@ class DisturbedCli : public FaultyCli, public testing::WithParamInterface<Distur
       shell("\"$0\" render scene.toml --out earlier --frames 0-3 --set seed=7");
     if (contains(words, "listed"))
       shell("\"$0\" export scene.toml --out listed --frames 0-3 --format vtp --set seed=7");
+    if (contains(words, "dusty")) {
+      folder.write("dusty.toml",
+                   scene() + std::string("[material.snow]\ndust = 0.1\n[dust]\nspeed = 0.5\n"
+                                         "strain_rate = 1\n[[export]]\nname = \"cloud\"\n"
+                                         "format = \"vdb\"\ndust = true\n"));
+    }
+    if (contains(words, "coarse_of"))
+      shell(
+          "\"$0\" sweep scene.toml -p seed=1,2 --frames 0-1 --coarsen 1.5 --out coarse_of --jobs "
+          "1");
     if (contains(words, "made"))
       shell("\"$0\" sweep scene.toml -p seed=1,2 --frames 0-1 --out made --jobs 1");
   }
@@ -237,6 +247,23 @@ inline std::vector<DisturbedCommand> disturbed_commands(const std::set<std::stri
        "--size 64x36 --out p",
        "p"},
       {"manual", "rm -rf m", "manual m", "m"},
+      {"card", "rm -rf card", "card scene.toml --set solver.cell_size=0.04 --out card/c.png",
+       "card"},
+      {"draw_run", "rm -rf out; cp -r half out",
+       "render out --view snow --size 64x36 --no-movie --frames 0-1", "out"},
+      {"replace", "rm -rf out; cp -r earlier out",
+       "render scene.toml --out out --frames 0-1 --no-movie --replace --states-budget 100kB",
+       "out"},
+      {"dust", "rm -rf out", "render dusty.toml --out out --frames 0-1 --no-movie", "out"},
+      {"dust_export", "rm -rf out", "export dusty.toml --frames 0-1 --format vdb,ply --out out",
+       "out"},
+      {"promote", "rm -f best.toml", "sweep promote made 0 --out best.toml", "best.toml"},
+      {"refine", "rm -rf s; cp -r coarse_of s",
+       "sweep scene.toml -p seed=1,2 --frames 0-1 --coarsen 1.5 --refine 1 --out s --jobs 1", "s"},
+      {"pick_refine", "rm -rf p",
+       "pick scene.toml -p material.snow.hardening=5,20 --clicks clicks.txt --frames 0-1 "
+       "--size 64x36 --coarsen 1.5 --refine --out p",
+       "p"},
       {"verify", "true", "verify half", ""},
       {"check", "true", "check scene.toml", ""}};
   std::erase_if(list,

@@ -6,6 +6,7 @@
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/support/json.h"
+#include "app/support/progress.h"
 #include "app/view/replay/replay_frontend.h"
 #include "app/view/web/web_guard.h"
 
@@ -33,8 +34,12 @@ Place open_replay(const PlaceOptions& options) {
   replay.folder = options.out.empty() ? "." : options.out;
   replay.frames = options.screen.pictures;
   if (options.size) replay.size = *options.size;
-  place.front = std::make_unique<view::replay::ReplayFrontend>(
-      view::replay::parse_replay(text, file), file, replay);
+  const auto steps = view::replay::parse_replay(text, file);
+  constexpr double long_while = 10;  // s
+  if (const double seconds = view::replay::least_seconds(steps); seconds > long_while)
+    std::cerr << "neve: " << file << ": " << steps.size() << " steps take "
+              << duration_text(seconds) << " or more; Ctrl-C ends them" << std::endl;
+  place.front = std::make_unique<view::replay::ReplayFrontend>(steps, file, replay);
   place.own_context = render::gl::open_context(options.backend);
   place.context = place.own_context.get();
   return place;
@@ -45,14 +50,15 @@ Place open_web(const PlaceOptions& options) {
   if (!options.screen.listen.empty()) {
     web.address = options.screen.listen;
     web.is_risk_taken = true;
-    if (const std::string risk = view::web::risk_of(web.address); !risk.empty())
-      std::cerr << "neve: warning: " << risk << std::endl;
   }
   web.port = options.screen.port;
   web.public_url = options.screen.public_url;
   if (options.size) web.size = *options.size;
   Place place;
+  // An address at which it cannot listen is an error and no risk.
   auto front = std::make_unique<view::web::WebFrontend>(web);
+  if (const std::string risk = view::web::risk_of(web.address); web.is_risk_taken && !risk.empty())
+    std::cerr << "neve: warning: " << risk << std::endl;
   place.web = front.get();
   place.front = std::move(front);
   place.own_context = render::gl::open_context(options.backend);

@@ -103,4 +103,20 @@ std::vector<ReplayStep> parse_replay(std::string_view text, const std::string& f
   return steps;
 }
 
+double least_seconds(const std::vector<ReplayStep>& steps) {
+  // Of small panels without a window; measured, see docs/reports/strangers.md.
+  constexpr double of_a_frame = 0.7e-3, of_waiting = 1.0 / 60;
+  double seconds = 0;
+  for (const ReplayStep& step : steps) {
+    if (step.kind == Step::quit) break;
+    seconds = std::max(seconds, of_waiting * step.at_frame);
+    const double drawn = step.kind == Step::drag
+                             ? step.steps * static_cast<double>(step.places.size() - 1)
+                             : step.times;
+    const bool waits = step.kind == Step::wait || step.kind == Step::key;
+    seconds += of_a_frame * drawn + (waits ? of_waiting * step.frames : 0);
+  }
+  return seconds;
+}
+
 }  // namespace neve::app::view::replay
