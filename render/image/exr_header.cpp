@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string_view>
+#include <utility>
 
 namespace neve::render {
 namespace {
@@ -37,7 +39,7 @@ std::string take_word(std::span<const std::uint8_t>& bytes) {
 double bytes_of_pixel(std::span<const std::uint8_t> channels) {
   constexpr std::size_t rest = 16;  // type, pLinear, sampling in x and y
   double bytes = 0;
-  while (!channels.empty() && !take_word(channels).empty()) {
+  while (!take_word(channels).empty()) {
     const std::uint32_t type = number_at(channels, 0);
     if (channels.size() < rest) fail("its list of channels has no end");
     if (number_at(channels, 8) != 1 || number_at(channels, 12) != 1)
@@ -47,6 +49,7 @@ double bytes_of_pixel(std::span<const std::uint8_t> channels) {
     constexpr std::uint32_t half = 1;
     bytes += type == half ? 2 : 4;
   }
+  if (!channels.empty()) fail("its list of channels ends before its attribute");
   return bytes;
 }
 
@@ -121,6 +124,24 @@ std::vector<ExrAttribute> take_attributes(std::span<const std::uint8_t>& rest) {
   return attributes;
 }
 
+/// The library reads as many bytes as a type has, whatever the file says: what follows would be
+/// read from another place than here. Source: OpenEXR File Layout, "Attribute types".
+void check_type_size(const ExrAttribute& attribute) {
+  static constexpr std::pair<std::string_view, std::size_t> sizes[] = {
+      {"box2f", 16},      {"box2i", 16},   {"chromaticities", 32},
+      {"compression", 1}, {"double", 8},   {"envmap", 1},
+      {"float", 4},       {"int", 4},      {"keycode", 28},
+      {"lineOrder", 1},   {"m33d", 72},    {"m33f", 36},
+      {"m44d", 128},      {"m44f", 64},    {"rational", 8},
+      {"tiledesc", 9},    {"timecode", 8}, {"v2d", 16},
+      {"v2f", 8},         {"v2i", 8},      {"v3d", 24},
+      {"v3f", 12},        {"v3i", 12}};
+  for (const auto& [type, size] : sizes)
+    if (attribute.type == type && attribute.bytes.size() != size)
+      fail("an attribute of the type " + attribute.type + " has " +
+           std::to_string(attribute.bytes.size()) + " bytes; expected " + std::to_string(size));
+}
+
 void check_attributes(const std::vector<ExrAttribute>& attributes, std::size_t packed,
                       double room) {
   Header header;
@@ -130,6 +151,7 @@ void check_attributes(const std::vector<ExrAttribute>& attributes, std::size_t p
     for (const char* other : {"preview", "stringvector", "floatvector", "deepImageState"})
       if (attribute.type == other)
         throw ImageError("an OpenEXR file with a " + attribute.type + ", which neve never writes");
+    check_type_size(attribute);
     header.add(attribute);
     names.push_back(attribute.name);
   }

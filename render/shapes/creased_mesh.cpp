@@ -11,6 +11,9 @@ namespace {
 constexpr float cos_crease = 0.766f;  // 40 degrees
 /// Meshes of at most so many triangles show all of their edges.
 constexpr std::size_t few = 600;
+/// A vertex of more triangles is the tip of a fan, or has the same ones again and again: each keeps
+/// its own normal there, and the time does not grow with the square of their number.
+constexpr std::size_t many = 1024;
 
 /// Twice the area long.
 Vec3f face_normal(const std::vector<Vec3f>& position, const std::uint32_t* corner) {
@@ -39,8 +42,10 @@ TriangleMesh creased_mesh(const std::vector<Vec3f>& position,
   for (std::size_t k = 0; k < index.size(); ++k) {
     const Vec3f own = normalized(normal[k / 3]);
     Vec3f sum;
-    for (const std::uint32_t t : around[index[k]])
-      if (dot(own, normalized(normal[t])) > cos_crease) sum = sum + normal[t];
+    const std::vector<std::uint32_t>& neighbours = around[index[k]];
+    if (neighbours.size() <= many)
+      for (const std::uint32_t t : neighbours)
+        if (dot(own, normalized(normal[t])) > cos_crease) sum = sum + normal[t];
     mesh.position.edit().push_back(position[index[k]]);
     mesh.normal.edit().push_back(length(sum) > 0 ? normalized(sum) : own);
     mesh.index.edit().push_back(static_cast<std::uint32_t>(k));

@@ -73,7 +73,7 @@ def runs(attacks):
     after("states of /dev/zero", lambda f: [(p.unlink(), p.symlink_to("/dev/zero")) for p in sorted((f / "run/states").rglob("*")) if p.is_file()], draw)
     after("100 000 files of states", lambda f: [(f / f"run/states/{k:06d}-x.ckpt").touch() for k in range(100_000)], draw)
     after("a run of -1 frames", edit(lambda r: r.update(frames=-1)), draw, "compare run run", "verify run")
-    after("a run of 100 000 frames", edit(lambda r: r.update(frames=r["frames"] * 50_000)), draw, "verify run")
+    after("a run of 10 000 frames", edit(lambda r: r.update(frames=r["frames"] * 5000)), draw, "verify run")
     after("a run without its scene", edit(lambda r: r.pop("scene")), draw, "export run --format csv", "strip run", "card run --out c.png")
     after("a run of another scene", edit(lambda r: r.update(scene="frames = 99999\n" + SCENE.replace("frames = 1", ""))), draw)
     after("a run of escapes", edit(lambda r: r.update(scene=ESCAPE, status=ESCAPE, version=ESCAPE)), draw, "info run")
@@ -124,7 +124,8 @@ def replays(attacks):
     def one(name, steps, **limits):
         attacks.run(name, {"s.toml": TINY, "r.json": steps if isinstance(steps, str) else json.dumps(steps)},
                     "view s.toml --replay r.json --out o --size 320x200 --quiet", **limits)
-    one("20 000 steps", [{"move": [k % 300, k % 200]} for k in range(20_000)] + [{"quit": True}])
+    one("20 000 steps", [{"move": [k % 300, k % 200]} for k in range(20_000)] + [{"quit": True}],
+        seconds=60)  # of its author, who is told
     one("a wait of 2 billion frames", [{"wait": 2_000_000_000}])
     one("a click of 2 billion times", [{"click": [5, 5], "times": 2_000_000_000}])
     one("a drag of 2 billion steps", [{"drag": [[5, 5], [9, 9]], "steps": 2_000_000_000}])

@@ -161,11 +161,11 @@ TEST_F(Costs, OfCurvesBodiesAndDustGrowWithTheirLength) {
     }));
   };
   expect_flat("bodies that snow moves", [&](int times) {
-    return "render --frames 1 --quiet --no-movie --replace --out o " + bodies(100 * times, "");
+    return "render --frames 1 --quiet --no-movie --replace --out o " + bodies(7 * times, "");
   });
   expect_flat("joints and springs", [&](int times) {
     return "render --frames 1 --quiet --no-movie --replace --out o " +
-           bodies(100 * times,
+           bodies(7 * times,
                   "joint = \"hinge\"\njoint_point = [0, 9, 0]\njoint_stiffness = 5\n"
                   "spring_place = [0, 9, 0]\nspring_stiffness = 9\n");
   });

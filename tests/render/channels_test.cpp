@@ -490,8 +490,16 @@ TEST(Exr, HeadersSayNoMoreThanTheirFileHolds) {
   constexpr double room = 1e8;
   EXPECT_NO_THROW(read_exr_text(with("ours", "box2i", {1, 2, 3, 4})));
   std::vector<std::uint8_t> tiled = with("tiles", "tiledesc", {1 << 15, 1 << 15, 0});
+  // Nine bytes, the last a byte alone.
+  constexpr std::size_t size_at = 8 + sizeof "tiles" + sizeof "tiledesc";
+  tiled[size_at] = 9;
+  tiled.erase(tiled.begin() + size_at + 4 + 9, tiled.begin() + size_at + 4 + 12);
   EXPECT_THROW(decode_exr(tiled, room), ImageSizeError);
   EXPECT_THROW(decode_exr(with("chunkCount", "int", {1u << 30}), room), ImageError);
+  // What the library would read from another place than the check.
+  EXPECT_NO_THROW(decode_exr(with("ours", "float", {1}), room));
+  EXPECT_THROW(decode_exr(with("ours", "float", {1, 2}), room), ImageError);
+  EXPECT_THROW(decode_exr(with("ours", "m44f", {1, 2}), room), ImageError);
   EXPECT_THROW(decode_exr(with("ours", "stringvector", {1u << 30}), room), ImageError);
   EXPECT_THROW(decode_exr(with("dataWindow", "box2i", {0, 0, 3, 3}), room), ImageError) << "twice";
 }

@@ -36,7 +36,7 @@ Place open_replay(const PlaceOptions& options) {
   if (options.size) replay.size = *options.size;
   const auto steps = view::replay::parse_replay(text, file);
   constexpr double long_while = 10;  // s
-  if (const double seconds = view::replay::least_seconds(steps); seconds > long_while)
+  if (const double seconds = view::replay::min_seconds(steps); seconds > long_while)
     std::cerr << "neve: " << file << ": " << steps.size() << " steps take "
               << duration_text(seconds) << " or more; Ctrl-C ends them" << std::endl;
   place.front = std::make_unique<view::replay::ReplayFrontend>(steps, file, replay);

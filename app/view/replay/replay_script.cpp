@@ -103,7 +103,7 @@ std::vector<ReplayStep> parse_replay(std::string_view text, const std::string& f
   return steps;
 }
 
-double least_seconds(const std::vector<ReplayStep>& steps) {
+double min_seconds(const std::vector<ReplayStep>& steps) {
   // Of small panels without a window; measured, see docs/reports/strangers.md.
   constexpr double of_a_frame = 0.7e-3, of_waiting = 1.0 / 60;
   double seconds = 0;

@@ -70,9 +70,9 @@ std::optional<ReplayGoal> parse_goal(const std::string& text);
 /// @throws SceneError with line and column
 std::vector<ReplayStep> parse_replay(std::string_view text, const std::string& file);
 
-/// Real time that a script takes at least, s: a frame of the panels for each step, 60 a second where
-/// it waits for them. How long it waits for the simulation is not known.
-double least_seconds(const std::vector<ReplayStep>& steps);
+/// Real time that a script takes at least, s: a frame of the panels for each step, 60 a second
+/// where it waits for them. How long it waits for the simulation is not known.
+double min_seconds(const std::vector<ReplayStep>& steps);
 
 /// As parse_replay reads it, one step a line; defaults are left out.
 std::string replay_text(const std::vector<ReplayStep>& steps);
