@@ -15,6 +15,7 @@ docs/python.md has recipes.
 
 import base64
 import csv
+import difflib
 import html
 import json
 import os
@@ -24,6 +25,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import warnings
 import zlib
 
 import numpy as np
@@ -66,6 +68,9 @@ def call(*arguments, results=(0,)):
     except ValueError:
         answer = {}
     if done.returncode in results:
+        for line in done.stderr.splitlines():
+            if line.startswith("neve: warning: "):
+                warnings.warn(line.removeprefix("neve: warning: "), stacklevel=3)
         return answer
     lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
     error = answer if isinstance(answer, dict) else {}
@@ -75,6 +80,8 @@ def call(*arguments, results=(0,)):
 
 def _literal(value):
     """A value as --set takes it."""
+    if value is None:
+        return "none"
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, np.generic):
@@ -84,9 +91,38 @@ def _literal(value):
     return repr(value) if isinstance(value, (int, float)) else str(value)
 
 
+def _settings(table, start=""):
+    """Addresses and values of a table, also of tables in it: {"solver": {"cfl": 0.2}} is
+    {"solver.cfl": 0.2}."""
+    for key, value in table.items():
+        if isinstance(value, dict):
+            yield from _settings(value, f"{start}{key}.")
+        else:
+            yield f"{start}{key}", value
+
+
+def _refuse(function, others):
+    """Words that are flags of the program, or parameters of a scene."""
+    for name, value in others.items():
+        raise TypeError(
+            f"{function}() has no argument {name!r}; a parameter goes into set, as in "
+            f'set={{"material.snow.hardening": 5}}, and a flag of the program into flags, as in '
+            f"flags=(\"--{name.replace('_', '-')}\",)")
+
+
+def _scene(scene):
+    if not isinstance(scene, (str, os.PathLike)):
+        raise TypeError(f"a scene is a TOML file, the folder of a run or a picture, not a "
+                        f"{type(scene).__name__}; set changes its parameters")
+    return scene
+
+
 def _scene_flags(set, coarsen, threads):
-    flags = [word for address, value in (set or {}).items()
-             for word in ("--set", f"{address}={_literal(value)}")]
+    if isinstance(set, str):
+        set = [set]
+    settings = [f"{address}={_literal(value)}" for address, value in _settings(set)] \
+        if isinstance(set, dict) else [str(text) for text in set or ()]
+    flags = [word for text in settings for word in ("--set", text)]
     if coarsen is not None:
         flags += ["--coarsen", coarsen]
     if threads is not None:
@@ -260,6 +296,8 @@ class Run:
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
+        if (self.folder / "data.csv").is_file() and not (self.folder / "run.json").is_file():
+            raise ValueError(f"{self.folder} is the folder of a sweep: neve.Sweep({str(folder)!r})")
         with open(self.folder / "run.json", encoding="utf-8") as file:
             self.json = json.load(file)
 
@@ -341,11 +379,13 @@ class Run:
             return states["npz"][0]
 
 
-def render(scene, out=None, set=None, frames=None, coarsen=None, threads=None, flags=()):
+def render(scene, out=None, set=None, frames=None, coarsen=None, threads=None, flags=(), **others):
     """Simulates and draws a scene. `set` has parameters by address, as in
-    {"material.snow.hardening": 5}; `flags` are passed on as they are. A run that diverges is
-    returned, with the status "diverged"."""
-    words = ["render", scene, *_scene_flags(set, coarsen, threads), *flags]
+    {"material.snow.hardening": 5}, as tables in tables, or as texts of --set; None removes an
+    object. `flags` are passed on as they are. A run that diverges is returned, with the status
+    "diverged". What the program warns of is a warning."""
+    _refuse("render", others)
+    words = ["render", _scene(scene), *_scene_flags(set, coarsen, threads), *flags]
     folder = pathlib.Path(out) if out else pathlib.Path("out") / pathlib.Path(scene).stem
     words += ["--out", folder]
     if frames is not None:
@@ -387,6 +427,11 @@ class Sweep:
 
     def __getitem__(self, column):
         """A column: numbers where all of it is, else text; "-" is not a number."""
+        if column not in self.table:
+            near = difflib.get_close_matches(str(column), self.columns, 1)
+            raise KeyError(f"there is no column {column!r}; " +
+                           (f"did you mean {near[0]!r}?" if near else
+                            f"expected one of {', '.join(self.columns)}"))
         return self.table[column]
 
     def _repr_png_(self):

@@ -82,6 +82,7 @@ std::string vector_advice(const scene::toml::Value& value, const std::string& ad
   const bool is_gravity = address == "solver.gravity";
   if (numbers.size() == 1 && (is_gravity || address.ends_with("velocity")))
     numbers = {0, is_gravity ? -std::abs(numbers[0]) : numbers[0], 0};
+  if (numbers.size() == 1 && address.ends_with(".size")) numbers.resize(3, numbers[0]);
   if (numbers.size() != 3) return {};
   return "write [" + scene::toml::number_text(numbers[0]) + ", " +
          scene::toml::number_text(numbers[1]) + ", " + scene::toml::number_text(numbers[2]) + "]";

@@ -7,6 +7,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/report_error.h"
+#include "app/dump/histogram.h"
 #include "app/dump/quantities.h"
 #include "app/dump/write.h"
 #include "app/health/expected.h"
@@ -118,6 +119,7 @@ Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
   for (const record::ColliderForce& force : dump::forces_in_step(inside))
     json["forces"].push_back(record::to_json(force));
   json["quantities"] = dump::summary_json(listing);
+  if (options.is_histogram) json["histograms"] = dump::histograms_json(listing);
   json["probes"] = Json::array();
   for (const std::size_t row : probed) json["probes"].push_back(dump::probe_json(listing, row));
   return json;
@@ -128,9 +130,16 @@ std::string dump_text(const run::RenderJob& job, const dump::DumpOptions& option
                       const dump::StepInspection& inside, const dump::Listing& listing,
                       const std::vector<std::size_t>& probed) {
   const std::vector<std::string> head = heading(job, options, inside, listing);
+  std::string text;
+  for (const std::string& line : head) text += line + "\n";
+  if (options.is_histogram) {
+    for (const dump::Histogram& histogram : dump::histograms_of(listing)) {
+      text += "\n";
+      for (const std::string& line : dump::histogram_lines(histogram)) text += line + "\n";
+    }
+    return text;
+  }
   if (!probed.empty()) {
-    std::string text;
-    for (const std::string& line : head) text += line + "\n";
     for (const std::size_t row : probed) {
       text += "\n";
       for (const std::string& line : dump::probe_lines(listing, row)) text += line + "\n";
@@ -195,6 +204,12 @@ class DumpOutput {
 };
 
 void check_dump_output(const dump::DumpOptions& options) {
+  if (options.is_histogram && !options.probes.empty())
+    throw UsageError("--histogram", "is of all nodes or particles, --probe of one",
+                     "give one of the two");
+  if (options.is_histogram && options.format == dump::DumpFormat::vtk)
+    throw UsageError("--histogram", "is text, --format vtk is points",
+                     "remove --format, or add --json for numbers");
   if (options.format != dump::DumpFormat::vtk || !options.file.empty()) return;
   if (options.at.size() > 1)
     throw UsageError("--format", "vtk has one time in a file",

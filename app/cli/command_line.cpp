@@ -19,6 +19,7 @@
 #include "app/support/json.h"
 #include "app/support/printable_stream.h"
 #include "app/support/version.h"
+#include "app/sweep/sheet/star.h"
 #include "app/sweep/store/promote.h"
 #include "sim/kernels/simd.h"
 
@@ -171,7 +172,8 @@ Entry program() {
           sweep::plan::describe, run_sweep,
           {entry<sweep::plan::SweepRunOptions>(sweep::plan::describe, run_sweep_run),
            entry<sweep::plan::CollectOptions>(sweep::plan::describe, run_sweep_collect),
-           entry<sweep::store::PromoteOptions>(sweep::store::describe, sweep::store::run_promote)}),
+           entry<sweep::store::PromoteOptions>(sweep::store::describe, sweep::store::run_promote),
+           entry<sweep::sheet::StarOptions>(sweep::sheet::describe, sweep::sheet::run_star)}),
       entry(describe_pick, run_pick),
       entry(describe_view, run_view),
       bench_entry(),

@@ -195,6 +195,14 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
                                     rough_text(job.shutter)),
                         fmt::format("a share of the frame is 360 times as many degrees: {}",
                                     rough_text(360 * job.shutter))});
+  for (const scene::View& view : job.scene.views)
+    if (!job.passes.empty() && !scene::shows_particles(view) &&
+        scene::has_layer(view, scene::Layer::smoke))
+      findings.push_back({health::Severity::warning, "--passes",
+                          fmt::format("the snow of the view {} is smoke, which no pass has: depth "
+                                      "and id are those of colliders",
+                                      view.name),
+                          "add --view snow or --view particles"});
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
     if (finding.severity == health::Severity::note)

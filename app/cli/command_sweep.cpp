@@ -65,6 +65,23 @@ sweep::store::Retry retry_of(const std::string& states) {
   return states.empty() ? sweep::store::Retry{} : sweep::store::parse_retry(states);
 }
 
+/// The table, the sheet and the report are those of the runs that are wanted now.
+void note_left_out(const std::filesystem::path& folder, const sweep::store::Manifest& manifest,
+                   Progress& progress) {
+  std::set<std::string> wanted;
+  for (const sweep::Run& run : manifest.runs) wanted.insert(run.folder);
+  for (const sweep::store::Variant& variant : manifest.variants) wanted.insert(variant.run.folder);
+  const auto known = sweep::store::known_runs(folder);
+  const auto left = std::count_if(known.begin(), known.end(), [&](const auto& run) {
+    return run.is_finished && !wanted.contains(run.folder);
+  });
+  if (left > 0)
+    progress.note(fmt::format(
+        "{} finished {} of before {} other settings or another scene: out of "
+        "the table and the sheet, still in {}",
+        left, left == 1 ? "run" : "runs", left == 1 ? "has" : "have", (folder / "runs").string()));
+}
+
 /// One command a line, each makes one run that is not finished.
 void emit_commands(const sweep::plan::SweepOptions& options, const std::filesystem::path& folder,
                    const sweep::store::Manifest& manifest, Progress& progress) {
@@ -441,6 +458,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   sweep::store::Redrawn redrawn;
   sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan, &redrawn);
   note_redrawn(redrawn, plan, progress);
+  note_left_out(plan.folder, manifest, progress);
   const double foreseen_seconds = foresee_runs(options, plan, cores, manifest, progress);
   if (plan.source) sweep::jobs::take_beginning(plan, *manifest.beginning, cores, progress);
   if (!options.emit.empty()) {

@@ -35,7 +35,8 @@ struct SurfaceFlags {
     std::string flag = std::string("--") + key;
     std::replace(flag.begin(), flag.end(), '_', '-');
     help.pop_back();  // flags have no full stop
-    const std::string expected = valid.text_of_bounds();
+    std::string expected = valid.text_of_bounds();
+    if (std::string_view(key) == "surface_cell") expected += " in particle spacings, not metres";
     [[maybe_unused]] const auto add = [&](const auto& language) {
       visit(flag.c_str(), member, language, help)
           .with_default()
@@ -150,6 +151,8 @@ void describe_dump(Command& visit, dump::DumpOptions& o) {
   visit("--probe", o.probes,
         options::language("ID|X,Y,Z", "0,0.5,0", dump::parse_probe, dump::probe_text),
         "Print only one particle, or the one nearest to a place in metres (repeatable)");
+  visit("--histogram", o.is_histogram,
+        "Print how the magnitudes of each quantity are spread, as bars, instead of all rows");
   visit("--format", o.format,
         options::language("NAME", "vtk", dump::parse_format, dump::format_name),
         "table (tabs), or vtk for ParaView")

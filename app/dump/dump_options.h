@@ -25,6 +25,7 @@ struct DumpOptions {
   std::vector<std::string> fields;  ///< empty: all
   std::vector<Probe> probes;
   DumpFormat format = DumpFormat::table;
+  bool is_histogram = false;  ///< spreads of the quantities, no rows
   std::string file;  ///< empty: standard output; of several times each has its number in the name
 };
 

@@ -29,6 +29,11 @@ struct Quantity {
   bool is_outside_expected(std::size_t row) const;
 };
 
+/// Names of particles and nodes, not measures.
+inline bool is_index(const Quantity& quantity) {
+  return quantity.name == "id" || quantity.name == "node";
+}
+
 /// "v_x v_y v_z", "F_E_xx F_E_xy ..."
 std::string component_name(const Quantity& quantity, int component);
 

@@ -18,11 +18,6 @@ std::string digits(double value) {
   return text;
 }
 
-/// Names of particles and nodes, not measures.
-bool is_index(const Quantity& q) {
-  return q.name == "id" || q.name == "node";
-}
-
 std::string value_text(const Quantity& q, double value) {
   return is_index(q) ? fixed_text(value, 0) : rough_text(value);
 }

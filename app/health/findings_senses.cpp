@@ -49,7 +49,8 @@ void check_unit_of_spin(const std::string& address, const Vec3d& spin,
   constexpr double step = 45;
   const double fastest = spin.cwiseAbs().maxCoeff();
   if (fastest < step || std::fmod(fastest, step) != 0) return;
-  findings.push_back({Severity::note, address + ".angular_velocity",
+  // 14 turns a second and more are no spin that snow bears.
+  findings.push_back({fastest < 2 * step ? Severity::note : Severity::warning, address + ".angular_velocity",
                       fmt::format("{} rad/s are {} turns a second", number_text(fastest),
                                   rough_text(fastest / (2 * std::numbers::pi))),
                       fmt::format("{} degrees a second are {}", number_text(fastest),
@@ -88,10 +89,10 @@ void check_camera_angles(const std::string& address, const scene::CameraSettings
         {Severity::warning, address + ".orbit",
          fmt::format("an orbit of {} degrees is hardly seen", number_text(*camera.orbit)),
          "it is in degrees over the whole scene; a turn is 360"});
-  constexpr double wide = 100;
+  constexpr double wide = 100, absurd = 140;
   if (camera.fov > wide)
     findings.push_back(
-        {Severity::note, address + ".fov",
+        {camera.fov < absurd ? Severity::note : Severity::warning, address + ".fov",
          fmt::format("a view of {} degrees bends what is near its edges", number_text(camera.fov)),
          "30 is usual; a lens of 35 mm has 38"});
 }

@@ -103,8 +103,8 @@ bool asks_for_slice(const scene::SliceStyle& s) {
   const scene::SliceStyle usual;
   return s.field != usual.field || s.scalar != usual.scalar || s.normal != usual.normal ||
          s.point || !s.follow.empty() || s.motion != usual.motion || s.every != usual.every ||
-         s.arrow_scale != usual.arrow_scale || s.isolines != usual.isolines || s.range ||
-         s.scalar_range || s.colormap != usual.colormap ||
+         s.dense_near || s.arrow_scale != usual.arrow_scale || s.isolines != usual.isolines ||
+         s.range || s.scalar_range || s.colormap != usual.colormap ||
          s.scalar_colormap != usual.scalar_colormap;
 }
 
@@ -116,6 +116,57 @@ void check_slices(const scene::Scene& scene, std::vector<Finding>& findings) {
            fmt::format("no layer of view {} shows a slice", view.name),
            fmt::format("add \"arrows\", \"streamlines\" or \"heatmap\" to view.{}.layers",
                        view.name)});
+}
+
+/// Views of nothing: layers without snow, and cuts and slices that lie beside it from beginning to
+/// end.
+void check_snow_in_views(const scene::Scene& scene, std::vector<Finding>& findings) {
+  using scene::Layer;
+  if (scene.bodies.empty() || !scene.emitters.empty()) return;
+  sim::shapes::Bounds all = sim::shapes::bounds(scene.bodies.front().shape);
+  for (const sim::seeding::Body& body : scene.bodies) {
+    const sim::shapes::Bounds bounds = sim::shapes::bounds(body.shape);
+    all.min = all.min.cwiseMin(bounds.min);
+    all.max = all.max.cwiseMax(bounds.max);
+  }
+  // Snow that falls or flies across a plane may come to it.
+  const auto stays = [&](const sim::Vec3d& normal) {
+    double across = std::abs(scene.solver.gravity.dot(normal));
+    for (const sim::seeding::Body& body : scene.bodies)
+      across += std::abs(body.velocity.dot(normal));
+    return across < 1e-9;
+  };
+  // Distances from a plane to the nearest and the farthest corner, along its normal.
+  const auto ends = [&](const sim::Vec3d& point, const sim::Vec3d& normal) {
+    const sim::Vec3d middle = 0.5 * (all.min + all.max), half = 0.5 * (all.max - all.min);
+    const double away = (middle - point).dot(normal), reach = half.dot(normal.cwiseAbs());
+    return std::pair(away - reach, away + reach);
+  };
+  constexpr double sizes_away = 1;  // of the snow, which spreads
+  const double room = sizes_away * (all.max - all.min).norm();
+  for (const scene::View& view : scene.views) {
+    const auto add = [&](const std::string& part, const std::string& what, const char* advice) {
+      findings.push_back({Severity::warning, "view." + view.name + part, what, advice});
+    };
+    const bool has_snow =
+        scene::shows_particles(view) || scene::shows_slice(view) ||
+        scene::has_layer(view, Layer::smoke) || scene::has_layer(view, Layer::dust) ||
+        scene::has_layer(view, Layer::blocks) || scene::has_layer(view, Layer::bounds);
+    if (!has_snow) {
+      add(".layers", fmt::format("no layer of view {} shows snow", view.name),
+          "add \"snow\", \"particles\" or \"smoke\"");
+      continue;
+    }
+    const scene::SliceStyle& slice = view.slice;
+    const sim::Vec3d across = slice.normal.normalized();
+    if (scene::shows_slice(view) && slice.point && slice.follow.empty() &&
+        slice.motion.dot(across) == 0 && stays(across)) {
+      const auto [low, high] = ends(*slice.point, across);
+      if (low > room || high < -room)
+        add(".slice.point", fmt::format("the slice of view {} lies beside the snow", view.name),
+            "remove it: without a point the slice goes through the middle of the bodies");
+    }
+  }
 }
 
 /// Settings that the transfer of a scene does not read.
@@ -150,6 +201,7 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
   check_keyframes(scene, findings);
   check_curves(scene, findings);
   check_slices(scene, findings);
+  check_snow_in_views(scene, findings);
   const double usual_dt = sim::SolverSettings{}.dt * coarsening, dt = scene.solver.dt;
   if (scene.solver.time_step == sim::TimeStep::adaptive &&
       !(dt > 0.999 * usual_dt && dt < 1.001 * usual_dt))

@@ -15,4 +15,8 @@ inline constexpr int max_moments = 32;
 std::vector<render::Frame> shutter_moments(const MotionSource& source, const render::Frame& frame,
                                            double degrees);
 
+/// The same moments for their mean: where there are many, each has one sample of a pixel instead of
+/// four, and together they have them all over the pixel.
+std::vector<render::Frame> with_shared_samples(std::vector<render::Frame> moments);
+
 }  // namespace neve::app::picture

@@ -97,7 +97,10 @@ void add_slice(const scene::Scene& scene, const scene::View& view, const Snapsho
   if (scene::has_layer(view, scene::Layer::streamlines)) add_streamlines(slice, frame);
   if (scene::has_layer(view, scene::Layer::arrows)) {
     const int every = add_arrows(slice, frame);
-    if (every > 1) frame.footnote += ", one arrow per " + std::to_string(every) + " nodes";
+    if (every > 1) {
+      frame.footnote += ", one arrow per " + std::to_string(every) + " nodes";
+      if (view.slice.dense_near) frame.footnote += ", all of them near the chosen point";
+    }
     const scene::Range range = view.slice.range.value_or(scene::Range{});
     frame.footnote +=
         ", longest arrow " + longest_text(view, range.max) + " " +

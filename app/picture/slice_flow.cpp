@@ -21,6 +21,8 @@ constexpr double min_arrow_distance = 18, min_line_distance = 8;
 constexpr double arrow_reach = 0.95;
 /// Arrows below this share of the longest are dots that say nothing; lines there are noise.
 constexpr float min_shown = 0.02f;
+/// Cells around a point in which each node has an arrow.
+constexpr double dense_cells = 4;
 /// Where most nodes around a place have no mass, the grid has no velocity.
 constexpr float min_cover = 0.5f;
 
@@ -104,10 +106,10 @@ class FlowLines {
   render::Lines lines_;
 };
 
-}  // namespace
-
-int add_arrows(const SliceMoment& slice, render::Frame& frame) {
-  const int every = nodes_between_arrows(slice);
+/// Arrows at those nodes, so many apart, whose places are wanted and whose values are greater.
+template <class IsWanted>
+render::Arrows arrows_at(const SliceMoment& slice, int every, float least,
+                         const IsWanted& is_wanted) {
   const scene::SliceStyle& style = slice.view.slice;
   const double step = every * slice.cell();
   const scene::Range range = style.range.value_or(scene::Range{});
@@ -125,14 +127,35 @@ int add_arrows(const SliceMoment& slice, render::Frame& frame) {
   for (double j = std::ceil(r.bottom / step); j * step <= r.top; ++j)
     for (double i = std::ceil(r.left / step); i * step <= r.right; ++i) {
       const Vec3d x = point_on(slice.plane, i * step, j * step);
+      if (!is_wanted(x)) continue;
       const auto stencil = sampler.at(x);
       if (!stencil || stencil->cover < min_cover) continue;
       const Vec3f value = FieldSampler::mean(*stencil, values);
-      if (!(length(value) > min_shown * largest)) continue;
+      if (!(length(value) > least)) continue;
       arrows.position.edit().push_back(to_float(x));
       arrows.vector.edit().push_back(value);
     }
-  frame.arrows.push_back(std::move(arrows));
+  return arrows;
+}
+
+}  // namespace
+
+int add_arrows(const SliceMoment& slice, render::Frame& frame) {
+  const scene::SliceStyle& style = slice.view.slice;
+  const int every = nodes_between_arrows(slice);
+  // Seen from the front of the plane, which may be behind the point.
+  const auto is_dense = [&](const Vec3d& x) {
+    if (every == 1 || !style.dense_near) return false;
+    const Vec3d from = x - *style.dense_near;
+    return (from - from.dot(slice.plane.normal) * slice.plane.normal).norm() <
+           dense_cells * slice.cell();
+  };
+  const auto largest = static_cast<float>(style.range.value_or(scene::Range{}).max);
+  frame.arrows.push_back(
+      arrows_at(slice, every, min_shown * largest, [&](const Vec3d& x) { return !is_dense(x); }));
+  // Where single nodes are looked at, small arrows count, too.
+  render::Arrows dense = arrows_at(slice, 1, 0, is_dense);
+  if (dense.position.size() > 0) frame.arrows.push_back(std::move(dense));
   return every;
 }
 

@@ -20,6 +20,7 @@ struct SliceMoment {
 
 void add_heat_map(const SliceMoment& slice, render::Frame& frame);
 
+/// Where the view asks for it, nodes near a point have an arrow each.
 /// @return nodes from arrow to arrow
 int add_arrows(const SliceMoment& slice, render::Frame& frame);
 

@@ -121,7 +121,7 @@ render::Image Drawing::draw_mean(const render::Frame& frame,
   };
   if (moments.empty()) return draw(frame);
   render::MeanImage mean;
-  for (const render::Frame& moment : moments) mean.add(draw(moment));
+  for (const render::Frame& moment : picture::with_shared_samples(moments)) mean.add(draw(moment));
   return mean.mean();
 }
 

@@ -150,6 +150,11 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   const output::FolderLock lock(job.lock_folder, "neve export");
   RenderJob run = job.run;
   place_camera(run.scene);
+  for (const scene::Export& e : run.scene.exports)
+    if (e.format == scene::ExportFormat::vdb && e.attributes != scene::Export{}.attributes)
+      progress.warning(
+          "vdb has mass, density and velocity of the nodes of the grid, and none of the attributes "
+          "of particles that are asked for; another format has them, as in --format vdb,npz");
   const double last = job.times.back();
   timeline::warn_of_late_time(
       job.are_frames ? "frame " + std::to_string(scene::number_of(run.scene, job.run.frames.last))

@@ -84,6 +84,21 @@ render::Image rgb_of(const std::vector<std::uint8_t>& bytes, const std::filesyst
   });
 }
 
+/// The first of the numbered plates, where the shot begins with another number.
+std::string advice_on_missing(const RenderJob& job, const std::filesystem::path& file) {
+  const std::string usual = "a plate is a picture, or one for each frame, as in street/%04d.png";
+  int first = -1;
+  constexpr int highest = 9999;
+  std::error_code error;
+  for (int number = 0; number <= highest && first < 0; ++number)
+    if (const std::filesystem::path other = plate_path(job.plate, number);
+        other != file && std::filesystem::exists(other, error))
+      first = number;
+  if (first < 0) return usual;
+  return fmt::format("the plates begin with {}: --set first_frame={}",
+                     plate_path(job.plate, first).string(), first);
+}
+
 }  // namespace
 
 std::filesystem::path plate_path(const std::string& pattern, int frame) {
@@ -101,12 +116,17 @@ render::Image read_plate(const RenderJob& job, int frame, const std::string& vie
   const std::filesystem::path file = plate_path(job.plate, frame);
   if (job.picture && job.options.plate.empty())
     record::require_listed(*job.picture, file.string(), job.scene_file);
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    throw UsageError("--plate", file.string() + " is not there", advice_on_missing(job, file));
   const render::Image image = rgb_of(output::read_file(file), file);
   if (image.width != size.width || image.height != size.height)
-    throw Error(exit_invalid_scene,
-                fmt::format("{}: error: the plate is {}x{} and the view {} is {}x{}", file.string(),
-                            image.width, image.height, view, size.width, size.height),
-                file.string(), fmt::format("draw with --size {}x{}", image.width, image.height));
+    throw Error(
+        exit_invalid_scene,
+        fmt::format("{0}: error: the plate is {1}x{2} and the view {3} is {4}x{5}; draw with "
+                    "--size {1}x{2}",
+                    file.string(), image.width, image.height, view, size.width, size.height),
+        file.string(), fmt::format("draw with --size {}x{}", image.width, image.height));
   return image;
 }
 

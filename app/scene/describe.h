@@ -635,6 +635,8 @@ void describe(V& visit, SliceStyle& s) {
   visit("motion", s.motion, unit::velocity, speed, live, "Velocity of the plane.");
   visit("every", s.every, unit::none, between(0, 1000), live,
         "Nodes from one arrow to the next; 0: as close as readable.");
+  visit("dense_near", s.dense_near, unit::metre, position, live,
+        "Point within four cells of which every node has an arrow, a short one.");
   visit("arrow_scale", s.arrow_scale, unit::none, above(0).at_most(1000), live,
         "Factor on the length of arrows; at 1, the longest is 1.6 times their distance.");
   visit("isolines", s.isolines, unit::none, between(0, 100), live,

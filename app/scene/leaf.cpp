@@ -288,6 +288,7 @@ namespace {
 
 /// What a choice is called in the table of words.
 std::string context_of(const std::string& address) {
+  if (address.ends_with("colormap")) return "colormap";
   if (!address.starts_with("export.")) return address;
   return address.ends_with(".format")                        ? "format of an export"
          : address.find(".attributes[") != std::string::npos ? "attribute"

@@ -98,6 +98,8 @@ std::string Reader::advice(const std::string& key, const std::vector<std::string
   if (contains(known, "shape") && contains(forms_of(kind), key))
     return "write shape = { " + key + " = { ... } }";
   if (contains(known, "shape") && key == "plane") return "only colliders can be planes";
+  if (address_.ends_with(".box"))
+    if (const advice::Entry* meant = advice::entry_of("key of a box", key)) return meant->sentence;
   if (const std::string shape = shape_with(kind, key); contains(known, "shape") && !shape.empty())
     return "it belongs in the shape: shape = { " + shape + " = { ..., " + key + " = ... } }";
   if (std::string question = advice::suggest(key, keys); !question.empty()) return question;
@@ -134,8 +136,12 @@ const toml::Table& Reader::table_of(const toml::Value& value, const std::string&
     const Valid any;
     const auto* text = std::get_if<std::string>(&value.data);
     const bool is_of_file = address.ends_with(".mesh") || address.ends_with(".points");
+    const advice::Entry* example =
+        advice::entry_of("value that is no table", address.substr(address.rfind('.') + 1));
     Leaf{reading_.source, value, address, "", any}.fail(
-        "a table", text && is_of_file ? "write { file = " + toml::toml_string(*text) + " }" : "");
+        "a table", text && is_of_file ? "write { file = " + toml::toml_string(*text) + " }"
+                   : example          ? example->sentence
+                                      : "");
   }
   return *table;
 }

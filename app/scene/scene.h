@@ -81,8 +81,9 @@ struct SliceStyle {
   std::string follow;               ///< body or collider whose centre of mass the plane moves with
   sim::Vec3d motion{0, 0, 0};       ///< m/s, of the plane
   int every = 0;                    ///< nodes from arrow to arrow; 0: automatic
-  double arrow_scale = 1;           ///< factor of all lengths
-  int isolines = 0;                 ///< steps of the heat map's range with lines between them
+  std::optional<sim::Vec3d> dense_near;  ///< m; nodes near it have an arrow each
+  double arrow_scale = 1;                ///< factor of all lengths
+  int isolines = 0;                      ///< steps of the heat map's range with lines between them
   render::ColorMap colormap = render::ColorMap::viridis;       ///< of the arrows
   std::optional<Range> range;                                  ///< of their magnitude
   render::ColorMap scalar_colormap = render::ColorMap::magma;  ///< of the heat map

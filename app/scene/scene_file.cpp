@@ -85,13 +85,15 @@ void refuse_other_languages(const std::string& file) {
   for (const char* other : {".json", ".yaml", ".yml", ".xml", ".py", ".ini", ".usd", ".usda",
                             ".abc", ".hip", ".blend", ".obj", ".ply", ".stl", ".mp4", ".npz"})
     if (suffix == other)
-      throw toml::SceneError(file, 0, 0, "is not a scene: scenes are TOML files",
-                             is_result ? "name the folder of the run, or one of its pictures"
-                             : suffix == ".obj" || suffix == ".ply" || suffix == ".stl"
-                                 ? "a scene names the mesh: shape = { mesh = { file = " +
-                                       toml::toml_string(fs::path(file).filename().string()) +
-                                       " } }"
-                                 : "neve new NAME writes a first scene");
+      throw toml::SceneError(
+          file, 0, 0, "is not a scene: scenes are TOML files",
+          is_result          ? "name the folder of the run, or one of its pictures"
+          : suffix == ".mp4" ? "those of a movie are in the folder of its run: name that, or a "
+                               "picture in it"
+          : suffix == ".obj" || suffix == ".ply" || suffix == ".stl"
+              ? "a scene names the mesh: shape = { mesh = { file = " +
+                    toml::toml_string(fs::path(file).filename().string()) + " } }"
+              : "neve new NAME writes a first scene");
 }
 
 /// A pipe with a name in a folder has no writer until somebody comes. Those of `<(command)`, which
@@ -160,11 +162,19 @@ std::string name_of_scene(const std::string& file) {
 std::string read_toml_file(const std::string& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) {
-    throw toml::SceneError(file, 0, 0, "is a directory", "name a scene file");
+    const bool is_sweep = fs::is_directory(fs::path(file) / "runs", error);
+    throw toml::SceneError(file, 0, 0, "is a directory",
+                           is_sweep ? "it has the runs of a sweep: name one, as in " +
+                                          (fs::path(file) / "runs/0000").string()
+                                    : "name a scene file");
   }
   refuse_waiting_pipe(file);
   std::string text = fs::is_fifo(file, error) ? text_of_stream(file) : read_whole(file);
   if (text.size() > toml::max_toml_bytes) throw toml::SceneError(file, 0, 0, "larger than 1 MiB");
+  if (file.ends_with(".png") && text.starts_with("\x89PNG"))
+    throw toml::SceneError(file, 0, 0, "is a picture, and a scene is wanted here",
+                           "name the scene that it was made of: neve info says which; from the "
+                           "moment of a picture neve sweep goes on with --from TIME");
   if (file.ends_with(".png"))
     throw toml::SceneError(file, 0, 0, "is not a PNG picture, although its name ends in .png",
                            "name a scene file, or a picture that neve has made");

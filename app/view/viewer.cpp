@@ -173,8 +173,10 @@ void Viewer::draw() {
     moved_at_ = Clock::now();
     settle_ = 3;
   }
-  paint_picture();
-  screen_.end(renderer_, state_.viewport);
+  if (!show_sheet()) {
+    paint_picture();
+    screen_.end(renderer_, state_.viewport);
+  }
   if (state_.wants_picture && has_picture_to_save()) save_picture();
   // Scripts name the frames that a user sees.
   const session::LiveFrame& live = *state_.live;

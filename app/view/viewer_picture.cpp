@@ -5,12 +5,14 @@
 #include <span>
 #include <utility>
 
+#include "app/output/atomic_file.h"
 #include "app/picture/frame_builder.h"
 #include "app/scene/names.h"
 #include "app/setup/camera_path.h"
 #include "app/support/clock.h"
 #include "app/support/round_number.h"
 #include "app/view/viewer.h"
+#include "render/frame/compose.h"
 
 namespace neve::app::view {
 
@@ -60,6 +62,37 @@ void Viewer::paint_picture() {
     bench_.session().taken(state_.live->number);
     bench_.say(session::Message::Kind::error, std::string("no picture: ") + error.what());
   }
+}
+
+/// The sheet of the study in the place of the picture, whole. @return false where none is to be
+/// shown, or it cannot be read, which is a message
+bool Viewer::show_sheet() {
+  if (!state_.study.shows_sheet) {
+    sheet_file_.clear();
+    return false;
+  }
+  const std::filesystem::path file = bench_.study().progress().sheet();
+  const render::PicturePlace& p = state_.viewport;
+  try {
+    if (file != sheet_file_ || sheet_room_ != std::pair(p.width, p.height)) {
+      const render::Image whole = render::decode_png(output::read_file(file));
+      const double scale = std::min({1.0, static_cast<double>(p.width) / whole.width,
+                                     static_cast<double>(p.height) / whole.height});
+      const int width = std::max(1, static_cast<int>(scale * whole.width)),
+                height = std::max(1, static_cast<int>(scale * whole.height));
+      sheet_ =
+          render::compose(width, height, {0, 0, 0}, {{0, 0, render::shrink(whole, width, height)}});
+      sheet_room_ = {p.width, p.height};
+    }
+  } catch (const std::exception& error) {
+    state_.study.shows_sheet = false;
+    bench_.say(session::Message::Kind::error, std::string("no sheet: ") + error.what());
+    return false;
+  }
+  sheet_file_ = file;
+  screen_.end(sheet_, {p.x + (p.width - sheet_.width) / 2, p.y + (p.height - sheet_.height) / 2,
+                       sheet_.width, sheet_.height});
+  return true;
 }
 
 /// The camera of the scene at this moment, for a picture of the viewport's shape.
@@ -118,6 +151,8 @@ void Viewer::paint_new_picture() {
 /// The current view; inside a step its arrows show the result of the stage.
 scene::View Viewer::shown_view() const {
   scene::View view = panels::current_view(state_);
+  // Around what is looked at, single nodes are.
+  if (state_.live->probe) view.slice.dense_near = state_.live->probe->place;
   const std::vector<scene::View>& asked = state_.live->scene->views;
   if (state_.live->stage && !asked.empty() && asked.front().name == view.name) {
     view.slice.field = asked.front().slice.field;

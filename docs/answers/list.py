@@ -226,6 +226,22 @@ SCENES = [
      "files": {"alp.asc": "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2 3 4 5 \n"}},
     edit("shape = { sphere = { center = [0, 0.12, 0], radius = 0.08 } }",
          "shape = { cover = { on = \"floor\", depth = 0.1, radius = 0.2 } }"),
+    # Tried again, after a trial of 200 mistakes.
+    edit("velocity = [0, -2, 0]", "keyframes = [{ time = 0 }]"),
+    edit("hardening = 10", "hardening = 10\nvariation = 0.2"),
+    edit("sphere = { center = [0, 0.12, 0], radius = 0.08 }",
+         "box = { min = [0, 0, 0], max = [1, 1, 1] }"),
+    edit("sphere = { center = [0, 0.12, 0], radius = 0.08 }",
+         "box = { center = [0, 0.2, 0], size = 0.1 }"),
+    edit("[output]", "[view.slice]\ncolormap = \"jet\"\n[output]"),
+    edit("name = \"main\"", "name = \"main\"\ncolormap = \"turbo\""),
+    edit("velocity = [0, -2, 0]", "angular_velocity = [0, 0, 720]"),
+    edit("[output]", "[camera]\nfov = 170\n[output]"),
+    edit("layers = [\"ground\", \"particles\", \"caption\"]", "layers = [\"ground\"]"),
+    edit("layers = [\"ground\", \"particles\", \"caption\"]",
+         "layers = [\"arrows\"]\nslice = { point = [5, 0, 5] }"),
+    edit("[material.snow]", "[material.powder]\npreset = \"powder\"\n[material.snow]"),
+    edit("center = [0, 0.12, 0]", "center = [0, 10000, 0]"),
 ]
 
 COMMANDS = [
@@ -238,7 +254,7 @@ COMMANDS = [
     command("render", "scene.toml", "--passes", "all,-motion"),
     command("render", "scene.toml", "--passes", "velocity"),
     command("pick", "scene.toml", "-p", "material.snow.hardening=1,2", "-p", "material.snow.hardening=3,4"),
-    command("sweep", "scene.toml", "-p", "seed=1,2", "--wrap", "3"),
+    command("sweep", "scene.toml", "-p", "seed=1,2", "--columns", "3"),
     command("sweep", "scene.toml", "-p", "seed=1,2", "--quality", "draft"),
     command("sweep", "promote", "out/none.cdb", "3"),
     command("render", "scene.toml", "--from", "2", "--set", "material.snow.hardening=3"),
@@ -407,6 +423,28 @@ COMMANDS = [
     command("pick", "scene.toml", "-p", "material.snow.hardening=5,20", "--web", "--terminal"),
     command("pick", "scene.toml", "-p", "material.snow.hardening=5,20", "--clicks", "clicks.txt",
             files={"clicks.txt": "12\n"}),
+    # Tried again, after a trial of 200 mistakes.
+    command("view", "scene.toml", "--host", "0.0.0.0"),
+    command("check", "scene.toml", "--set", "material.snow=powder"),
+    command("check", "scene.toml", "--set", "light.sun=[1,1,1]"),
+    command("check", "scene.toml", "--set", "view.main.layers=[snow]"),
+    command("render", "scene.toml", "--passes", "all,-motion"),
+    command("render", "scene.toml", "--passes", "velocity"),
+    command("render", "film.mp4", files={"film.mp4": "moov"}),
+    command("strip", "film.mp4", files={"film.mp4": "moov"}),
+    command("export", "scene.toml", "--surface", "--surface-cell", "0.02"),
+    command("params", "motion blur"),
+    command("params", "how do I make it sticky"),
+    command("sweep", "s.toml", "--dry-run", files={"s.toml": "[sweep]\nscene = \"scene.toml\"\n[axis]\n\"material.snow.youngs_modulus\" = { logspace = [4, 6], num = 3 }\n"}),
+    command("sweep", "s.toml", "--dry-run", files={
+        "s.toml": "[sweep]\nscene = \"scene.toml\"\nmethod = \"list\"\n"
+                  "[[run]]\nlabel = \"a\"\nseed = 1\n[[run]]\nlabel = \"a\"\nseed = 2\n"}),
+    command("pick", "scene.toml", "-p", "material.snow.hardening=1,2", "-p",
+            "material.snow.hardening=3,4"),
+    command("render", "scene.toml", "--plate", "street/%04d.png",
+            files={"street/1001.png": "", "street/1002.png": ""}),
+    command("dump", "scene.toml", "--at", "0.1", "--histogram", "--probe", "3"),
+    command("sweep", "star", "out/none.cdb", "3"),
 ]
 
 SWEEP = '[sweep]\nscene = "scene.toml"\n[axis]\n"material.snow.hardening" = [5, 10]\n'

@@ -75,6 +75,20 @@ NEVE_INLINE FieldPlace place_near(const Body& body, std::size_t b, Vec3f world) 
           node_in_block(place)};
 }
 
+/// Each grain is a little darker or lighter than the next: a second scale of grain, above that of
+/// its relief. Colours of values stay what their legend says.
+NEVE_INLINE std::uint32_t toned(std::uint32_t root_albedo, std::uint32_t seed) {
+  constexpr float darkest = 0.06f;  // of the root of the albedo
+  const float chance = static_cast<float>(seed >> 8) * 0x1p-24f;
+  const float tone = 1 - darkest * chance * chance;
+  std::uint32_t word = root_albedo & 0xff000000u;
+  for (int shift = 0; shift < 24; shift += 8)
+    word |=
+        static_cast<std::uint32_t>(static_cast<float>(root_albedo >> shift & 0xff) * tone + 0.5f)
+        << shift;
+  return word;
+}
+
 /// @param find  FieldPlace of a place in the world
 NEVE_INLINE void place_grain(const Points& points, std::size_t p, Vec3f position,
                              const Field& field, const auto& find, GrainPlaces& places) {
@@ -174,9 +188,11 @@ void list_grains(const Points& points, const GrainPlaces& places, ThreadPool* po
       for (int axis = 0; axis < 3; ++axis)
         grains.along[static_cast<std::size_t>(axis)][k] = place[axis];
       const PackedTurn turn = points.turn.empty() ? no_turn : points.turn[p];
+      const auto seed = static_cast<std::uint32_t>(mix64(id_of(points, p) + 1));
+      const std::uint32_t albedo = color.root_albedo(p);
       grains.grain[k] = {place,
-                         color.root_albedo(p),
-                         static_cast<std::uint32_t>(mix64(id_of(points, p) + 1)),
+                         points.value.empty() ? toned(albedo, seed) : albedo,
+                         seed,
                          {turn[0], turn[1], turn[2], turn[3]}};
     }
   });

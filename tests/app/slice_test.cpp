@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/picture/scale_bar.h"
+#include "app/picture/slice_parts.h"
 #include "app/picture/slice_shape.h"
 #include "app/picture/streamlines.h"
 #include "render/frame/view.h"
@@ -81,6 +82,49 @@ TEST(SliceShape, IsEmptyBesideTheSnow) {
   const auto all = [](const Vec3d&) { return true; };
   EXPECT_TRUE(SliceShape(scene_of_snow(), lattice(all), spacing, front(0.08)).is_empty());
   EXPECT_TRUE(SliceShape(scene_of_snow(), {}, spacing, front()).is_empty());
+}
+
+/// Nodes of a plane with velocity along x, mass everywhere.
+FieldSamples field_of_wind(double h, int blocks) {
+  auto lattice = std::make_shared<render::NodeLattice>();
+  lattice->spacing = static_cast<float>(h);
+  for (int i = -blocks; i < blocks; ++i)
+    for (int j = -blocks; j < blocks; ++j)
+      for (int k = -1; k < 1; ++k) lattice->block.push_back({i, j, k});
+  FieldSamples fields;
+  fields.density.assign(64 * lattice->block.size(), 400.0f);
+  fields.vectors[scene::VectorField::velocity].assign(64 * lattice->block.size(), {1, 0, 0});
+  fields.lattice = lattice;
+  return fields;
+}
+
+TEST(SliceArrows, NodesNearAPointHaveAnArrowEach) {
+  const double h = 2 * spacing;
+  const SliceShape shape(scene_of_snow(), lattice([](const Vec3d&) { return true; }), spacing,
+                         front());
+  const FieldSamples fields = field_of_wind(h, 6);
+  scene::View view;
+  view.slice.every = 4;
+  view.slice.range = scene::Range{0, 100};  // all arrows are below what is shown elsewhere
+  const SlicePlane plane = front();
+  const SliceMoment slice{view, fields, plane, shape, 100, 720};
+  render::Frame frame;
+  EXPECT_EQ(add_arrows(slice, frame), 4);
+  ASSERT_EQ(frame.arrows.size(), 1u);
+  EXPECT_EQ(frame.arrows[0].position.size(), 0u) << "one in a hundred of the longest is a dot";
+  // The point may lie before the plane.
+  view.slice.dense_near = Vec3d(0.1, 0.05, 0.3);
+  frame.arrows.clear();
+  add_arrows(slice, frame);
+  ASSERT_EQ(frame.arrows.size(), 2u);
+  // Nodes of a disc of four cells.
+  EXPECT_NEAR(double(frame.arrows[1].position.size()), std::numbers::pi * 16, 6);
+  EXPECT_LE(frame.arrows[1].max_length, float(h));
+  for (std::size_t k = 0; k < frame.arrows[1].position.size(); ++k) {
+    const Vec3f at = frame.arrows[1].position[k];
+    EXPECT_LT(std::hypot(at.x - 0.1f, at.y - 0.05f), 4 * float(h));
+    EXPECT_EQ(at.z, 0);
+  }
 }
 
 StreamlineStyle unit_square(double distance) {

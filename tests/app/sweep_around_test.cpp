@@ -42,6 +42,8 @@ TEST(ValuesAround, ValuesSpanDecadesIfRatiosMatter) {
   EXPECT_EQ(around("solver.cell_size"), "[0.0125, 0.025, 0.05, 0.1, 0.2]");
   EXPECT_EQ(around("solver.max_dt"), "[0.00025, 5e-4, 0.001, 0.002, 0.004]");
   EXPECT_EQ(around("solver.cfl", "800"), "[200, 400, 800]");
+  // Zero is allowed, and half of the usual value looks like it.
+  EXPECT_EQ(around("material.snow.critical_stretch"), "[0.00188, 0.00375, 0.0075, 0.015, 0.03]");
 }
 
 TEST(ValuesAround, OtherValuesHaveEqualDistancesAndStayInRange) {

@@ -237,5 +237,24 @@ TEST_F(Dump, ARunIsDumpedFromTheMomentsThatItKeeps) {
   EXPECT_TRUE(contains(set.errors, "a run has the scene it was made from")) << set.errors;
 }
 
+TEST_F(Dump, HistogramsCountAllNodesOrParticles) {
+  const app::Json dump = json({"--at", "0.05s", "--histogram"});
+  ASSERT_FALSE(dump["histograms"].empty());
+  for (const app::Json& histogram : dump["histograms"]) {
+    std::size_t count = histogram["zeros"].get<std::size_t>();
+    for (const app::Json& bin : histogram["counts"]) count += bin.get<std::size_t>();
+    EXPECT_EQ(count, dump["particles"].get<std::size_t>()) << histogram;
+    EXPECT_EQ(histogram["edges"].size(), histogram["counts"].size() + 1);
+    EXPECT_NE(histogram["name"], "id");
+  }
+  const auto text = neve({"dump", "scene.toml", "--at", "0.05s", "--histogram", "--field", "J_P"});
+  EXPECT_TRUE(contains(text.output, "J_P: 5 % below")) << text.output;
+  EXPECT_TRUE(contains(text.output, "####")) << text.output;
+  EXPECT_EQ(neve({"dump", "scene.toml", "--histogram", "--probe", "3"}).exit_code, 2);
+  EXPECT_EQ(
+      neve({"dump", "scene.toml", "--histogram", "--format", "vtk", "--out", "f.vtp"}).exit_code,
+      2);
+}
+
 }  // namespace
 }  // namespace neve::test

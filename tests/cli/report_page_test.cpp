@@ -337,6 +337,41 @@ TEST_F(ReportPage, BrushesFilterSheetAndTable) {
   EXPECT_EQ(value("rows[state.kept[0]].run"), 0);
 }
 
+TEST_F(ReportPage, StarsAndNotesAreOnTilesInTheTableAndOfferedToTheFolder) {
+  Study study({3, 3}, 1);
+  study.manifest.marks[4] = {true, "as agreed"};
+  open(study);
+  value("localStorage.clear()");
+  open(study);
+  tiles();
+  EXPECT_EQ(value("document.querySelectorAll('.tile .star.on').length"), 1);
+  EXPECT_EQ(value("document.getElementById('unsaved').hidden"), true);
+  // A star on a tile is no walk to its run.
+  click(".tile[data-run=\"2\"] .star");
+  EXPECT_EQ(value("rows[state.run].run"), 0);
+  EXPECT_EQ(value("rows[2].mark.star"), true);
+  focus("#star-note");
+  for (const char c : std::string("it's wet")) browser->type_letter(c);
+  value("document.getElementById('star-note').blur()");
+  settle();
+  EXPECT_EQ(value("rows[0].mark.note"), "it's wet");
+  EXPECT_EQ(
+      text_of("#unsaved code"),
+      "neve sweep star 'out/a b.cdb' 0 --note 'it'\\''s wet' && neve sweep star 'out/a b.cdb' 2");
+  lines();
+  EXPECT_EQ(value("document.getElementById('run-4').cells[starColumn].textContent"),
+            "\u2605 as agreed");
+  click("#only-stars input");
+  EXPECT_EQ(text_of("#count"), "3 of 9 runs");
+  click("#only-stars input");
+  // They are there when the page is opened again; those that the folder has are not offered.
+  study.manifest.marks[2] = {true, ""};
+  open(study);
+  EXPECT_EQ(value("rows[0].mark.star && rows[2].mark.star"), true);
+  EXPECT_EQ(value("unsavedRows().map(row => row.run).join()"), "0");
+  value("localStorage.clear()");
+}
+
 TEST_F(ReportPage, CellsOfTheHeatMapAreRunsAndArrowKeysMoveThere) {
   Study study({3, 3}, 1);
   study.fail(4, "too fast");

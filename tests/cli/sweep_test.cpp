@@ -352,6 +352,50 @@ TEST_F(SweepCli, ATileBecomesASceneOfItsOwn) {
   EXPECT_EQ(neve({"sweep", "promote", "out/scene.cdb", "2"}).exit_code, 2);
 }
 
+TEST_F(SweepCli, StarsAndNotesStayWithTheSweep) {
+  folder.write("scene.toml", tiny_scene);
+  ASSERT_EQ(neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,7,9", "--frames", "1",
+                  "--quiet", "--out", "s.cdb"})
+                .exit_code,
+            0);
+  EXPECT_TRUE(contains(neve({"sweep", "star", "s.cdb"}).output, "no run has a star"));
+  EXPECT_FALSE(contains(read_text(folder / "s.cdb/data.csv"), "star,note"));
+  EXPECT_EQ(neve({"sweep", "star", "s.cdb", "0"}).exit_code, 0);
+  const auto given = neve({"sweep", "star", "s.cdb", "2", "--note", "the edge, </script>"});
+  ASSERT_EQ(given.exit_code, 0) << given.errors;
+  EXPECT_TRUE(contains(given.output, "the edge")) << given.output;
+  const auto has_them = [&] {
+    const std::string csv = read_text(folder / "s.cdb/data.csv");
+    EXPECT_TRUE(contains(csv, ",star,note,")) << csv;
+    EXPECT_TRUE(contains(csv, "1,\"the edge, </script>\"")) << csv;
+    EXPECT_TRUE(contains(csv, ",0,-,")) << csv;
+    const std::string page = read_text(folder / "s.cdb/report.html");
+    EXPECT_TRUE(contains(page, "\"note\":\"the edge, \\u003c/script>\"")) << "ends no script";
+    EXPECT_TRUE(fs::exists(folder / "s.cdb/starred.png"));
+  };
+  has_them();
+  // Sheets have them with the next collect, which keeps them.
+  const std::string sheet = read_text(folder / "s.cdb/sheet.png");
+  ASSERT_EQ(neve({"sweep", "collect", "s.cdb", "--quiet"}).exit_code, 0);
+  has_them();
+  EXPECT_NE(read_text(folder / "s.cdb/sheet.png"), sheet);
+  // A list that the page has made.
+  folder.write("stars.json",
+               R"({"format": "neve stars 1", "runs": [{"run": 1, "star": true, "note": "wet"}]})");
+  EXPECT_TRUE(contains(neve({"sweep", "star", "s.cdb", "--read", "stars.json"}).output, "wet"));
+  ASSERT_EQ(neve({"sweep", "star", "s.cdb", "0-2", "--remove"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "s.cdb/stars.json"));
+  EXPECT_FALSE(fs::exists(folder / "s.cdb/starred.png"));
+  EXPECT_EQ(neve({"sweep", "star", "s.cdb", "3"}).exit_code, 2);
+  EXPECT_EQ(neve({"sweep", "star", "s.cdb", "--note", "x"}).exit_code, 2);
+  folder.write("stars.json", R"({"format": "neve stars 1", "runs": [{"run": 7, "star": true}]})");
+  const auto beyond = neve({"sweep", "star", "s.cdb", "--read", "stars.json"});
+  EXPECT_EQ(beyond.exit_code, 3) << beyond.errors;
+  EXPECT_TRUE(contains(beyond.errors, "the runs of this sweep are 0 to 2")) << beyond.errors;
+  folder.write("s.cdb/stars.json", "{");
+  EXPECT_EQ(neve({"sweep", "star", "s.cdb"}).exit_code, 3);
+}
+
 TEST_F(SweepCli, AllRunsAreSeenAlike) {
   folder.write("look.toml", std::string(small_sweep) +
                                 "[set]\n\"view.particles.particles.color_by\" = \"speed\"\n");

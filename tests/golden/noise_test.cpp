@@ -139,7 +139,8 @@ TEST(Noise, FinalQualityShowsNoneWhereSnowIsBlurredByItsMotion) {
   const std::vector<render::Frame> moments = flying.moments(frame);
   ASSERT_GT(moments.size(), 4u);
   render::MeanImage mean, reference;
-  for (const render::Frame& moment : moments) mean.add(renderer.draw(moment));
+  for (const render::Frame& moment : picture::with_shared_samples(moments))
+    mean.add(renderer.draw(moment));
   // Twice the size moves by twice the pixels, and has twice the moments.
   render::Frame large = frame;
   large.width *= 2;

@@ -5,6 +5,7 @@
 
 import os
 import sys
+import warnings
 
 import numpy as np
 
@@ -85,6 +86,14 @@ try:
     raise AssertionError("read a grid")
 except neve.NeveError as error:
     assert "npz" in str(error)
+# Settings as tables, as texts, and objects that are removed; warnings of the program are warnings.
+assert list(neve._settings({"solver": {"cfl": 0.2}, "seed": 3})) == [("solver.cfl", 0.2), ("seed", 3)]
+assert neve._scene_flags(["seed=3"], None, None) == ["--set", "seed=3"]
+assert neve._scene_flags({"collider.floor": None}, None, None) == ["--set", "collider.floor=none"]
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    neve.export("scene.toml", "late", frames=9)
+assert any("after the end" in str(one.message) for one in said), said
 # Mistakes in Python.
 for mistake, kind, part in (
     (lambda: run.force("flor"), KeyError, "floor"),
@@ -95,6 +104,11 @@ for mistake, kind, part in (
     (lambda: run.state("last"), ValueError, "a number from 0 to 4"),
     (lambda: neve.check("scene.toml", coarsn=3), TypeError, "coarsn"),
     (lambda: neve.read_ply("scene.toml"), ValueError, "no PLY file"),
+    (lambda: neve.render("scene.toml", fast=True), TypeError, 'flags=("--fast",)'),
+    (lambda: neve.render("scene.toml", hardening=5), TypeError, "set="),
+    (lambda: neve.render({"frames": 4}), TypeError, "a scene is a TOML file"),
+    (lambda: neve.Run("s.cdb"), ValueError, "neve.Sweep('s.cdb')"),
+    (lambda: sweep["spreed"], KeyError, "did you mean 'spread'"),
 ):
     try:
         mistake()

@@ -256,5 +256,43 @@ TEST(Slice, SliceTellsWhyThereAreNoArrows) {
   EXPECT_EQ(app::view::panels::reason_for_no_arrows(view, fields), "");
 }
 
+TEST(SliderScale, ThePlaceOfAValueIsBetweenTheEnds) {
+  using app::view::panels::share_of;
+  const app::view::panels::SliderScale linear{TurnedAs::linear, 0, 4, false},
+      decades{TurnedAs::logarithmic, 1e-2, 1e2, true};
+  EXPECT_DOUBLE_EQ(share_of(linear, 1), 0.25);
+  EXPECT_DOUBLE_EQ(share_of(linear, 9), 1);
+  EXPECT_DOUBLE_EQ(share_of(decades, 1), 0.5);
+  EXPECT_DOUBLE_EQ(share_of(decades, 0), 0);
+  EXPECT_DOUBLE_EQ(share_of(decades, 100), 1);
+}
+
+TEST(FrameAll, HasTheSnowAndThingsOfItsSizeAndNoPlaneOrMountain) {
+  const auto scene = std::make_shared<app::scene::Scene>(app::scene::read_scene_text(R"(
+frames = 1
+[[body]]
+shape = { sphere = { center = [0, 1, 0], radius = 0.1 } }
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[[collider]]
+name = "above"
+shape = { sphere = { center = [0, 2, 0], radius = 0.3 } }
+[[collider]]
+name = "mountain"
+shape = { box = { center = [0, -500, 0], size = [900, 900, 900] } }
+)",
+                                                                                     "s.toml"));
+  app::view::session::LiveFrame live;
+  live.scene = scene;
+  live.snapshot.particles.x = {sim::Vec3d(-0.1, 0.9, -0.1), sim::Vec3d(0.1, 1.1, 0.1)};
+  const sim::shapes::Bounds box = app::view::panels::bounds_of_all(live);
+  EXPECT_NEAR(box.max.y(), 2.3, 1e-9);
+  EXPECT_NEAR(box.min.y(), 0.9, 1e-9);
+  EXPECT_NEAR(box.max.x(), 0.3, 1e-9);
+  live.snapshot.particles.x.clear();
+  EXPECT_NEAR(app::view::panels::bounds_of_all(live).max.x(), 450, 1e-6) << "no snow: all things";
+}
+
 }  // namespace
 }  // namespace neve::app

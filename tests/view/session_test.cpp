@@ -145,6 +145,41 @@ TEST(Session, StagesOfAnOlderFrameAreThoseOfThatFrame) {
   EXPECT_FALSE(head->stage) << "the newest frame is shown, not a step of it";
 }
 
+TEST(Session, AHistogramIsOfAnyFieldOfParticlesOrNodes) {
+  using Live = view::session::LiveFrame;
+  const auto scene = scene_of(tiny_scene);
+  view::session::Session session(scene, {}, {});
+  session.next_frame();
+  const std::size_t particles = rest_at(session, 1)->snapshot.particles.x.size();
+  const auto show = [&](const view::session::FieldName& field) {
+    session.set_histogram(field);
+    return wait_for(session, [&](const Live& live) {
+      return live.histogram && live.histogram->field == field;
+    });
+  };
+  const auto J_P = show({false, "J_P"});
+  ASSERT_TRUE(J_P->histogram->histogram);
+  EXPECT_EQ(J_P->histogram->histogram->rows, particles);
+  EXPECT_EQ(J_P->histogram->after, "");
+  // Every field that is offered can be shown.
+  bool has_nodes = false;
+  for (const view::session::FieldName& field : J_P->histogram->fields) {
+    has_nodes = has_nodes || field.is_of_nodes;
+    const auto live = show(field);
+    ASSERT_TRUE(live->histogram->histogram) << field.name;
+    EXPECT_EQ(live->histogram->histogram->is_of_nodes, field.is_of_nodes) << field.name;
+  }
+  EXPECT_TRUE(has_nodes);
+  // A field of a stage is there while that stage is shown.
+  EXPECT_FALSE(show({false, "F_E_trial"})->histogram->histogram);
+  session.show_stage(sim::Stage::deformation);
+  const auto inside = wait_for(
+      session, [](const Live& live) { return live.histogram && live.histogram->histogram; });
+  EXPECT_EQ(inside->histogram->after, "deformation");
+  session.set_histogram(std::nullopt);
+  wait_for(session, [](const Live& live) { return !live.histogram; });
+}
+
 TEST(Session, SessionContinuesFromAnOlderFrameAndForgetsLaterOnes) {
   const auto scene = scene_of(tiny_scene);
   view::session::Session session(scene, {}, {});

@@ -75,11 +75,15 @@ TEST_F(ViewByScript, VaryFromHereMakesASweepOfTheFrameThatIsShown) {
     {"click": "vary material.snow.hardening"},
     {"click": "values of material.snow.hardening"}, {"key": "a", "ctrl": true}, {"type": "4, 20"},
     {"click": "Start the runs"}, {"wait_for": "label Copy the command of the sweep"},
-    {"wait": 3}, {"screenshot": "done.png"}])");
+    {"wait": 3}, {"screenshot": "done.png"},
+    {"click": {"label": "picture", "part": [0.5, 0.5]}}, {"wait": 5},
+    {"screenshot": "run.png"}])");
   SKIP_WITHOUT_GL(result);
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   ASSERT_TRUE(std::filesystem::exists(folder / "out/vary_0001/study.cdb/sheet.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "out/vary_0001/study.cdb/report.html"));
+  // The sheet is in the place of the picture until it is clicked.
+  EXPECT_NE(read_text(folder / "out/done.png"), read_text(folder / "out/run.png"));
   // As a run of the command line that changes there.
   ASSERT_EQ(neve({"render", "scene.toml", "--no-movie", "--out", "plain"}).exit_code, 0);
   ASSERT_EQ(neve({"render", "plain", "--from", "0.041666666666666664s", "--set",
@@ -90,6 +94,23 @@ TEST_F(ViewByScript, VaryFromHereMakesASweepOfTheFrameThatIsShown) {
     return json_of(run + "/run.json")["frames"].back()["state_hash"];
   };
   EXPECT_EQ(hash("out/vary_0001/study.cdb/runs/0001"), hash("branch"));
+}
+
+/// However often the button is pressed, later frames stay until the question is answered.
+TEST_F(ViewByScript, LaterFramesAreDroppedAfterAQuestionAlone) {
+  const std::string start = R"([
+    {"click": "Run"}, {"wait_for": "simulation frame 4"}, {"wait_for": "simulation paused"},
+    {"key": "home"}, {"wait_for": "simulation frame 0"}, {"wait": 3},
+    {"click": "Continue from here"}, {"wait_for": "label Drop them and continue"},
+    {"click": "Continue from here"}, {"wait": 3},
+    {"click": "Continue from here"}, {"wait_for": "label Keep them"},)";
+  const auto kept = view(start + R"({"click": "Keep them"}, {"wait": 3},
+    {"click": "Back to the run"}, {"wait_for": "simulation frame 4"}])");
+  SKIP_WITHOUT_GL(kept);
+  EXPECT_EQ(kept.exit_code, 0) << kept.errors;
+  const auto dropped = view(start + R"({"click": "Drop them and continue"}, {"wait": 20},
+    {"key": "end"}, {"wait": 20}, {"wait_for": "simulation frame 0"}])");
+  EXPECT_EQ(dropped.exit_code, 0) << dropped.errors;
 }
 
 TEST_F(ViewByScript, ADroppedSceneIsOpenedAndAnotherFileIsAMessage) {

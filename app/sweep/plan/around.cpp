@@ -41,9 +41,10 @@ double inside(const scene::Valid& valid, double x, double from) {
   return x;
 }
 
-/// Positive, and allowed over so many decades that ratios matter.
-bool spans_decades(const scene::FlatParam& param, double x) {
-  return x > 0 && param.valid.min > 0 && param.valid.max / param.valid.min >= 1e3;
+/// Also where it is allowed over decades, whatever is usual.
+bool do_ratios_matter(const scene::FlatParam& param, double x) {
+  return x > 0 && ((param.valid.min > 0 && param.valid.max / param.valid.min >= 1e3) ||
+                   spans_decades(param.valid, double_of(param.default_value)));
 }
 
 /// Distance of the outer values from a number: half of it, or of its known scale.
@@ -62,7 +63,7 @@ std::vector<double> numbers_around(const scene::FlatParam& param, double x) {
     const double nice = is_whole ? std::round(candidate) : three_digits(candidate);
     numbers.push_back(param.valid.contains(nice) ? nice : candidate);
   };
-  if (spans_decades(param, x) && !is_whole) {
+  if (do_ratios_matter(param, x) && !is_whole) {
     const double ratio = std::string_view(param.unit) == "Pa" ? std::sqrt(10.0) : 2;
     for (int k = 1; k <= steps_each_way; ++k)
       for (const double candidate : {x * std::pow(ratio, k), x * std::pow(ratio, -k)})
@@ -127,6 +128,12 @@ std::string literal_of(const scene::Override& change) {
 }
 
 }  // namespace
+
+bool spans_decades(const scene::Valid& valid, const std::optional<double>& usual) {
+  constexpr double decades_from = 30;  // times the usual value
+  return usual && *usual > 0 && valid.min >= 0 && valid.max >= decades_from * *usual &&
+         *usual >= decades_from * valid.min;
+}
 
 std::vector<scene::toml::Value> values_around(const scene::FlatParam& param) {
   std::vector<scene::toml::Value> values;

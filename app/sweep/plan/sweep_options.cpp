@@ -216,6 +216,8 @@ void describe(options::Command& visit, SweepOptions& o) {
       "sweep",
       "Run a scene with many parameter values, and make a labelled contact sheet of the results");
   describe_runs(visit, o);
+  visit("--wrap", o.wrap, options::number<int>("N", 1, 64, "a whole number from 1 to 64"),
+        "Tiles side by side in the sheet of one axis");
   options::describe_threads(visit, o.threads, "Number of cores; 0: all");
   visit(
       "--jobs", o.jobs,

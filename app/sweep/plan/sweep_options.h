@@ -25,6 +25,7 @@ struct SweepOptions {
   bool keeps_states = false;               ///< of drawn frames, to draw them again
   std::optional<scene::PictureSize> size;  ///< of a tile
   std::string view;                        ///< on the tiles; "": that of the file
+  int wrap = 0;                            ///< tiles side by side; 0: as the file has it
   setup::Quality quality = setup::Quality::preview;
   std::optional<double> coarsening;
   bool is_fast = false;         ///< with the settings of forecast::fast_look

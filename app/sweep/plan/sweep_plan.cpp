@@ -317,6 +317,7 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   refuse_two_frames(options, plan.sweep);
   plan.folder =
       options.out.empty() ? out_folder() / (plan.sweep.name + ".cdb") : fs::path(options.out);
+  if (options.wrap > 0) plan.sweep.sheet.wrap = options.wrap;
   plan.columns = axis_called(plan.sweep, "sheet.columns", plan.sweep.sheet.columns);
   plan.rows = axis_called(plan.sweep, "sheet.rows", plan.sweep.sheet.rows);
   const SceneMaker maker(options, plan.sweep, plan.source);

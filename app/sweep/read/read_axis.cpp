@@ -1,5 +1,7 @@
 #include "app/sweep/read/read_axis.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -82,7 +84,26 @@ int kinds_given(const AxisRule& s) {
 }
 
 /// @param where for complaints
-std::vector<scene::toml::Value> values_of(const AxisRule& spec, const scene::Source& source,
+/// numpy's logspace takes exponents: 4 to 6 Pa is snow of nobody.
+void refuse_exponents(const Ends& ends, const std::string& address, const scene::Source& source,
+                      scene::toml::Location where) {
+  const auto is_exponent = [](double x) { return x == std::round(x) && std::abs(x) <= 12; };
+  const std::optional<scene::ParamInfo> info = scene::param_at(address);
+  if (!is_exponent(ends.first) || !is_exponent(ends.last) || !info || !info->default_value) return;
+  const double* usual = std::get_if<double>(&info->default_value->data);
+  constexpr double far = 1000;  // from the usual value
+  const double largest = std::max(ends.first, ends.last);
+  if (!usual || !(std::abs(*usual) > far * std::max(1.0, largest))) return;
+  source.fail(
+      where,
+      fmt::format("logspace = [{}, {}] has the ends themselves, no exponents",
+                  scene::toml::number_text(ends.first), scene::toml::number_text(ends.last)),
+      fmt::format("write [{}, {}]", scene::toml::number_text(std::pow(10, ends.first)),
+                  scene::toml::number_text(std::pow(10, ends.last))));
+}
+
+std::vector<scene::toml::Value> values_of(const AxisRule& spec, const std::string& address,
+                                          const scene::Source& source,
                                           scene::toml::Location where) {
   if (spec.values) return spec.values->items;
   if (spec.range) return counted(*spec.range);
@@ -90,6 +111,7 @@ std::vector<scene::toml::Value> values_of(const AxisRule& spec, const scene::Sou
   if (is_spaced && spec.num == 0)
     source.fail(where, "num is missing",
                 "linspace and logspace need the number of values, as num = 4");
+  if (spec.logspace) refuse_exponents(*spec.logspace, address, source, where);
   if (spec.linspace) return spaced(*spec.linspace, spec.num, false);
   return spec.logspace ? spaced(*spec.logspace, spec.num, true) : std::vector<scene::toml::Value>{};
 }
@@ -245,7 +267,7 @@ Axis::Parameter read_axis(const scene::Source& source, const scene::toml::Entry&
       parameter.drawn = spec;
       values.push_back(entry.value);
     } else {
-      values = values_of(spec, source, entry.value.where);
+      values = values_of(spec, entry.key, source, entry.value.where);
     }
   } else {
     source.fail(entry.value.where, entry.key + " = " + scene::toml::toml_literal(entry.value, 60),

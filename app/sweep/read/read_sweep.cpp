@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "app/options/languages.h"
 #include "app/scene/lister.h"
@@ -165,6 +166,16 @@ class SweepReader {
     if (method == Method::list && sweep.rows.empty())
       source().fail(where, "method \"list\" needs at least one [[run]]");
     for (const Axis& axis : sweep.axes) check_axis(axis, sweep);
+    check_labels(sweep, where);
+  }
+
+  /// Two tiles of one name cannot be told apart.
+  void check_labels(const Sweep& sweep, scene::toml::Location where) const {
+    std::set<std::string> taken;
+    for (const Run& row : sweep.rows)
+      if (!row.label.empty() && !taken.insert(row.label).second)
+        source().fail(where, "two [[run]]s have the label " + scene::toml::toml_string(row.label),
+                      "labels tell tiles apart: change one of them");
   }
 
   void check_axis(const Axis& axis, const Sweep& sweep) const {

@@ -27,6 +27,7 @@
 #include "app/sweep/sheet/sheet.h"
 #include "app/sweep/store/points.h"
 #include "app/sweep/store/refine.h"
+#include "app/sweep/store/stars.h"
 #include "render/gl/context.h"
 
 namespace neve::app::sweep::sheet {
@@ -202,7 +203,69 @@ void write_effects(const fs::path& folder, const store::Manifest& manifest,
   for (const std::string& line : effect_lines(manifest, results)) progress.note(line);
 }
 
+/// The runs with stars and their results, as a sweep of their own without axes.
+std::pair<store::Manifest, std::vector<store::RunResult>> starred(
+    const store::Manifest& manifest, const std::vector<store::RunResult>& results) {
+  std::pair<store::Manifest, std::vector<store::RunResult>> chosen{manifest, {}};
+  store::Manifest& m = chosen.first;
+  m.runs.clear();
+  m.variants.clear();
+  m.axes.clear();
+  m.screened.clear();
+  m.seeds = m.apart = 1;
+  m.wrap = 0;
+  m.columns = m.rows = -1;
+  m.tile_label = "differences";
+  for (std::size_t k = 0; k < manifest.runs.size(); ++k) {
+    const auto mark = manifest.marks.find(manifest.runs[k].index);
+    if (mark == manifest.marks.end() || !mark->second.has_star) continue;
+    m.runs.push_back(manifest.runs[k]);
+    m.runs.back().coordinates.clear();
+    chosen.second.push_back(results[k]);
+  }
+  return chosen;
+}
+
+/// The last frame of each run that has a star; without any the picture of before is removed.
+void write_starred(const fs::path& folder, const store::Manifest& manifest,
+                   const std::vector<store::RunResult>& results,
+                   const std::vector<render::Legend>& legends, render::Renderer& renderer) {
+  const auto [chosen, their_results] = starred(manifest, results);
+  std::error_code error;
+  if (!has_pictures(their_results)) {
+    fs::remove(folder / "starred.png", error);
+    return;
+  }
+  SheetMaker maker(folder, chosen, their_results, {}, legends, renderer);
+  const int last = last_drawn(chosen, their_results);
+  output::PictureWriter writer;
+  writer.write({folder / "starred.png", maker.sheet(last, 0),
+                origin_of(chosen, "contact sheet of starred runs", last)});
+  writer.finish();
+}
+
 }  // namespace
+
+void show_marks(const fs::path& folder, const store::Manifest& manifest, Progress& progress) {
+  const std::vector<store::RunResult> results = store::read_results(folder, manifest);
+  std::error_code error;
+  if (fs::exists(folder / "data.csv", error))
+    output::write_file(folder / "data.csv",
+                       data_csv(manifest, results, store::predictions_of(folder, manifest)));
+  if (fs::exists(folder / "report.html", error)) {
+    const std::vector<std::uint8_t> bytes = output::read_file(folder / "report.html");
+    output::write_file(folder / "report.html",
+                       report_with_marks({bytes.begin(), bytes.end()}, manifest.marks));
+  }
+  try {
+    const std::vector<render::Legend> legends = shared_legends(folder, manifest);
+    const auto context = render::gl::open_context("auto");
+    render::Renderer renderer(*context);
+    write_starred(folder, manifest, results, legends, renderer);
+  } catch (const render::gl::ContextError& no_drawing) {
+    progress.warning(std::string("no starred.png: ") + no_drawing.what());
+  }
+}
 
 void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool has_review,
                    const std::string& backend, int threads, Progress& progress) {
@@ -211,6 +274,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   const std::optional<output::FolderLock> lock = wait_for_turn(folder, progress);
   if (!lock) return;
   manifest = store::read_manifest(folder);
+  manifest.marks = store::read_marks(folder);
   std::vector<store::RunResult> results = store::read_results(folder, manifest);
   for (store::RunResult& result : results)
     if (!result.flaws.empty()) result.warnings.push_back(result.flaws);
@@ -240,6 +304,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   render::Renderer renderer(*context, {}, &pool);
   SheetMaker maker(folder, manifest, results, predictions, legends, renderer);
   std::vector<std::uint8_t> sheet;
+  write_starred(folder, manifest, results, legends, renderer);
   if (has_pictures(results)) {
     write_sheets(folder, manifest, maker, last_drawn(manifest, results), movie, progress);
     if (is_interrupted()) return;

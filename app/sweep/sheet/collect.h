@@ -5,6 +5,7 @@
 
 #include "app/output/movie_format.h"
 #include "app/support/progress.h"
+#include "app/sweep/store/manifest.h"
 
 namespace neve::app::sweep::sheet {
 
@@ -16,5 +17,11 @@ namespace neve::app::sweep::sheet {
 /// @throws IoError, render::ContextError, Error for a folder without a sweep
 void collect_sweep(const std::filesystem::path& folder, const output::MovieStyle& movie,
                    bool has_review, const std::string& backend, int threads, Progress& progress);
+
+/// Puts the marks of a manifest into the table and the report as they are there, and draws
+/// DIR/starred.png, the last frames of the runs with stars. Sheets have them with the next collect.
+/// @throws IoError
+void show_marks(const std::filesystem::path& folder, const store::Manifest& manifest,
+                Progress& progress);
 
 }  // namespace neve::app::sweep::sheet

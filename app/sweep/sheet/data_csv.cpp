@@ -78,6 +78,12 @@ std::string column_name(const std::string& address) {
   return name.starts_with("FILE") ? "_" + name : name;
 }
 
+/// A string that looks like a number would give its column another type.
+std::string text_cell(const std::string& text) {
+  const bool is_quoted = looks_like_number(text) || text.empty() || looks_like_formula(text);
+  return is_quoted ? "'" + text + "'" : text;
+}
+
 /// TOML text as a cell of a column of this type.
 std::string cell(const std::string& value, const std::string& type) {
   if (value.empty()) return "";
@@ -86,10 +92,7 @@ std::string cell(const std::string& value, const std::string& type) {
     if (!x) return "";
     return type == "number" ? float_text(*x) : whole_text(*x);
   }
-  // A string that looks like a number would give its column another type.
-  const std::string text = plan::value_text(value);
-  const bool is_quoted = looks_like_number(text) || text.empty() || looks_like_formula(text);
-  return is_quoted ? "'" + text + "'" : text;
+  return text_cell(plan::value_text(value));
 }
 
 /// Unique names of columns.
@@ -174,6 +177,8 @@ void add_header(const store::Manifest& manifest, bool has_predictions, const Lis
   ColumnNames names;
   for (const char* name : {"run", "label"}) rows.add(names.unique(name, "_"));
   add_parameter_names(manifest, names, rows);
+  if (!manifest.marks.empty())
+    for (const char* name : {"star", "note"}) rows.add(names.unique(name, "_"));
   // Columns of results give way to columns of settings: frames, frames_done.
   for (const char* name : {"state", "reason", "warnings", "frames"})
     rows.add(names.unique(name, "_done"));
@@ -201,6 +206,12 @@ void add_row(const store::Manifest& manifest, const Run& run, const store::RunRe
   rows.add(std::to_string(run.index));
   rows.add(cell(run.label.empty() ? "run " + std::to_string(run.index) : run.label, "string"));
   add_parameters(manifest, run, rows);
+  if (!manifest.marks.empty()) {
+    const auto mark = manifest.marks.find(run.index);
+    const bool is_marked = mark != manifest.marks.end();
+    rows.add(is_marked && mark->second.has_star ? "1" : "0");
+    rows.add(!is_marked || mark->second.note.empty() ? "-" : text_cell(mark->second.note));
+  }
   rows.add(store::name(result.status.state));
   rows.add(result.status.reason.empty() ? "-" : cell(result.status.reason, "string"));
   rows.add(std::to_string(result.warnings.size()));

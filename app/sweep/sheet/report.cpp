@@ -9,6 +9,7 @@
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/report_data.h"
 #include "app/sweep/store/refine.h"
+#include "app/sweep/store/stars.h"
 #include "render/overlay/svg.h"
 
 namespace neve::app::sweep::sheet {
@@ -136,8 +137,8 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
   const std::string ranking =
       store::ranking_line(manifest, results, store::full_results(folder, manifest));
   std::string script;
-  for (const char* file :
-       {"study.js", "noise.js", "page.js", "walk.js", "lists.js", "charts.js", "start.js"})
+  for (const char* file : {"study.js", "noise.js", "page.js", "stars.js", "walk.js", "lists.js",
+                           "charts.js", "start.js"})
     script += find_embedded_report(file);
   return fill_page(find_embedded_report("page.html"),
                    {{"title", render::overlay::xml_text(manifest.title)},
@@ -148,8 +149,18 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
                     {"style", std::string(find_embedded_report("style.css"))},
                     {"script", script},
                     {"data", script_json(report_data(folder, manifest, results, predictions))},
+                    {"stars", script_json(store::to_json(manifest.marks))},
                     {"effects", effects_section(manifest, results)},
                     {"more", more_section(manifest, results, layout, sheet_png, pages)}});
+}
+
+std::string report_with_marks(std::string page, const store::Marks& marks) {
+  const std::string begin = "<script type=\"application/json\" id=\"stars\">";
+  const std::size_t at = page.find(begin), end = page.find("</script>", at);
+  // A page of before there were stars has none until the next collect.
+  if (at == std::string::npos || end == std::string::npos) return page;
+  return page.replace(at + begin.size(), end - at - begin.size(),
+                      script_json(store::to_json(marks)));
 }
 
 }  // namespace neve::app::sweep::sheet

@@ -8,6 +8,7 @@
 #include "app/options/arguments.h"
 #include "app/support/text.h"
 #include "app/sweep/sheet/seals.h"
+#include "app/sweep/sheet/star.h"
 #include "app/sweep/store/points.h"
 #include "app/sweep/store/promote.h"
 
@@ -63,6 +64,7 @@ Json column_names(const store::Manifest& manifest, bool has_predictions,
     columns.push_back(column(manifest.seeds > 1 && p.address == "seed" ? "seed" : "parameter",
                              titled(p.name, p.unit), p.type != "number" && p.type != "integer",
                              p.address));
+  columns.push_back(column("star", "star", true, "stars and notes of neve sweep star"));
   columns.push_back(column("state", "state", true));
   columns.push_back(column("warnings", "warnings", false, "hover over a cell for the text"));
   if (has_predictions) add_prediction_columns(columns);
@@ -101,6 +103,7 @@ Json cells_of(const store::Manifest& manifest, const Run& run, const store::RunR
   cells.push_back(run.index);
   if (has_labels(manifest)) cells.push_back(run.label);
   for (const Parameter& p : manifest.parameters) cells.push_back(cell_of(run.value(p.address)));
+  cells.push_back(Json());  // the page fills it in
   cells.push_back(store::name(result.status.state));
   cells.push_back(result.warnings.size());
   if (prediction) add_prediction_cells(*prediction, cells);
@@ -257,6 +260,9 @@ Json report_data(const std::string& folder, const store::Manifest& manifest,
                  const std::vector<predict::Prediction>& predictions) {
   Json data;
   data["fps"] = manifest.fps;
+  StarOptions star;
+  star.folder = folder;
+  data["star"] = options::shell_line(options::words_of(star));
   data["tile"] = {manifest.tile_width, manifest.tile_height};
   data["across"] = columns_of_sheet(manifest);
   data["axes"] = axes_of(manifest);

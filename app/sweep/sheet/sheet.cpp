@@ -193,6 +193,7 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
                            "! " + store::warning_count_text(tile.result->warnings.size()),
                            render::Note::Anchor::left, room, false, caution});
   add_seal(layout, tile, words);
+  add_star(layout, tile, words);
   if (!is_dark) return;
   const auto [state, reason] = split_state(jobs::tile_text(tile.result->status));
   const bool is_alarm = store::has_failed(tile.result->status.state);
@@ -206,6 +207,24 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
   if (!state.empty() && !reason.empty())
     words.notes.push_back(
         {middle, y + 1.6f * size, reason, render::Note::Anchor::middle, room, false, bright});
+}
+
+/// "starred" and the note, in the upper right corner.
+void SheetMaker::add_star(const SheetLayout& layout, const Tile& tile, render::Frame& words) const {
+  const auto mark = manifest_.marks.find(tile.run->index);
+  if (mark == manifest_.marks.end()) return;
+  const auto size = static_cast<float>(layout.font_size);
+  const bool is_below = !seals_.of_points.empty();  // which may say "full resolution" there
+  const std::string text = mark->second.has_star && mark->second.note.empty() ? "starred"
+                           : mark->second.has_star ? "starred: " + mark->second.note
+                                                   : mark->second.note;
+  const float width = std::min(width_of({text}) * size + size,
+                               0.7f * static_cast<float>(layout.tile_width)),
+              left = static_cast<float>(tile.x + layout.tile_width) - width,
+              top = static_cast<float>(tile.y) + (is_below ? 1.7f * size : 0);
+  words.patches.push_back({left, top, width, 1.6f * size, {196, 146, 20, 255}});
+  words.notes.push_back({left + 0.5f * width, top + 0.25f * size, text,
+                         render::Note::Anchor::middle, width - 0.6f * size, false, bright});
 }
 
 void SheetMaker::add_seal(const SheetLayout& layout, const Tile& tile, render::Frame& words) const {

@@ -49,6 +49,7 @@ class SheetMaker {
   void add_tile_words(const SheetLayout& layout, const Tile& tile, bool is_late,
                       render::Frame& words) const;
   void add_seal(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
+  void add_star(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
   void add_state(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
   /// Frames that strips show.
   std::vector<int> moments() const;

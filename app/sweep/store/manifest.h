@@ -3,6 +3,7 @@
 /// the folders of the runs.
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,6 +47,14 @@ struct Variant {
   bool is_full() const { return coarsening == 1 && failure.empty(); }
 };
 
+/// What a person gave to a run, see stars.h.
+struct Mark {
+  bool has_star = false;
+  std::string note{};
+  bool is_given() const { return has_star || !note.empty(); }
+};
+using Marks = std::map<int, Mark>;  ///< by the number of the run
+
 struct Manifest {
   std::string sources;  ///< of the program, see Build; "" in files of before they had it
   std::string version, name, title, sweep_file, scene_file, view;
@@ -78,6 +87,7 @@ struct Manifest {
   setup::Quality quality = setup::Quality::preview;
   /// What all runs change in the scene, beside --coarsen and --fast.
   std::vector<scene::Override> fixed{};
+  Marks marks{};             ///< in a file of their own
   std::string scene_hash{};  ///< record::hash_of() its text; "" where it is not a file
 
   /// The run of a number, a variant's too; null: there is none.

@@ -71,10 +71,11 @@ void show_quantity_tip(const session::QuantitySummary& quantity) {
     lines.push_back(
         {std::to_string(quantity.outside_expected) + " outside the expected range: " + quantity.why,
          true});
-  if (!lines.empty()) show_tip(lines);
+  lines.push_back({"click for its histogram", true});
+  show_tip(lines);
 }
 
-void draw_stage_table(const session::StageSummary& look) {
+void draw_stage_table(ViewerState& state, const session::StageSummary& look) {
   const std::string rows =
       std::to_string(look.rows) + (look.is_of_nodes ? " nodes, " + std::to_string(look.negligible) +
                                                           " of them too light and left out"
@@ -87,7 +88,13 @@ void draw_stage_table(const session::StageSummary& look) {
   for (const session::QuantitySummary& quantity : look.quantities) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(with_unit(quantity.name, quantity.unit).c_str());
+    const session::FieldName field{look.is_of_nodes, quantity.name};
+    if (ImGui::Selectable(with_unit(quantity.name, quantity.unit).c_str(),
+                          state.is_histogram_open && state.histogram == field)) {
+      state.histogram = field;
+      state.wants_histogram = true;
+    }
+    note_label(("stage " + quantity.name).c_str());
     if (wants_tip()) show_quantity_tip(quantity);
     draw_value(rough_text(quantity.min) + " to " + rough_text(quantity.max),
                quantity.outside_expected > 0, quantity.expected);
@@ -191,7 +198,7 @@ void draw_stages(ViewerState& state) {
                                   "stages of a phase. Click a stage for its own time."
                                 : "Click a stage to inspect a step, on a copy.");
   ImGui::PopTextWrapPos();
-  if (live.stage) draw_stage_table(*live.stage);
+  if (live.stage) draw_stage_table(state, *live.stage);
 }
 
 /// Tensors have a line for each row.
@@ -287,6 +294,7 @@ void draw_inspector(ViewerState& state) {
   const bool shows_probe = ImGui::CollapsingHeader("Probe", ImGuiTreeNodeFlags_DefaultOpen);
   note_label("Probe");
   if (shows_probe) draw_probe(state);
+  draw_histogram(state);
 }
 
 }  // namespace neve::app::view::panels

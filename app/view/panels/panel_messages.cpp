@@ -128,6 +128,35 @@ void draw_keyframes(const session::LiveFrame& live, int last) {
   if (!near.empty()) ImGui::SetTooltip("%s", near.c_str());
 }
 
+/// Asks before later frames are dropped, above the button: a second press there is no answer.
+void draw_question(ViewerState& state, ImVec2 at) {
+  const session::LiveFrame& live = *state.live;
+  if (!live.is_older) state.asks_to_continue = false;
+  if (!state.asks_to_continue) return;
+  const int start = scene::number_of(*live.scene, 0), first = start + live.frame + 1;
+  ImGui::SetNextWindowPos(ImVec2(at.x, at.y - 0.5f * em()), ImGuiCond_Always, ImVec2(0.5f, 1));
+  if (ImGui::Begin("question", nullptr,
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
+                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
+    ImGui::TextUnformatted(
+        (first == start + live.head
+             ? fmt::format("Continuing here drops frame {}, and the changes made in it.", first)
+             : fmt::format(
+                   "Continuing here drops the frames {} to {}, and the changes made in them.",
+                   first, start + live.head))
+            .c_str());
+    if (ImGui::Button("Drop them and continue")) {
+      state.asks_to_continue = false;
+      state.bench.continue_from_here();
+    }
+    note_label("Drop them and continue");
+    ImGui::SameLine();
+    if (ImGui::Button("Keep them")) state.asks_to_continue = false;
+    note_label("Keep them");
+  }
+  ImGui::End();
+}
+
 }  // namespace
 
 void draw_messages(ViewerState& state) {
@@ -194,10 +223,13 @@ void draw_time_line(ViewerState& state) {
   if (button("Vary from here", "Vary", true, "runs that begin at this frame, with other values"))
     open_study(state);
   if (button("Continue from here", "Continue", live.is_older,
-             "simulate from this frame with the current values;\nlater frames are dropped"))
-    state.bench.continue_from_here();
+             "simulate from this frame with the current values;\nlater frames are dropped, after a "
+             "question"))
+    state.asks_to_continue = !state.asks_to_continue;
+  const ImVec2 asked_at = ImGui::GetItemRectMin();
   if (button("Back to the run", "Back", live.is_older, "show the newest frame"))
     state.bench.session().show_head();
+  draw_question(state, asked_at);
 }
 
 void draw_help(ViewerState& state) {

@@ -95,6 +95,8 @@ void start_study(ViewerState& state) {
   state.study.error = state.bench.vary_from_here(
       {state.study.axes, state.study.last_frame, state.study.has_longer_steps},
       view_to_keep(state));
+  state.study.waits_for_sheet = state.study.error.empty();
+  state.study.shows_sheet = false;
 }
 
 void draw_form(ViewerState& state) {
@@ -165,6 +167,10 @@ void draw_result(ViewerState& state, const session::StudyProgress& progress) {
                  " runs are finished" +
                  (progress.failed > 0 ? ", " + std::to_string(progress.failed) + " failed" : "") +
                  ".");
+    bool& is_shown = state.study.shows_sheet;
+    if (labelled_button(is_shown ? "Show the run" : "Show the sheet", "Show the sheet"))
+      is_shown = !is_shown;
+    tip("the contact sheet in the place of the picture; a click on it shows the run again");
     draw_files_of_study(state, progress);
   }
   if (labelled_button("Copy the command of the sweep")) state.copy(progress.command);
@@ -185,7 +191,10 @@ void open_study(ViewerState& state) {
 }
 
 void draw_study(ViewerState& state) {
-  if (!state.study.is_open) return;
+  if (!state.study.is_open) {
+    state.study.shows_sheet = false;
+    return;
+  }
   const PanelPlace place = column_beside(state);
   ImGui::SetNextWindowPos(place.at);
   ImGui::SetNextWindowSize(place.size);
@@ -194,6 +203,11 @@ void draw_study(ViewerState& state) {
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
     note_label("sweep", {place.at.x, place.at.y, place.size.x, place.size.y});
     const session::StudyProgress& progress = state.bench.study().progress();
+    using State = session::StudyProgress::State;
+    if (state.study.waits_for_sheet && progress.state != State::running) {
+      state.study.waits_for_sheet = false;
+      state.study.shows_sheet = progress.state == State::done;
+    }
     if (state.bench.study().is_running()) {
       draw_running(state, progress);
     } else {

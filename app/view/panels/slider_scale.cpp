@@ -5,13 +5,12 @@
 #include <map>
 
 #include "app/scene/params.h"
+#include "app/sweep/plan/around.h"
 
 namespace neve::app::view::panels {
 
 namespace {
 
-/// A range this many times the usual value is one of decades.
-constexpr double decades_from = 30;
 /// So many times less and more than usual are on a slider.
 constexpr double slider_reach = 100;
 /// Wider ranges have too much on a pixel.
@@ -32,9 +31,7 @@ SliderScale slider_scale(const scene::Valid& valid, const std::optional<double>&
   const bool is_bounded = std::isfinite(valid.min) && std::isfinite(valid.max);
   if (!is_bounded) return {};
   const double min = least(valid), max = greatest(valid);
-  const bool has_decades = usual && *usual > 0 && valid.min >= 0 && max >= decades_from * *usual &&
-                           *usual >= decades_from * valid.min;
-  if (has_decades) {
+  if (sweep::plan::spans_decades(valid, usual)) {
     double low = std::max(min, *usual / slider_reach), high = std::min(max, *usual * slider_reach);
     if (value > 0) low = std::min(low, value);
     high = std::max(high, value);
@@ -42,6 +39,15 @@ SliderScale slider_scale(const scene::Valid& valid, const std::optional<double>&
   }
   if (max - min <= widest_linear) return {SliderScale::Kind::linear, min, max, false};
   return {};
+}
+
+double share_of(const SliderScale& scale, double value) {
+  if (!(scale.high > scale.low)) return 0;
+  const bool is_log = scale.kind == SliderScale::Kind::logarithmic;
+  if (is_log && !(value > scale.low)) return 0;
+  const double share = is_log ? std::log(value / scale.low) / std::log(scale.high / scale.low)
+                              : (value - scale.low) / (scale.high - scale.low);
+  return std::clamp(share, 0.0, 1.0);
 }
 
 std::optional<double> usual_number(const std::string& address) {

@@ -24,6 +24,9 @@ struct SliderScale {
 SliderScale slider_scale(const scene::Valid& valid, const std::optional<double>& usual,
                          double value);
 
+/// Place of a value on a slider, 0 at its left end, 1 at its right one.
+double share_of(const SliderScale& scale, double value);
+
 /// The smallest and the largest value that is allowed.
 double least(const scene::Valid& valid);
 double greatest(const scene::Valid& valid);

@@ -18,9 +18,8 @@ void style_panels(float scale) {
   style.Colors[ImGuiCol_FrameBg] = ImVec4(0.16f, 0.18f, 0.22f, 1);
   style.Colors[ImGuiCol_Button] = ImVec4(0.20f, 0.23f, 0.29f, 1);
   style.Colors[ImGuiCol_PlotHistogram] = ImVec4(0.24f, 0.45f, 0.70f, 1);
-  // The number of a slider is written over its grab.
-  style.Colors[ImGuiCol_SliderGrab] = ImVec4(0.20f, 0.36f, 0.56f, 1);
-  style.Colors[ImGuiCol_SliderGrabActive] = ImVec4(0.24f, 0.45f, 0.70f, 1);
+  style.Colors[ImGuiCol_SliderGrab] = ImVec4(0.24f, 0.45f, 0.70f, 1);
+  style.Colors[ImGuiCol_SliderGrabActive] = ImVec4(0.45f, 0.68f, 0.95f, 1);
   style.Colors[ImGuiCol_Header] = ImVec4(0.18f, 0.27f, 0.38f, 1);
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;

@@ -21,6 +21,9 @@ sim::shapes::Bounds bounds_of(const std::vector<sim::Vec3d>& places, std::size_t
   return box;
 }
 
+/// Colliders, emitters and sinks this many times as large as the snow are places, not things.
+constexpr double things_up_to = 8;
+
 void frame_box(ViewerState& state, const sim::shapes::Bounds& box) {
   if (!(box.min.x() <= box.max.x())) return;
   const double aspect =
@@ -30,6 +33,26 @@ void frame_box(ViewerState& state, const sim::shapes::Bounds& box) {
 }
 
 }  // namespace
+
+sim::shapes::Bounds bounds_of_all(const session::LiveFrame& live) {
+  const std::vector<sim::Vec3d>& x = live.snapshot.particles.x;
+  sim::shapes::Bounds box = bounds_of(x, 0, x.size());
+  const bool has_snow = box.min.x() <= box.max.x();
+  const double largest =
+      has_snow ? things_up_to * std::max(1e-3, (box.max - box.min).norm()) : 1e300;
+  const auto add = [&](const sim::shapes::Shape& shape, const sim::shapes::Bounds& bounds) {
+    if (std::holds_alternative<sim::shapes::Plane>(shape.form)) return;
+    if (!((bounds.max - bounds.min).norm() <= largest)) return;
+    box.min = box.min.cwiseMin(bounds.min);
+    box.max = box.max.cwiseMax(bounds.max);
+  };
+  for (const scene::Collider& collider : live.scene->colliders)
+    add(collider.shape, sim::shapes::bounds_at(collider, live.snapshot.time));
+  for (const auto& emitter : live.scene->emitters)
+    add(emitter.shape, sim::shapes::bounds(emitter.shape));
+  for (const auto& sink : live.scene->sinks) add(sink.shape, sim::shapes::bounds(sink.shape));
+  return box;
+}
 
 float em() {
   return ImGui::GetFontSize();
@@ -78,9 +101,7 @@ void toggle_run(ViewerState& state) {
 }
 
 void frame_all(ViewerState& state) {
-  if (!state.live) return;
-  const std::vector<sim::Vec3d>& x = state.live->snapshot.particles.x;
-  frame_box(state, bounds_of(x, 0, x.size()));
+  if (state.live) frame_box(state, bounds_of_all(*state.live));
 }
 
 void frame_selection(ViewerState& state) {

@@ -52,6 +52,8 @@ struct StudyForm {
   std::vector<session::StudyAxis> axes;
   int last_frame = 0;
   bool has_longer_steps = false;
+  bool waits_for_sheet = false;  ///< of runs that were started
+  bool shows_sheet = false;      ///< in the place of the picture
   std::string error;
 };
 
@@ -82,9 +84,13 @@ struct ViewerState {
   bool follows_probe = false;
   ProbeTrace trace{};
   std::optional<sim::Vec3d> last_followed{};
+  session::FieldName histogram{false, "J_P"};  ///< the field whose spread is shown
+  bool is_histogram_open = false;
+  bool wants_histogram = false;  ///< its list is opened in the next picture
 
-  bool is_playing = false;  ///< kept frames, one after the other
-  double play_clock = 0;    ///< s since the last one
+  bool asks_to_continue = false;  ///< from an older frame, which drops later ones
+  bool is_playing = false;        ///< kept frames, one after the other
+  double play_clock = 0;          ///< s since the last one
   bool is_recording = false;
   int recorded = 0;  ///< frames of the sequence so far
   bool wants_picture = false;
@@ -125,7 +131,7 @@ void announce_view(ViewerState& state);
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe);
 
 void toggle_run(ViewerState& state);
-/// All snow and small colliders.
+/// All snow, colliders, emitters and sinks, but those that are far larger than the snow.
 void frame_all(ViewerState& state);
 /// Frames the probed or selected object; everything if there is none.
 void frame_selection(ViewerState& state);
@@ -142,6 +148,8 @@ void switch_throwing(ViewerState& state);
 void draw_changes(ViewerState& state);
 void draw_view_panel(ViewerState& state);
 void draw_inspector(ViewerState& state);
+/// The spread of a field over all nodes or particles.
+void draw_histogram(ViewerState& state);
 void draw_plots_panel(ViewerState& state);
 void draw_messages(ViewerState& state);
 void draw_time_line(ViewerState& state);
@@ -165,6 +173,9 @@ void draw_right_column(ViewerState& state);
 void use_viewport(ViewerState& state);
 /// Keys that are not for a text field.
 void use_keys(ViewerState& state);
+
+/// The snow, and colliders, emitters and sinks of its order of size; planes have no end.
+sim::shapes::Bounds bounds_of_all(const session::LiveFrame& live);
 
 /// The current ImGui text size.
 float em();

@@ -123,6 +123,18 @@ void draw_reset_mark() {
   ImGui::Dummy(ImVec2(0.8f * size, ImGui::GetFrameHeight()));
 }
 
+/// A line below the number of the last slider, as long as its value: a grab would cover the number.
+void draw_level(double share) {
+  const ImGuiCol color = ImGui::IsItemActive() ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float thick = std::max(2.0f, 0.16f * (high.y - low.y));
+  const float x = low.x + static_cast<float>(share) * (high.x - low.x);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(ImVec2(low.x, high.y - thick), ImVec2(x, high.y), ImGui::GetColorU32(color));
+  list.AddRectFilled(ImVec2(x - 1, high.y - 2 * thick), ImVec2(x + 1, high.y),
+                     ImGui::GetColorU32(ImGuiCol_SliderGrabActive));
+}
+
 double clamped(double value, const scene::Valid& valid) {
   if (!std::isfinite(value)) return std::isfinite(valid.min) ? least(valid) : 0.0;
   return std::clamp(value, least(valid), greatest(valid));
@@ -144,8 +156,12 @@ bool edit_value(const Knob& knob, double& value) {
                       format.c_str());
   } else {
     const bool is_log = scale.kind == SliderScale::Kind::logarithmic;
+    for (const ImGuiCol grab : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive})
+      ImGui::PushStyleColor(grab, IM_COL32_BLACK_TRANS);
     ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &scale.low, &scale.high,
                         format.c_str(), is_log ? ImGuiSliderFlags_Logarithmic : 0);
+    ImGui::PopStyleColor(2);
+    draw_level(share_of(scale, value));
   }
   return settle(
       knob, before, value, [&](double x) { return knob.valid.contains(x); },

@@ -31,7 +31,8 @@ bool Inspector::next_stage() {
 
 void Inspector::inspect(const timeline::Timeline& timeline, bool is_running, LiveFrame& live) {
   const auto now = Clock::now();
-  const bool is_probe = probe_ && (!is_running || now - probed_at_ > probe_interval);
+  const bool is_probe =
+      (probe_ || histogram_) && (!is_running || now - probed_at_ > probe_interval);
   live.probed = probe_;
   if (!live.divergence && (stage || is_probe)) {
     const dump::StepInspection inside =
@@ -43,11 +44,13 @@ void Inspector::inspect(const timeline::Timeline& timeline, bool is_running, Liv
       show_after_stage(inside, *stage, live.snapshot);
     }
     if (is_probe) {
-      reading_ = read_probe(inside, *probe_, stage);
+      if (probe_) reading_ = read_probe(inside, *probe_, stage);
+      if (histogram_) spread_ = read_histogram(inside, *histogram_, stage);
       probed_at_ = Clock::now();
     }
   }
   live.probe = probe_ ? reading_ : std::nullopt;
+  live.histogram = histogram_ ? spread_ : std::nullopt;
 }
 
 }  // namespace neve::app::view::session

@@ -19,16 +19,23 @@ class Inspector {
     probed_at_ = {};
   }
   const std::optional<dump::Probe>& probe() const { return probe_; }
+  void set_histogram(std::optional<FieldName> field) {
+    histogram_ = std::move(field);
+    probed_at_ = {};
+  }
 
   /// Goes on to the next stage. @return false after the last one
   bool next_stage();
 
-  /// Adds the stage and the probe to a frame. A running simulation is probed four times a second.
+  /// Adds the stage, the probe and the histogram to a frame. A running simulation is probed four
+  /// times a second.
   void inspect(const timeline::Timeline& timeline, bool is_running, LiveFrame& live);
 
  private:
   std::optional<dump::Probe> probe_;
   std::optional<ProbeReading> reading_;  ///< the last one
+  std::optional<FieldName> histogram_;
+  std::optional<HistogramReading> spread_;  ///< the last one
   Clock::time_point probed_at_{};
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/dump/dump_options.h"
+#include "app/dump/histogram.h"
 #include "app/health/diagnosis.h"
 #include "app/picture/snapshot.h"
 #include "app/setup/seed_scene.h"
@@ -67,6 +68,20 @@ struct ProbeReading {
   std::vector<ProbeRow> rows;
 };
 
+/// A quantity of all nodes or of all particles.
+struct FieldName {
+  bool is_of_nodes = false;
+  std::string name;
+  bool operator==(const FieldName&) const = default;
+};
+
+struct HistogramReading {
+  FieldName field;
+  std::optional<dump::Histogram> histogram;  ///< absent: there is no such field at this moment
+  std::string after;                         ///< the stage that was done last, or ""
+  std::vector<FieldName> fields;             ///< those of this moment
+};
+
 struct LiveFrame {
   std::uint64_t number = 0;                   ///< number of published frames
   std::shared_ptr<const scene::Scene> scene;  ///< that is simulated, colliders where they are
@@ -98,8 +113,9 @@ struct LiveFrame {
   std::optional<StageSummary> stage;
   std::optional<ProbeReading> probe;
   std::optional<dump::Probe> probed;  ///< requested target
-  std::string error;                  ///< why the last thing asked for was not done; empty: it was
-  std::uint64_t errors = 0;           ///< how many there were, to tell a new one from the same
+  std::optional<HistogramReading> histogram;
+  std::string error;         ///< why the last thing asked for was not done; empty: it was
+  std::uint64_t errors = 0;  ///< how many there were, to tell a new one from the same
 };
 
 }  // namespace neve::app::view::session

@@ -178,6 +178,10 @@ void Session::set_probe(std::optional<dump::Probe> probe) {
   mailbox_.ask([this, probe = std::move(probe)] { inspector_.set_probe(probe); });
 }
 
+void Session::set_histogram(std::optional<FieldName> field) {
+  mailbox_.ask([this, field = std::move(field)] { inspector_.set_histogram(field); });
+}
+
 void Session::set_recording(bool is_on) {
   mailbox_.ask([this, is_on] { is_recording_ = is_on; });
 }

@@ -76,6 +76,8 @@ class Session {
   /// Sets the views whose fields the session computes.
   void set_views(std::vector<scene::View> views);
   void set_probe(std::optional<dump::Probe> probe);
+  /// A histogram of this field in each frame; nothing: of none.
+  void set_histogram(std::optional<FieldName> field);
   /// While on, every frame is shown at its end, and waits until taken() has it.
   void set_recording(bool is_on);
 

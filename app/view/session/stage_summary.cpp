@@ -42,6 +42,18 @@ bool has_nodes(sim::Stage stage) {
   return stage == rasterize || (stage >= elastic_forces && stage <= implicit_solve);
 }
 
+/// Before the step, a node has the values that the step rasterises.
+std::optional<sim::Stage> stage_of(bool is_node, const std::optional<sim::Stage>& stage) {
+  return is_node ? std::optional(stage.value_or(sim::Stage::implicit_solve)) : stage;
+}
+
+/// All nodes or all particles, as they are after a stage.
+dump::Listing listing_of(const dump::StepInspection& inside, bool is_node,
+                         const std::optional<sim::Stage>& after) {
+  if (after && has_nodes(*after) == is_node) return dump::list_stage(inside, *after);
+  return is_node ? dump::list_stage(inside, sim::Stage::implicit_solve) : dump::list_state(inside);
+}
+
 }  // namespace
 
 scene::View view_of_stage(const scene::Scene& scene, scene::View view, sim::Stage stage) {
@@ -68,8 +80,7 @@ StageSummary summarize_stage(const dump::StepInspection& inside, sim::Stage stag
   summary.negligible = listing.negligible_count();
   summary.seconds = inside.step.seconds;
   for (const dump::Quantity& quantity : listing.quantities)
-    if (quantity.name != "node" && quantity.name != "id")  // which they are
-      summary.quantities.push_back(summary_of(listing, quantity));
+    if (!dump::is_index(quantity)) summary.quantities.push_back(summary_of(listing, quantity));
   return summary;
 }
 
@@ -90,13 +101,8 @@ std::optional<ProbeReading> read_probe(const dump::StepInspection& inside,
                                        const dump::Probe& target,
                                        const std::optional<sim::Stage>& stage) {
   const bool is_node = std::holds_alternative<sim::Vec3d>(target);
-  // Before the step, a node has the values that the step rasterises.
-  const std::optional<sim::Stage> after =
-      is_node ? std::optional(stage.value_or(sim::Stage::implicit_solve)) : stage;
-  const dump::Listing listing = after && has_nodes(*after) == is_node
-                                    ? dump::list_stage(inside, *after)
-                                : is_node ? dump::list_stage(inside, sim::Stage::implicit_solve)
-                                          : dump::list_state(inside);
+  const std::optional<sim::Stage> after = stage_of(is_node, stage);
+  const dump::Listing listing = listing_of(inside, is_node, after);
   std::optional<std::size_t> row;
   if (is_node)
     row = nearest_row(listing, std::get<sim::Vec3d>(target));
@@ -115,6 +121,23 @@ std::optional<ProbeReading> read_probe(const dump::StepInspection& inside,
                  quantity.why,
                  quantity.is_outside_expected(*row)};
     reading.rows.push_back(std::move(out));
+  }
+  return reading;
+}
+
+HistogramReading read_histogram(const dump::StepInspection& inside, const FieldName& field,
+                                const std::optional<sim::Stage>& stage) {
+  HistogramReading reading;
+  reading.field = field;
+  for (const bool is_node : {false, true}) {
+    const std::optional<sim::Stage> after = stage_of(is_node, stage);
+    const dump::Listing listing = listing_of(inside, is_node, after);
+    if (is_node == field.is_of_nodes) reading.after = after ? name(*after) : "";
+    for (const dump::Quantity& quantity : listing.quantities) {
+      if (dump::is_index(quantity)) continue;
+      reading.fields.push_back({is_node, quantity.name});
+      if (reading.fields.back() == field) reading.histogram = dump::histogram_of(listing, quantity);
+    }
   }
   return reading;
 }

@@ -28,4 +28,8 @@ std::optional<ProbeReading> read_probe(const dump::StepInspection& inside,
                                        const dump::Probe& target,
                                        const std::optional<sim::Stage>& stage);
 
+/// @param stage as above
+HistogramReading read_histogram(const dump::StepInspection& inside, const FieldName& field,
+                                const std::optional<sim::Stage>& stage);
+
 }  // namespace neve::app::view::session

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <system_error>
 
 #include "app/options/arguments.h"
@@ -34,6 +36,11 @@ std::vector<std::string> axes_of(const StudyRequest& request) {
   return axes;
 }
 
+/// How many there are in "5, 10, 20", roughly: of lists in lists more.
+std::size_t values_of(const StudyAxis& axis) {
+  return 1 + static_cast<std::size_t>(std::count(axis.values.begin(), axis.values.end(), ','));
+}
+
 }  // namespace
 
 void Study::start(const fs::path& folder, record::RunRecord run, timeline::Moment moment,
@@ -50,6 +57,10 @@ void Study::start(const fs::path& folder, record::RunRecord run, timeline::Momen
   const int start = moment.scene ? scene::number_of(*moment.scene, 0) : 0;
   options.frames = setup::FrameRange{setup::FrameRange::from_start, start + request.last_frame};
   options.out = (here / "study.cdb").string();
+  // A line of tiles would be as wide as the picture, and they small.
+  if (const std::size_t count = request.axes.size() == 1 ? values_of(request.axes[0]) : 0;
+      count > 3)
+    options.wrap = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
   std::error_code error;
   int runs = 0;
   try {

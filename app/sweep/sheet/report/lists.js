@@ -55,6 +55,7 @@ function makeTile(row) {
   const text = tileText(row), note = row.state === 'ok' ? '' : row.state + (text ? '; ' : '');
   const tile = make('button', {type: 'button', className: 'tile ' + kindOf(row), title: noteOf(row)},
     make('img', {alt: '', decoding: 'async'}),
+    starOf(row),
     ...row.full ? [make('span', {className: 'full', textContent: 'full resolution'})] : [],
     make('span', {}, markOf(row), make('b', {textContent: `${row.run}: ${note}${text}`})));
   tile.dataset.at = row.at;
@@ -136,10 +137,11 @@ function startTiles() {
     markTiles();
   };
   const markTiles = () => tiles.forEach((tile, at) => {
+    showStar(tile.querySelector('.star'), rows[at]);
     tile.classList.toggle('here', at === state.run);
     tile.classList.toggle('lit', at === state.hover);
   });
-  addPainter(element, ['brush', 'sort', 'size', 'scroll', ...hasSeals ? ['draw', 'colour'] : []], paint);
+  addPainter(element, ['brush', 'sort', 'star', 'size', 'scroll', ...hasSeals ? ['draw', 'colour'] : []], paint);
   addPainter(element, ['run', 'hover'], markTiles);
   // A moment is drawn in the sheet when the slider rests: twenty pictures take longer than one.
   let rest = 0;
@@ -149,6 +151,7 @@ function startTiles() {
   });
   room.addEventListener('click', event => {
     const tile = event.target.closest('.tile');
+    if (tile && event.target.closest('.star')) return toggleStar(rows[tile.dataset.at]);
     if (tile) goTo(Number(tile.dataset.at));
   });
   listenForRuns(room, '.tile');
@@ -248,7 +251,11 @@ function startTable() {
     line.classList.toggle('here', at === state.run);
     line.classList.toggle('lit', at === state.hover);
   });
-  addPainter(element, ['brush', 'sort', 'size', 'scroll', 'draw'], parts => {
+  addPainter(element, ['brush', 'sort', 'star', 'size', 'scroll', 'draw'], parts => {
+    if (parts.has('star')) {
+      for (const line of lines.values()) line.remove();
+      lines.clear();
+    }
     if (parts.has('sort')) heads.forEach((head, c) => c !== state.sort.column
       ? head.removeAttribute('aria-sort')
       : head.setAttribute('aria-sort', state.sort.way > 0 ? 'ascending' : 'descending'));

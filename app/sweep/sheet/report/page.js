@@ -60,6 +60,7 @@ const state = {
   kept: rows.map(row => row.at),  // by all brushes, sorted
   shown: [],                      // of those, the runs that have a tile: one of each point
   isKept: rows.map(() => true),
+  onlyStars: false,
 };
 
 /**
@@ -88,7 +89,7 @@ function ask() {
   requestAnimationFrame(paintAll);
 }
 
-/** @param parts run, draw, frame, mode, hover, brush, sort, colour, columns, size, scroll, peek, theme */
+/** @param parts star, run, draw, frame, mode, hover, brush, sort, colour, columns, size, scroll, peek, theme */
 function change(...parts) {
   for (const part of parts) changed.add(part);
   ask();
@@ -96,7 +97,7 @@ function change(...parts) {
 
 function paintAll() {
   isAsked = false;
-  if (changed.has('brush') || changed.has('sort') || changed.has('draw')) filterRuns();
+  if (changed.has('star') || changed.has('brush') || changed.has('sort') || changed.has('draw')) filterRuns();
   for (const painter of painters) {
     for (const part of changed) if (painter.parts.has(part)) painter.waiting.add(part);
     if (painter.waiting.size === 0 || !(painter.isSeen || isFirst)) continue;
@@ -113,7 +114,7 @@ function paintAll() {
 function filterRuns() {
   const brushes = [...state.brushes];
   for (const row of rows)
-    state.isKept[row.at] = brushes.every(([c, [low, high]]) => {
+    state.isKept[row.at] = (!state.onlyStars || row.mark.star) && brushes.every(([c, [low, high]]) => {
       const place = columns[c].places[row.at];
       return place >= low && place <= high;
     });

@@ -22,6 +22,7 @@ function start() {
   startPeek();
   startFacts();
   startFilter();
+  startStars();
   startColour();
   startTiles();
   startParallel();
