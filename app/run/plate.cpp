@@ -84,19 +84,13 @@ render::Image rgb_of(const std::vector<std::uint8_t>& bytes, const std::filesyst
   });
 }
 
-/// The first of the numbered plates, where the shot begins with another number.
-std::string advice_on_missing(const RenderJob& job, const std::filesystem::path& file) {
-  const std::string usual = "a plate is a picture, or one for each frame, as in street/%04d.png";
-  int first = -1;
+/// The first number that a plate has, where the shot begins with another one; -1: there is none.
+int first_plate(const RenderJob& job) {
   constexpr int highest = 9999;
   std::error_code error;
-  for (int number = 0; number <= highest && first < 0; ++number)
-    if (const std::filesystem::path other = plate_path(job.plate, number);
-        other != file && std::filesystem::exists(other, error))
-      first = number;
-  if (first < 0) return usual;
-  return fmt::format("the plates begin with {}: --set first_frame={}",
-                     plate_path(job.plate, first).string(), first);
+  for (int number = 0; number <= highest; ++number)
+    if (std::filesystem::exists(plate_path(job.plate, number), error)) return number;
+  return -1;
 }
 
 }  // namespace
@@ -117,8 +111,11 @@ render::Image read_plate(const RenderJob& job, int frame, const std::string& vie
   if (job.picture && job.options.plate.empty())
     record::require_listed(*job.picture, file.string(), job.scene_file);
   std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw UsageError("--plate", file.string() + " is not there", advice_on_missing(job, file));
+  const int first = std::filesystem::exists(file, error) ? -1 : first_plate(job);
+  if (first > frame)
+    throw UsageError("--plate", file.string() + " is not there",
+                     fmt::format("the plates begin with {}: --set first_frame={}",
+                                 plate_path(job.plate, first).string(), first));
   const render::Image image = rgb_of(output::read_file(file), file);
   if (image.width != size.width || image.height != size.height)
     throw Error(

@@ -441,7 +441,7 @@ COMMANDS = [
                   "[[run]]\nlabel = \"a\"\nseed = 1\n[[run]]\nlabel = \"a\"\nseed = 2\n"}),
     command("pick", "scene.toml", "-p", "material.snow.hardening=1,2", "-p",
             "material.snow.hardening=3,4"),
-    command("render", "scene.toml", "--plate", "street/%04d.png",
+    command("render", "scene.toml", "--quiet", "--plate", "street/%04d.png",
             files={"street/1001.png": "", "street/1002.png": ""}),
     command("dump", "scene.toml", "--at", "0.1", "--histogram", "--probe", "3"),
     command("sweep", "star", "out/none.cdb", "3"),

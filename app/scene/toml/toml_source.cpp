@@ -109,6 +109,17 @@ bool has_bare_point(std::string_view value) {
   return false;
 }
 
+/// "[snow]": a list of words without quotes, as shells leave it.
+bool has_bare_words(std::string_view value) {
+  if (value.empty() || value[0] != '[') return false;
+  const std::size_t first = value.find_first_not_of("[ ");
+  if (first == value.npos || !is_letter(value[first])) return false;
+  const std::string_view rest = value.substr(first);
+  for (const char* word : {"true", "false", "inf", "nan"})
+    if (rest.starts_with(word)) return false;
+  return true;
+}
+
 /// Advice on the line where the parser gave up.
 std::string advice_on(std::string_view text, int line) {
   for (int k = 1; k < line && text.find('\n') != text.npos; ++k)
@@ -133,6 +144,9 @@ std::string advice_on(std::string_view text, int line) {
       value.find(' ') != value.npos)
     return "vectors have commas, as in [0, 0, 0]";
   if (value[0] == '(') return "vectors have square brackets, as in [0, 0, 0]";
+  if (has_bare_words(value))
+    return "words have quotes, which a shell takes away: write 'ADDRESS=[\"snow\"]' with single "
+           "quotes around";
   if (is_letter(value[0])) return "words have quotes, as in \"snow\"";
   return {};
 }

@@ -40,17 +40,16 @@ sim::shapes::Bounds bounds_of_all(const session::LiveFrame& live) {
   const bool has_snow = box.min.x() <= box.max.x();
   const double largest =
       has_snow ? things_up_to * std::max(1e-3, (box.max - box.min).norm()) : 1e300;
-  const auto add = [&](const sim::shapes::Shape& shape, const sim::shapes::Bounds& bounds) {
-    if (std::holds_alternative<sim::shapes::Plane>(shape.form)) return;
+  const auto add = [&](const sim::shapes::Bounds& bounds) {
     if (!((bounds.max - bounds.min).norm() <= largest)) return;
     box.min = box.min.cwiseMin(bounds.min);
     box.max = box.max.cwiseMax(bounds.max);
   };
   for (const scene::Collider& collider : live.scene->colliders)
-    add(collider.shape, sim::shapes::bounds_at(collider, live.snapshot.time));
-  for (const auto& emitter : live.scene->emitters)
-    add(emitter.shape, sim::shapes::bounds(emitter.shape));
-  for (const auto& sink : live.scene->sinks) add(sink.shape, sim::shapes::bounds(sink.shape));
+    if (!std::holds_alternative<sim::shapes::Plane>(collider.shape.form))
+      add(sim::shapes::bounds_at(collider, live.snapshot.time));
+  for (const auto& emitter : live.scene->emitters) add(sim::shapes::bounds(emitter.shape));
+  for (const auto& sink : live.scene->sinks) add(sim::shapes::bounds(sink.shape));
   return box;
 }
 
