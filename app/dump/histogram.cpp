@@ -12,7 +12,7 @@ namespace {
 /// The ratio of the 95 % and the 5 % quantile from which bins have equal ratios.
 constexpr double wide = 100;
 /// Smaller ones than this share of the largest are in the first of such bins.
-constexpr double least_share = 1e-8;
+constexpr double min_share = 1e-8;
 constexpr std::size_t bar_width = 40;
 
 /// Sorted finite magnitudes.
@@ -79,7 +79,7 @@ Histogram histogram_of(const Listing& listing, const Quantity& quantity, std::si
     h.is_logarithmic = quantile(positive, 0.95) > wide * quantile(positive, 0.05);
     if (h.is_logarithmic) {
       h.zeros = values.size() - positive.size();
-      h.low = std::max(positive.front(), least_share * h.high);
+      h.low = std::max(positive.front(), min_share * h.high);
       values = positive;
     }
   }
@@ -97,14 +97,14 @@ std::vector<Histogram> histograms_of(const Listing& listing) {
 }
 
 std::string spread_text(const Histogram& h) {
-  if (h.counts.empty()) return h.not_finite > 0 ? "no value is a number" : "there is none";
+  if (h.counts.empty()) return h.not_finite > 0 ? "no value is finite" : "there is none";
   std::string text = "5 % below " + rough_text(h.q05) + ", half below " + rough_text(h.q50) +
                      ", 5 % above " + rough_text(h.q95);
   if (h.expected && std::isfinite(h.expected->max))
     text += "; " + std::to_string(h.outside_expected) + " outside the expected " +
             rough_text(h.expected->min) + " to " + rough_text(h.expected->max);
   if (h.zeros > 0) text += "; " + std::to_string(h.zeros) + " are 0";
-  if (h.not_finite > 0) text += "; " + std::to_string(h.not_finite) + " are no number";
+  if (h.not_finite > 0) text += "; " + std::to_string(h.not_finite) + " are not numbers";
   return text;
 }
 
@@ -136,7 +136,7 @@ Json histograms_json(const Listing& listing) {
                  {"edges", edges},
                  {"counts", h.counts},
                  {"zeros", h.zeros},
-                 {"no_number", h.not_finite},
+                 {"not_finite", h.not_finite},
                  {"is_logarithmic", h.is_logarithmic}};
     if (!h.counts.empty()) json["quantiles"] = {{"5", h.q05}, {"50", h.q50}, {"95", h.q95}};
     list.push_back(json);

@@ -96,15 +96,16 @@ void add_slice(const scene::Scene& scene, const scene::View& view, const Snapsho
   if (scene::has_layer(view, scene::Layer::heatmap)) add_heat_map(slice, frame);
   if (scene::has_layer(view, scene::Layer::streamlines)) add_streamlines(slice, frame);
   if (scene::has_layer(view, scene::Layer::arrows)) {
-    const int every = add_arrows(slice, frame);
-    if (every > 1) {
-      frame.footnote += ", one arrow per " + std::to_string(every) + " nodes";
-      if (view.slice.dense_near) frame.footnote += ", all of them near the chosen point";
-    }
+    const ArrowScale scale = add_arrows(slice, frame);
+    const std::string unit = attribute_name(view.slice.field).unit;
+    if (scale.every > 1)
+      frame.footnote += ", one arrow per " + std::to_string(scale.every) + " nodes";
+    if (scale.longest_near > 0)
+      frame.footnote += ", each node near the chosen point, longest there " +
+                        rough_text(scale.longest_near) + " " + unit;
     const scene::Range range = view.slice.range.value_or(scene::Range{});
     frame.footnote +=
-        ", longest arrow " + longest_text(view, range.max) + " " +
-        attribute_name(view.slice.field).unit +
+        ", longest arrow " + longest_text(view, range.max) + " " + unit +
         (view.slice.range_from == scene::RangeFrom::frame ? ", the largest of this frame" : "");
   }
   add_frame(plane, shape.rectangle(), frame);

@@ -140,7 +140,7 @@ render::Arrows arrows_at(const SliceMoment& slice, int every, float least,
 
 }  // namespace
 
-int add_arrows(const SliceMoment& slice, render::Frame& frame) {
+ArrowScale add_arrows(const SliceMoment& slice, render::Frame& frame) {
   const scene::SliceStyle& style = slice.view.slice;
   const int every = nodes_between_arrows(slice);
   // Seen from the front of the plane, which may be behind the point.
@@ -153,10 +153,14 @@ int add_arrows(const SliceMoment& slice, render::Frame& frame) {
   const auto largest = static_cast<float>(style.range.value_or(scene::Range{}).max);
   frame.arrows.push_back(
       arrows_at(slice, every, min_shown * largest, [&](const Vec3d& x) { return !is_dense(x); }));
-  // Where single nodes are looked at, small arrows count, too.
+  ArrowScale scale{every};
   render::Arrows dense = arrows_at(slice, 1, 0, is_dense);
-  if (dense.position.size() > 0) frame.arrows.push_back(std::move(dense));
-  return every;
+  for (std::size_t k = 0; k < dense.vector.size(); ++k)
+    scale.longest_near = std::max(scale.longest_near, static_cast<double>(length(dense.vector[k])));
+  if (!(scale.longest_near > 0)) return scale;
+  dense.length_per_value = dense.max_length / static_cast<float>(scale.longest_near);
+  frame.arrows.push_back(std::move(dense));
+  return scale;
 }
 
 void add_streamlines(const SliceMoment& slice, render::Frame& frame) {

@@ -20,9 +20,15 @@ struct SliceMoment {
 
 void add_heat_map(const SliceMoment& slice, render::Frame& frame);
 
-/// Where the view asks for it, nodes near a point have an arrow each.
-/// @return nodes from arrow to arrow
-int add_arrows(const SliceMoment& slice, render::Frame& frame);
+/// What the footnote says of arrows.
+struct ArrowScale {
+  int every = 1;            ///< nodes from arrow to arrow
+  double longest_near = 0;  ///< of those near the point; 0: they are none of their own
+};
+
+/// Where the view asks for it, nodes near a point have an arrow each, in a scale of their own:
+/// where little moves, they would be dots.
+ArrowScale add_arrows(const SliceMoment& slice, render::Frame& frame);
 
 /// The part of the field in the plane: coloured by its magnitude, or white on a heat map.
 void add_streamlines(const SliceMoment& slice, render::Frame& frame);

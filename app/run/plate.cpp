@@ -113,7 +113,7 @@ render::Image read_plate(const RenderJob& job, int frame, const std::string& vie
   std::error_code error;
   const int first = std::filesystem::exists(file, error) ? -1 : first_plate(job);
   if (first > frame)
-    throw UsageError("--plate", file.string() + " is not there",
+    throw UsageError("--plate", file.string() + " is missing",
                      fmt::format("the plates begin with {}: --set first_frame={}",
                                  plate_path(job.plate, first).string(), first));
   const render::Image image = rgb_of(output::read_file(file), file);

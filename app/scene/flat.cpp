@@ -293,4 +293,10 @@ SplitDifferences split_live(const Scene& before, const Scene& after) {
   return split;
 }
 
+bool spans_decades(const Valid& valid, const std::optional<double>& usual) {
+  constexpr double decades_from = 30;  // times the usual value
+  return usual && *usual > 0 && valid.min >= 0 && valid.max >= decades_from * *usual &&
+         *usual >= decades_from * valid.min;
+}
+
 }  // namespace neve::app::scene

@@ -137,7 +137,7 @@ const toml::Table& Reader::table_of(const toml::Value& value, const std::string&
     const auto* text = std::get_if<std::string>(&value.data);
     const bool is_of_file = address.ends_with(".mesh") || address.ends_with(".points");
     const advice::Entry* example =
-        advice::entry_of("value that is no table", address.substr(address.rfind('.') + 1));
+        advice::entry_of("value that must be a table", address.substr(address.rfind('.') + 1));
     Leaf{reading_.source, value, address, "", any}.fail(
         "a table", text && is_of_file ? "write { file = " + toml::toml_string(*text) + " }"
                    : example          ? example->sentence

@@ -174,7 +174,7 @@ std::string read_toml_file(const std::string& file) {
   if (file.ends_with(".png") && text.starts_with("\x89PNG"))
     throw toml::SceneError(file, 0, 0, "is a picture, and a scene is wanted here",
                            "name the scene that it was made of: neve info says which; from the "
-                           "moment of a picture neve sweep goes on with --from TIME");
+                           "moment of a picture neve sweep continues with --from TIME");
   if (file.ends_with(".png"))
     throw toml::SceneError(file, 0, 0, "is not a PNG picture, although its name ends in .png",
                            "name a scene file, or a picture that neve has made");

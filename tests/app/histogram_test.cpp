@@ -62,7 +62,7 @@ TEST(Histogram, LightNodesAndNoNumbersAreInNoBin) {
   EXPECT_EQ(h.high, 2);
   EXPECT_FALSE(h.is_outside_expected(0));
   EXPECT_TRUE(h.is_outside_expected(9));
-  EXPECT_NE(spread_text(h).find("1 are no number"), std::string::npos) << spread_text(h);
+  EXPECT_NE(spread_text(h).find("1 are not numbers"), std::string::npos) << spread_text(h);
 }
 
 TEST(Histogram, OneValueAndNoneHaveWords) {

@@ -109,14 +109,15 @@ TEST(SliceArrows, NodesNearAPointHaveAnArrowEach) {
   const SlicePlane plane = front();
   const SliceMoment slice{view, fields, plane, shape, 100, 720};
   render::Frame frame;
-  EXPECT_EQ(add_arrows(slice, frame), 4);
+  EXPECT_EQ(add_arrows(slice, frame).every, 4);
   ASSERT_EQ(frame.arrows.size(), 1u);
   EXPECT_EQ(frame.arrows[0].position.size(), 0u) << "one in a hundred of the longest is a dot";
   // The point may lie before the plane.
   view.slice.dense_near = Vec3d(0.1, 0.05, 0.3);
   frame.arrows.clear();
-  add_arrows(slice, frame);
+  EXPECT_EQ(add_arrows(slice, frame).longest_near, 1);
   ASSERT_EQ(frame.arrows.size(), 2u);
+  EXPECT_NEAR(frame.arrows[1].length_per_value, frame.arrows[1].max_length, 1e-6f) << "1 m/s";
   // Nodes of a disc of four cells.
   EXPECT_NEAR(double(frame.arrows[1].position.size()), std::numbers::pi * 16, 6);
   EXPECT_LE(frame.arrows[1].max_length, float(h));

@@ -350,9 +350,9 @@ TEST_F(ReportPage, StarsAndNotesAreOnTilesInTheTableAndOfferedToTheFolder) {
   click(".tile[data-run=\"2\"] .star");
   EXPECT_EQ(value("rows[state.run].run"), 0);
   EXPECT_EQ(value("rows[2].mark.star"), true);
-  focus("#star-note");
-  for (const char c : std::string("it's wet")) browser->type_letter(c);
-  value("document.getElementById('star-note').blur()");
+  value(
+      "(() => { const note = document.getElementById('star-note'); note.value = \"it's wet\"; "
+      "note.dispatchEvent(new Event('change')); })()");
   settle();
   EXPECT_EQ(value("rows[0].mark.note"), "it's wet");
   EXPECT_EQ(
@@ -444,13 +444,13 @@ TEST_F(ReportPage, PointsOfSeveralSeedsHaveOneTileEachAndSayWhatIsNoise) {
   EXPECT_EQ(all(".seal strong"), "b; b; a");
   EXPECT_EQ(value("document.querySelectorAll('.seal .undecided').length"), 1);
   EXPECT_NE(text_of("#seal-hint").find("too close to call"), std::string::npos);
-  EXPECT_EQ(text_of("#table tbody tr[data-at] td:nth-child(6)"), "0.515 (0.5 to 0.53) b");
+  EXPECT_EQ(text_of("#table tbody tr[data-at] td:nth-child(7)"), "0.515 (0.5 to 0.53) b");
   EXPECT_EQ(text_of("#table th.noise"), "height (m): noise");
   // The first two share a rank and so a colour; the table keeps their order.
   EXPECT_EQ(value("colourOf(0) === colourOf(4) && colourOf(0) !== colourOf(8)"), true);
-  click("#table th:nth-child(6) button");
+  click("#table th:nth-child(7) button");
   EXPECT_EQ(value("state.shown.join(' ')"), "0 4 8");
-  click("#table th:nth-child(6) button");
+  click("#table th:nth-child(7) button");
   EXPECT_EQ(value("state.shown.join(' ')"), "8 0 4");
   // Two points beside each other.
   click("[data-pin=a]");

@@ -44,7 +44,7 @@ double inside(const scene::Valid& valid, double x, double from) {
 /// Also where it is allowed over decades, whatever is usual.
 bool do_ratios_matter(const scene::FlatParam& param, double x) {
   return x > 0 && ((param.valid.min > 0 && param.valid.max / param.valid.min >= 1e3) ||
-                   spans_decades(param.valid, double_of(param.default_value)));
+                   scene::spans_decades(param.valid, double_of(param.default_value)));
 }
 
 /// Distance of the outer values from a number: half of it, or of its known scale.
@@ -128,12 +128,6 @@ std::string literal_of(const scene::Override& change) {
 }
 
 }  // namespace
-
-bool spans_decades(const scene::Valid& valid, const std::optional<double>& usual) {
-  constexpr double decades_from = 30;  // times the usual value
-  return usual && *usual > 0 && valid.min >= 0 && valid.max >= decades_from * *usual &&
-         *usual >= decades_from * valid.min;
-}
 
 std::vector<scene::toml::Value> values_around(const scene::FlatParam& param) {
   std::vector<scene::toml::Value> values;

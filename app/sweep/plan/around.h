@@ -9,10 +9,6 @@
 
 namespace neve::app::sweep::plan {
 
-/// Whether ratios of such a parameter matter: it is allowed over many times less and more than it
-/// usually is, as sliders show it.
-bool spans_decades(const scene::Valid& valid, const std::optional<double>& usual);
-
 /// Values around one: five numbers with it in the middle where the bounds leave room, in equal
 /// ratios where a parameter spans decades (a decade each way for pascals, otherwise up to four
 /// times and down to a quarter), at equal distances up to half of the value away elsewhere; of a

@@ -21,7 +21,7 @@ fs::path marks_path(const fs::path& folder) {
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
-  throw Error(exit_invalid_scene, file.string() + ": is no list of stars: " + why, file.string(),
+  throw Error(exit_invalid_scene, file.string() + ": is not a list of stars: " + why, file.string(),
               "the report of a sweep makes one, and neve sweep star DIR RUNS");
 }
 

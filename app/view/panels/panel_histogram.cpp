@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "app/dump/histogram.h"
 #include "app/support/text.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/tip.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "app/scene/flat.h"
 #include "app/scene/params.h"
-#include "app/sweep/plan/around.h"
 
 namespace neve::app::view::panels {
 
@@ -31,7 +31,7 @@ SliderScale slider_scale(const scene::Valid& valid, const std::optional<double>&
   const bool is_bounded = std::isfinite(valid.min) && std::isfinite(valid.max);
   if (!is_bounded) return {};
   const double min = least(valid), max = greatest(valid);
-  if (sweep::plan::spans_decades(valid, usual)) {
+  if (scene::spans_decades(valid, usual)) {
     double low = std::max(min, *usual / slider_reach), high = std::min(max, *usual * slider_reach);
     if (value > 0) low = std::min(low, value);
     high = std::max(high, value);
