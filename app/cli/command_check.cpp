@@ -74,15 +74,19 @@ Json check_json(const health::Check& check, const run::RenderJob& job,
                               {"steps", count_json(frame.steps)},
                               {"limit", sim::name(frame.limit)}});
   const forecast::Cost steps = check.foreseen.steps(), seconds = check.seconds();
-  json["steps"] = count_json(steps.expected);
-  json["steps_range"] = range_json(steps);
   const double frames = std::max<double>(1, static_cast<double>(check.foreseen.frames.size()));
-  json["steps_per_frame"] = steps.expected / frames;
-  json["seconds_per_frame"] = seconds.expected / frames;
-  json["seconds_per_step"] = check.seconds_per_step;
-  json["solve_iterations"] = job.scene.solver.is_implicit() ? Json(check.solve.iterations) : Json();
-  json["seconds"] = seconds.expected;
-  json["seconds_range"] = range_json(seconds);
+  // What is not known is null, and not a run that takes no time.
+  const bool has_steps = !check.foreseen.frames.empty(),
+             has_time = has_steps && check.seconds_per_step > 0;
+  const auto known = [](bool is_known, Json value) { return is_known ? value : Json(); };
+  json["steps"] = known(has_steps, count_json(steps.expected));
+  json["steps_range"] = known(has_steps, range_json(steps));
+  json["steps_per_frame"] = known(has_steps, steps.expected / frames);
+  json["seconds_per_frame"] = known(has_time, seconds.expected / frames);
+  json["seconds_per_step"] = known(has_time, check.seconds_per_step);
+  json["solve_iterations"] = known(job.scene.solver.is_implicit(), check.solve.iterations);
+  json["seconds"] = known(has_time, seconds.expected);
+  json["seconds_range"] = known(has_time, range_json(seconds));
   json["fast"] = {
       {"is_set", job.fast.has_value()},
       {"overrides", look.overrides},

@@ -419,6 +419,15 @@ TEST_F(Check, CheckForeseesTheStepsOfTheRun) {
   EXPECT_EQ(json["dt_limit"], "acoustic");
 }
 
+/// A scene too large to be looked at has no time that is known: null, and not 0 s.
+TEST_F(Check, WhatIsNotKnownIsNull) {
+  folder.write("scene.toml", scene("", floor_plane, 1));
+  const auto check = neve({"check", "scene.toml", "--json", "--set", "solver.cell_size=0.0011"});
+  const app::Json json = app::parse_json(std::string_view(check.output));
+  for (const char* key : {"seconds", "seconds_range", "seconds_per_step", "seconds_per_frame"})
+    EXPECT_TRUE(json[key].is_null()) << key << " " << json[key];
+}
+
 /// A ball that bursts: where its particles are few, and still share nodes, each costs as much as
 /// many packed ones.
 TEST_F(Check, CheckForeseesThatSprayIsDear) {
