@@ -44,13 +44,28 @@ TEST_P(EveryCommand, InterruptedAtAnyMomentContinues) {
   interrupt_at_any_moment(count_or_whole(3, 25));
 }
 
-// Memory of the viewer's panels is ImGui's; manual allocates little.
-INSTANTIATE_TEST_SUITE_P(Commands, EveryAllocation,
-                         testing::ValuesIn(disturbed_commands({"view", "emit", "manual"})),
-                         name_of);
+class CardFaults : public FaultyCli {};
+
+/// A card takes seconds: its few files fail at a place each.
+TEST_F(CardFaults, ACardThatCannotBeWrittenIsSaidAndMadeByTheSameCommand) {
+  const std::string card = "card scene.toml --out card/c.png";
+  for (const char* place : {"write:28:card/:0", "rename:5:card/:1", "open:28:card/:0"}) {
+    const auto failed = failing(place, card);
+    EXPECT_EQ(failed.exit_code, 6) << place << failed.errors;
+    expect_nothing_unfinished(folder.path(), place);
+  }
+  EXPECT_EQ(failing("", card).exit_code, 0);
+  EXPECT_TRUE(exists("card/c.png") && exists("card/c.json"));
+}
+
+// Memory of the viewer's panels is ImGui's; manual and promote allocate little; of cards see above.
+INSTANTIATE_TEST_SUITE_P(
+    Commands, EveryAllocation,
+    testing::ValuesIn(disturbed_commands({"view", "emit", "manual", "promote", "card"})), name_of);
 // The others write nothing.
 INSTANTIATE_TEST_SUITE_P(Commands, EveryOperation,
-                         testing::ValuesIn(disturbed_commands({"verify", "check"})), name_of);
+                         testing::ValuesIn(disturbed_commands({"verify", "check", "card"})),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Commands, EveryCommand,
                          testing::ValuesIn(disturbed_commands({"verify", "check"})), name_of);
 

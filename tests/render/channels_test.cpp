@@ -497,7 +497,7 @@ TEST(Exr, HeadersSayNoMoreThanTheirFileHolds) {
   EXPECT_THROW(decode_exr(tiled, room), ImageSizeError);
   EXPECT_THROW(decode_exr(with("chunkCount", "int", {1u << 30}), room), ImageError);
   // What the library would read from another place than the check.
-  EXPECT_NO_THROW(decode_exr(with("ours", "float", {1}), room));
+  EXPECT_NO_THROW(read_exr_text(with("ours", "float", {1})));
   EXPECT_THROW(decode_exr(with("ours", "float", {1, 2}), room), ImageError);
   EXPECT_THROW(decode_exr(with("ours", "m44f", {1, 2}), room), ImageError);
   EXPECT_THROW(decode_exr(with("ours", "stringvector", {1u << 30}), room), ImageError);
