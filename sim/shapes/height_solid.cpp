@@ -183,6 +183,9 @@ class MeshGround final : public Ground {
   std::optional<HeightField::Range> range_over(const Outline& outline,
                                                Vec3d& missing) const override {
     constexpr int places = 128;
+    // Some seconds; the particles of a cover then ask as often again, or more.
+    constexpr std::ptrdiff_t max_looked = 200'000'000;
+    std::ptrdiff_t looked = 0;
     std::optional<HeightField::Range> range;
     for (int i = -places; i <= places; ++i)
       for (int k = -places; k <= places; ++k) {
@@ -193,6 +196,12 @@ class MeshGround final : public Ground {
         missing = outline.middle + outline.axes * local;
         const std::optional<double> y = height(missing.x(), missing.z());
         if (!y) return {};
+        const auto [begin, end] = columns_->at(Vec3d(0, missing.x(), missing.z()));
+        if ((looked += end - begin) > max_looked)
+          throw ShapeError(file_ +
+                           ": thousands of faces of the mesh are above each place: it takes "
+                           "too long to say which is the highest. Lay the snow on a mesh of "
+                           "fewer faces");
         if (!range) range = {*y, *y};
         range = {std::min(range->low, *y), std::max(range->high, *y)};
       }
