@@ -321,7 +321,7 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   int same = 0;
   for (const auto& [address, bits] : before)
     same += unchanged.contains(address) && unchanged.at(address) == bits;
-  constexpr int of_a_body = 12;
+  constexpr int of_a_body = 13;
   EXPECT_EQ(same, 22 + 8 + 3 + 2 + 2 + 2 + 3 + 2 + 1 +
                       of_a_body * static_cast<int>(scene.colliders.size()))
       << "only names, materials, files, the turns not taken, velocities beside keyframes and dust "
