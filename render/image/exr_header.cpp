@@ -136,6 +136,8 @@ void check_type_size(const ExrAttribute& attribute) {
       {"tiledesc", 9},    {"timecode", 8}, {"v2d", 16},
       {"v2f", 8},         {"v2i", 8},      {"v3d", 24},
       {"v3f", 12},        {"v3i", 12}};
+  // It is read up to its end, under whatever name.
+  if (attribute.type == "chlist") bytes_of_pixel(attribute.bytes);
   for (const auto& [type, size] : sizes)
     if (attribute.type == type && attribute.bytes.size() != size)
       fail("an attribute of the type " + attribute.type + " has " +

@@ -499,6 +499,7 @@ TEST(Exr, HeadersSayNoMoreThanTheirFileHolds) {
   // What the library would read from another place than the check.
   EXPECT_NO_THROW(read_exr_text(with("ours", "float", {1})));
   EXPECT_THROW(decode_exr(with("ours", "float", {1, 2}), room), ImageError);
+  EXPECT_THROW(decode_exr(with("ours", "chlist", {82, 2, 0, 1, 1}), room), ImageError);
   EXPECT_THROW(decode_exr(with("ours", "m44f", {1, 2}), room), ImageError);
   EXPECT_THROW(decode_exr(with("ours", "stringvector", {1u << 30}), room), ImageError);
   EXPECT_THROW(decode_exr(with("dataWindow", "box2i", {0, 0, 3, 3}), room), ImageError) << "twice";
