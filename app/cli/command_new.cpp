@@ -7,6 +7,7 @@
 #include "app/cli/commands.h"
 #include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
+#include "app/output/temporary.h"
 #include "app/scene/first_scene.h"
 #include "app/scene/schema.h"
 #include "app/scene/valid.h"
@@ -53,6 +54,7 @@ void write_schema_once(const fs::path& path) {
 int run_new(const PlainOptions& options) {
   const fs::path path = new_scene_path(options.name), schema = path.parent_path() / schema_name;
   try {
+    output::remove_abandoned(path.has_parent_path() ? path.parent_path() : ".");
     // The scene last: where it exists, the same command refuses to write it again.
     write_schema_once(schema);
     output::write_file(

@@ -495,8 +495,7 @@ void describe_body_that_moves(V& visit, sim::shapes::RigidBody& b) {
   visit("spring_damping", b.spring_damping, unit::damping, at_least(0).at_most(1e15), live,
         "Damper beside that spring.");
   visit("restitution", b.restitution, unit::none, at_least(0).at_most(1), live,
-        "Speed at which it leaves other bodies and colliders, over that of the impact; of two "
-        "bodies the larger counts. Snow has its own.");
+        "Speed after it meets a body or a collider, over that before; of two bodies the larger.");
 }
 
 template <class V>

@@ -201,7 +201,7 @@ double collider_memory(const scene::Scene& scene) {
 
 /// Where snow of the scene sheds dust.
 double dust_memory(const scene::Scene& scene) {
-  return scene::dusty_material(scene) ? sim::most_dust_memory(scene.solver.dust) : 0;
+  return scene::dusty_material(scene) ? sim::max_dust_memory(scene.solver.dust) : 0;
 }
 
 }  // namespace

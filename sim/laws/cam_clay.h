@@ -392,7 +392,7 @@ inline double largest_pressure(const Material& m) {
 /// The slope M from which plastic flow never makes energy. Left of the centre c of the surface,
 /// shear that yields raises the pressure: it costs p (c - p)/K and pays q^2/(3 mu), for small
 /// strains.
-inline double least_slope(const Material& m) {
+inline double min_slope(const Material& m) {
   const double beta = m.own[cohesion], c = 0.5 * (1 - beta);
   constexpr int places = 64;
   double most = 0;
@@ -404,7 +404,7 @@ inline double least_slope(const Material& m) {
 }
 
 inline void concerns(const Material& m, std::vector<Concern>& found) {
-  const double K = bulk_modulus(m), least = friction_angle(least_slope(m));
+  const double K = bulk_modulus(m), least = friction_angle(min_slope(m));
   if (m.friction_angle < least)
     found.push_back({"friction_angle",
                      "at {} degrees shear packs this snow by more energy than it has: flow makes "

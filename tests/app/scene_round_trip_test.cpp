@@ -302,6 +302,7 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   for (app::scene::Collider& collider : scene.colliders) put_near(collider.shape);
   for (app::scene::View& view : scene.views) {
     view.slice.follow = "mesh";
+    view.slice.isolines = 7;
     if (view.camera) view.camera->follow = "mesh";
   }
   scene.camera->follow = "mesh";

@@ -97,10 +97,13 @@ TEST(AffineFlip, AffineFlipReturnsFromTheGridAsItsTwinDoes) {
           held = std::max(held, (step.nodes.v_new[i] - step.nodes.v_free[i]).norm());
         EXPECT_GT(held, 0.01) << "nothing acts on the nodes";
         for (std::size_t q = 0; q < before.x.size(); ++q) {
-          ASSERT_LT((step.v_before_collision[q] - twin.p.v[q]).norm(), 1e-11);
           ASSERT_LT((step.after.C[q] - twin.p.C[q]).norm(), 1e-9);
-          // Particles in the floor have been stopped there.
+          // The floor takes velocities of their own from particles that come to it, and stops
+          // particles in it.
           const double height = Vec3d(0.1, 1, 0).normalized().dot(before.x[q] - Vec3d(0, 0.045, 0));
+          const bool may_touch = contact_at == ContactAt::particles && height < 0.25 * s.cell_size;
+          if (may_touch) continue;
+          ASSERT_LT((step.v_before_collision[q] - twin.p.v[q]).norm(), 1e-11);
           if (height < 0) continue;
           ++free;
           ASSERT_LT((step.after.x[q] - twin.p.x[q]).norm(), 1e-12);

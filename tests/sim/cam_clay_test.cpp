@@ -247,7 +247,7 @@ TEST(CamClay, FlowMakesNoEnergyFromTheLeastFrictionAngle) {
       Material m = clay();
       m.poisson_ratio = nu;
       m.own[cam_clay::cohesion] = cohesion;
-      const double least = laws::friction_angle(cam_clay::least_slope(m));
+      const double least = laws::friction_angle(cam_clay::min_slope(m));
       m.friction_angle = 1.05 * least;
       EXPECT_LE(energy_gained(m), 0) << nu << " " << cohesion << " " << least;
       m.friction_angle = 0.8 * least;
