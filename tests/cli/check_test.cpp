@@ -473,7 +473,7 @@ TEST_F(Check, CheckForeseesThatAHardImpactMayCrushAParticle) {
   };
   const app::Json hard = check_of("seed=1");
   EXPECT_NE(notes(hard).find("may crush single particles"), std::string::npos) << notes(hard);
-  EXPECT_GT(steps_of_busiest(hard), 6);
+  EXPECT_GT(steps_of_busiest(hard), 3);
   const app::Json bounded = check_of("material.snow.max_hardening=5");
   EXPECT_EQ(notes(bounded).find("may crush"), std::string::npos) << notes(bounded);
   const app::Json slow = check_of("body.ball.velocity=[0,-3,0]");
