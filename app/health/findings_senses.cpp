@@ -50,7 +50,8 @@ void check_unit_of_spin(const std::string& address, const Vec3d& spin,
   const double fastest = spin.cwiseAbs().maxCoeff();
   if (fastest < step || std::fmod(fastest, step) != 0) return;
   // 14 turns a second and more are no spin that snow bears.
-  findings.push_back({fastest < 2 * step ? Severity::note : Severity::warning, address + ".angular_velocity",
+  findings.push_back({fastest < 2 * step ? Severity::note : Severity::warning,
+                      address + ".angular_velocity",
                       fmt::format("{} rad/s are {} turns a second", number_text(fastest),
                                   rough_text(fastest / (2 * std::numbers::pi))),
                       fmt::format("{} degrees a second are {}", number_text(fastest),

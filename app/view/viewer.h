@@ -103,10 +103,10 @@ class Viewer {
       points_;  ///< of the last picture: the next has the same while only the camera moves
   std::optional<StateKey> points_of_;  ///< the state that they belong to
   std::filesystem::path sheet_file_;
-  std::pair<int, int> sheet_room_;      ///< px, that it was made for
-  render::Image sheet_;              ///< of the study that is shown in the picture's place
-  double scale_ = 1;                 ///< of the picture last painted
-  double full_seconds_ = 0;          ///< that a picture of full size takes
+  std::pair<int, int> sheet_room_;  ///< px, that it was made for
+  render::Image sheet_;             ///< of the study that is shown in the picture's place
+  double scale_ = 1;                ///< of the picture last painted
+  double full_seconds_ = 0;         ///< that a picture of full size takes
   Clock::time_point moved_at_{};
   Clock::time_point drawn_at_ = Clock::now(), file_looked_at_{};
   bool has_input_ = false;                            ///< since the last picture
