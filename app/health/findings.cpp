@@ -347,6 +347,14 @@ void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings,
                           rough_text(body.particles_per_cell) +
                               " particles per cell leave gaps, and snow breaks at them",
                           "8 is usual"});
+    } else if (body.particles_per_cell > max_useful_per_cell) {
+      const bool is_slip = body.particles_per_cell > 4 * max_useful_per_cell;
+      findings.push_back({is_slip ? Severity::warning : Severity::note,
+                          "body." + body.name + ".particles_per_cell",
+                          rough_text(body.particles_per_cell) +
+                              " particles per cell are more than the grid resolves, and each takes "
+                              "its time",
+                          "8 is usual; smaller cells show more"});
     }
   }
   for (const sim::shapes::Collider& collider : scene.colliders)

@@ -17,6 +17,9 @@ std::string vector_text(const sim::Vec3d& v);
 /// "ball", or "body 1" of a body that has a number for a name.
 std::string display_name(const std::string& kind, const std::string& name);
 
+/// Particles: the grid cannot tell more of them apart in a cell.
+inline constexpr double max_useful_per_cell = 40;
+
 /// The thinnest part of a shape, m.
 double thickness(const sim::shapes::Shape& shape);
 

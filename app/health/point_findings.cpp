@@ -11,14 +11,7 @@
 
 namespace neve::app::health {
 
-namespace {
-
 using sim::health::Law;
-
-/// Particles per cell: the grid cannot tell more of them apart.
-constexpr double max_useful = 40;
-
-}  // namespace
 
 bool is_from_points(const sim::seeding::Body& body) {
   return std::holds_alternative<sim::shapes::Points>(body.shape.form);
@@ -34,7 +27,7 @@ void check_point_distance(const sim::seeding::Body& body, double cell_size, doub
                           std::vector<Finding>& findings) {
   const double per_cell = particles_in_cell(body, cell_size);
   const bool is_too_few = per_cell < sim::health::limits_of(Law::particles_per_cell).check_warning;
-  if (!is_too_few && per_cell <= max_useful) return;
+  if (!is_too_few && per_cell <= max_useful_per_cell) return;
   const std::string eight =
       scene::setting_text("solver.cell_size", cell_size * std::cbrt(8 / per_cell), coarsening);
   findings.push_back(

@@ -30,7 +30,7 @@ double bounded_number(const Leaf& leaf, const std::string& kind) {
     leaf.fail(kind, text ? advice::number_advice(*text, leaf.unit) : "");
   }
   if (!std::isfinite(x)) leaf.fail("a finite number");
-  if (!leaf.valid.contains(x)) leaf.fail(leaf.valid.text_of_bounds());
+  if (!leaf.valid.contains(x)) leaf.fail(leaf.valid.text_of_bounds(), leaf.valid.advice_on(x));
   return x;
 }
 

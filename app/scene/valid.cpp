@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/scene/toml/value.h"
+#include "app/support/text.h"
 
 namespace neve::app::scene {
 namespace {
@@ -34,6 +35,13 @@ std::string Valid::text_of_bounds() const {
   }
   if (std::isfinite(max)) bounds += (is_max_open ? " < " : " <= ") + toml::number_text(max);
   return bounds;
+}
+
+std::string Valid::advice_on(double x) const {
+  constexpr double few = 2;  // what has such bounds is a share, and what is beyond no slip
+  const double share = 0.01 * x;
+  if (!(min >= 0 && max <= few && x > few && x <= 100 && contains(share))) return {};
+  return "per cent? As a share of 1 it is " + rough_text(share);
 }
 
 bool is_identifier(const std::string& text) {

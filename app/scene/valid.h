@@ -36,6 +36,9 @@ struct Valid {
   bool contains(double x) const;
   /// "0 <= value < 0.5"
   std::string text_of_bounds() const;
+  /// What a number outside of the bounds may have meant: "as a share of 1 it is 0.2" of 20 per
+  /// cent, where that is inside; else nothing.
+  std::string advice_on(double x) const;
 };
 
 inline constexpr Valid anything{};

@@ -229,6 +229,8 @@ SCENES = [
     # Tried again, after a trial of 200 mistakes.
     edit("velocity = [0, -2, 0]", "keyframes = [{ time = 0 }]"),
     edit("hardening = 10", "hardening = 10\nvariation = 0.2"),
+    edit("hardening = 10", "hardening = 10\nvariation = { youngs_modulus = 20 }"),
+    edit("name = \"ball\"", "name = \"ball\"\nparticles_per_cell = 500"),
     edit("sphere = { center = [0, 0.12, 0], radius = 0.08 }",
          "box = { min = [0, 0, 0], max = [1, 1, 1] }"),
     edit("sphere = { center = [0, 0.12, 0], radius = 0.08 }",
