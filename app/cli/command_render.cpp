@@ -179,6 +179,17 @@ void check_title(const std::string& title, std::vector<health::Finding>& finding
                         "Sans, or --no-caption"});
 }
 
+/// Views whose snow is in no pass.
+void check_passes(const scene::Scene& scene, std::vector<health::Finding>& findings) {
+  for (const scene::View& view : scene.views)
+    if (!scene::shows_particles(view) && scene::has_layer(view, scene::Layer::smoke))
+      findings.push_back({health::Severity::warning, "--passes",
+                          fmt::format("the snow of the view {} is smoke, which no pass has: depth "
+                                      "and id are those of colliders",
+                                      view.name),
+                          "add --view snow or --view particles"});
+}
+
 /// Units that are not those of neve, snow that starts inside colliders or flies past everything:
 /// nothing else tells before the run.
 void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Progress& progress) {
@@ -195,14 +206,7 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
                                     rough_text(job.shutter)),
                         fmt::format("a share of the frame is 360 times as many degrees: {}",
                                     rough_text(360 * job.shutter))});
-  for (const scene::View& view : job.scene.views)
-    if (!job.passes.empty() && !scene::shows_particles(view) &&
-        scene::has_layer(view, scene::Layer::smoke))
-      findings.push_back({health::Severity::warning, "--passes",
-                          fmt::format("the snow of the view {} is smoke, which no pass has: depth "
-                                      "and id are those of colliders",
-                                      view.name),
-                          "add --view snow or --view particles"});
+  if (!job.passes.empty()) check_passes(job.scene, findings);
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
     if (finding.severity == health::Severity::note)

@@ -47,7 +47,7 @@ namespace {
 std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options, int last) {
   std::vector<int> indices(static_cast<std::size_t>(last) + 1);
   std::iota(indices.begin(), indices.end(), 0);
-  if (!options.only.empty()) indices = sweep::plan::parse_selection(options.only, last);
+  if (!options.only.empty()) indices = sweep::plan::parse_selection("--only", options.only, last);
   if (options.shard)
     std::erase_if(indices, [&](int index) {
       return index % options.shard->count != options.shard->index - 1;
@@ -371,8 +371,8 @@ std::vector<std::size_t> points_to_refine(const sweep::plan::SweepOptions& optio
     if (std::find(points.begin(), points.end(), first) == points.end()) points.push_back(first);
   };
   if (!options.refine_runs.empty())
-    for (const int run :
-         sweep::plan::parse_selection(options.refine_runs, plan.runs.back().run.index))
+    for (const int run : sweep::plan::parse_selection("--refine-runs", options.refine_runs,
+                                                      plan.runs.back().run.index))
       add(static_cast<std::size_t>(run));
   if (options.refine > 0)
     for (const std::size_t run :

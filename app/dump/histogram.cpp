@@ -47,12 +47,17 @@ double Histogram::edge(std::size_t bin) const {
   return is_logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
 }
 
-std::size_t Histogram::bin_of(double value) const {
-  if (counts.empty() || !(high > low) || !(value > low)) return 0;
+double Histogram::share_of(double value) const {
+  if (!(high > low) || !(value > low)) return 0;
   const double share =
       is_logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+  return std::min(share, 1.0);
+}
+
+std::size_t Histogram::bin_of(double value) const {
+  if (counts.empty()) return 0;
   const auto bins = static_cast<double>(counts.size());
-  return static_cast<std::size_t>(std::clamp(share * bins, 0.0, bins - 1));
+  return static_cast<std::size_t>(std::min(share_of(value) * bins, bins - 1));
 }
 
 bool Histogram::is_outside_expected(std::size_t bin) const {

@@ -26,6 +26,8 @@ struct Histogram {
 
   /// Lower end of a bin; of the one behind the last it is `high`.
   double edge(std::size_t bin) const;
+  /// Where a value is between the ends, 0 to 1: beyond them at the nearer one.
+  double share_of(double value) const;
   std::size_t bin_of(double value) const;
   bool is_outside_expected(std::size_t bin) const;  ///< as a whole
 };

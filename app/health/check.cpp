@@ -117,7 +117,7 @@ double dust_steps(const scene::Scene& scene, double speed, int frames) {
 
 forecast::Cost Check::seconds() const {
   // The measured steps have the bodies in them, and no dust: snow that rests sheds none. A step of
-  // dust takes as long as one or two of the snow: 1.3 of them in powder_avalanche.
+  // dust takes as long as one or two of the snow, by a profile of powder_avalanche.
   const forecast::Cost dust = dust_steps * forecast::Cost{1.5, 0, 3};
   return seconds_per_step * (foreseen.steps_of_start() + dust);
 }

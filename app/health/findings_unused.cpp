@@ -118,8 +118,7 @@ void check_slices(const scene::Scene& scene, std::vector<Finding>& findings) {
                        view.name)});
 }
 
-/// Views of nothing: layers without snow, and cuts and slices that lie beside it from beginning to
-/// end.
+/// Views of nothing: layers without snow, and slices that lie beside it from beginning to end.
 void check_snow_in_views(const scene::Scene& scene, std::vector<Finding>& findings) {
   using scene::Layer;
   if (scene.bodies.empty() || !scene.emitters.empty()) return;

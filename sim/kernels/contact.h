@@ -445,15 +445,21 @@ NEVE_INLINE V surface_distance(const LocalCollider<Real>& c, const Vec3<V>& r, V
   }
 }
 
-/// Nothing within `reach` metres of the place `centre` in the block can touch the collider.
+/// The lanes for which nothing within `reach` metres of the place `centre` in the block can touch
+/// the collider.
+template <class V, class Real>
+NEVE_INLINE MaskOf<V> are_out_of_reach(const LocalCollider<Real>& c, const Vec3<V>& centre,
+                                       const V& reach) {
+  Vec3<V> normal;
+  if (c.shape == ColliderShape::heights) return heights_clearance(c, centre) > reach;
+  // Between samples a field is off by less than the diagonal of their cell, here and there.
+  return surface_distance(c, centre, normal) > reach + all<V>(2 * c.spacing);
+}
 template <class Real>
 NEVE_INLINE bool is_out_of_reach(const LocalCollider<Real>& c, const Vec3<Real>& centre,
                                  Real reach) {
   using V = Quad<Real>;
-  Vec3<V> normal;
-  if (c.shape == ColliderShape::heights) return heights_clearance(c, widened<V>(centre))[0] > reach;
-  // Between samples a field is off by less than the diagonal of their cell, here and there.
-  return surface_distance(c, widened<V>(centre), normal)[0] > reach + 2 * c.spacing;
+  return are_out_of_reach(c, widened<V>(centre), all<V>(reach))[0] != 0;
 }
 
 /// True if no place of a cube comes within `reach` of a collider, m. @param half  of its edge

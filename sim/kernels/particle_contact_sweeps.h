@@ -236,6 +236,21 @@ struct ContactSweepsFor {
     return memory;
   }
 
+  /// The least speed from the surface that contact leaves a particle, m/s.
+  /// @param touches  distance at which it touches
+  NEVE_INLINE static V speed_away(const Args& a, bool lets_go, const V& distance,
+                                  const V& touches) {
+    const StepConstants<Real>& c = a.step.constants;
+    const V gap = distance - touches;
+    const Real out = smaller(static_cast<Real>(out_per_step) / c.dt, Real(out_per_second));
+    // What is deeper was put there, and is let out as slowly as what is a little inside.
+    const V depth = smaller_lanes(-distance, all<V>(static_cast<Real>(max_out) * c.h));
+    const V apart = (depth + touches) * a.apart;
+    // A surface that does not let go stops what is inside where it is: there is no way out.
+    const V inside = lets_go ? larger_lanes(depth * out, apart) : V{};
+    return gap > V{} ? -gap / c.dt : distance > V{} ? apart : inside;
+  }
+
   /// What a surface that lets go takes of a particle's own velocity: as much of its way in as
   /// brings it past what it may not, and the friction of that. The grid must not stop it, which
   /// throws its neighbours back: n of them at rest would fly as fast as it came, with n times its
@@ -270,15 +285,8 @@ struct ContactSweepsFor {
     const Memory memory = recall(a, storage, list, touching);
     const V gap = distance - memory.touches;
     const Vec3<V> surface = surface_velocity(collider, r);
-    // A surface that does not let go stops what is inside where it is: there is no way out.
     const bool lets_go = collider.contact == ContactLaw::separate;
-    const Real out =
-        lets_go ? smaller(static_cast<Real>(out_per_step) / c.dt, Real(out_per_second)) : Real(0);
-    // What is deeper was put there, and is let out as slowly as what is a little inside.
-    const V depth = smaller_lanes(-distance, all<V>(static_cast<Real>(max_out) * c.h));
-    const V apart = (depth + memory.touches) * a.apart;
-    const V inside = lets_go ? larger_lanes(depth * out, apart) : V{};
-    const V least = gap > V{} ? -gap / c.dt : distance > V{} ? apart : inside;
+    const V least = speed_away(a, lets_go, distance, memory.touches);
     const Vec3<V> lost =
         collider.contact == ContactLaw::sticky ? v.own
         : lets_go ? lost_at_impact(v, normal, surface, least, all<V>(friction_of(collider)))

@@ -14,6 +14,7 @@
 #include <LinearMath/btConvexHullComputer.h>
 
 #include <Eigen/Geometry>
+#include <unsupported/Eigen/BVH>
 
 #include <algorithm>
 #include <cmath>
@@ -66,10 +67,9 @@ class Compound final : public RigidShape {
   btCompoundShape shape_;
 };
 
-/// The triangles of a mesh as Bullet reads them.
-class MeshArrays {
+class Triangles final : public RigidShape {
  public:
-  explicit MeshArrays(const shapes::MeshSurface& surface) {
+  explicit Triangles(const shapes::MeshSurface& surface) {
     for (const Vec3d& x : surface.mesh().vertices)
       vertices_.insert(vertices_.end(), {x[0], x[1], x[2]});
     for (const auto& t : surface.mesh().triangles)
@@ -78,26 +78,16 @@ class MeshArrays {
         static_cast<int>(corners_.size() / 3), corners_.data(), static_cast<int>(3 * sizeof(int)),
         static_cast<int>(vertices_.size() / 3), vertices_.data(),
         static_cast<int>(3 * sizeof(double)));
+    shape_ = std::make_unique<btBvhTriangleMeshShape>(mesh_.get(), true);
+    shape_->setMargin(0);
   }
-  btTriangleIndexVertexArray* get() { return mesh_.get(); }
+  btCollisionShape* get() override { return shape_.get(); }
 
  private:
   std::vector<double> vertices_;
   std::vector<int> corners_;
   std::unique_ptr<btTriangleIndexVertexArray> mesh_;
-};
-
-class Triangles final : public RigidShape {
- public:
-  explicit Triangles(const shapes::MeshSurface& surface)
-      : arrays_(surface), shape_(arrays_.get(), true) {
-    shape_.setMargin(0);
-  }
-  btCollisionShape* get() override { return &shape_; }
-
- private:
-  MeshArrays arrays_;
-  btBvhTriangleMeshShape shape_;
+  std::unique_ptr<btBvhTriangleMeshShape> shape_;
 };
 
 /// Holes are so deep that nothing stands in them.
@@ -137,16 +127,33 @@ std::unique_ptr<RigidShape> single(double smallest, Args&&... args) {
   return std::make_unique<Single<Shape>>(smallest, std::forward<Args>(args)...);
 }
 
+/// Looks for a place that is further than a distance beyond a plane.
+struct BeyondPlane {
+  Vec3d point, normal;
+  double distance;
+  bool is_found = false;
+  bool intersectVolume(const Eigen::AlignedBox3d& box) const {
+    return normal.dot(box.center() - point) + normal.cwiseAbs().dot(box.sizes()) / 2 > distance;
+  }
+  bool intersectObject(const Vec3d& x) {
+    return is_found = normal.dot(x - point) > distance;  // the search ends with it
+  }
+};
+
 bool is_convex(const shapes::MeshSurface& surface) {
   const std::vector<Vec3d>& vertices = surface.mesh().vertices;
+  std::vector<Eigen::AlignedBox3d> boxes(vertices.begin(), vertices.end());
+  // Each face asks for all vertices; of those on its own side of it a tree knows at once.
+  Eigen::KdBVH<double, 3, Vec3d> tree;
+  tree.init(vertices.begin(), vertices.end(), boxes.begin(), boxes.end());
   const double beyond = flat * (surface.bounds().max - surface.bounds().min).maxCoeff();
   for (const auto& t : surface.mesh().triangles) {
     const Vec3d &a = vertices[t[0]], across = (vertices[t[1]] - a).cross(vertices[t[2]] - a);
     const double size = across.norm();
     if (!(size > 0)) continue;
-    const Vec3d normal = across / size;
-    for (const Vec3d& x : vertices)
-      if (normal.dot(x - a) > beyond) return false;
+    BeyondPlane plane{a, across / size, beyond};
+    Eigen::BVIntersect(tree, plane);
+    if (plane.is_found) return false;
   }
   return true;
 }

@@ -76,24 +76,18 @@ class SpeedNear {
     // Places that are left repeat the first.
     for (int l = count_; l < 4; ++l)
       for (int a = 0; a < 3; ++a) middle_[a][l] = middle_[a][0];
-    const Quad<double> distance = clearance();
+    const auto are_far = kernels::are_out_of_reach(c_, middle_, reach_);
     for (int l = 0; l < count_; ++l)
-      if (!(distance[l] > reach_[l] + 2 * c_.spacing)) fastest_ = std::max(fastest_, speed_[l]);
+      if (!are_far[l]) fastest_ = std::max(fastest_, speed_[l]);
     count_ = 0;
-  }
-
-  /// As kernels::is_out_of_reach, which looks at one place.
-  Quad<double> clearance() const {
-    if (c_.shape == kernels::ColliderShape::heights) return kernels::heights_clearance(c_, middle_);
-    Vec3<Quad<double>> normal;
-    return kernels::surface_distance(c_, middle_, normal);
   }
 
   const kernels::LocalCollider<double>& c_;
   const double h_, dt_, snow_speed_;
   double& fastest_;
   Vec3<Quad<double>> middle_{};
-  double reach_[4] = {}, speed_[4] = {};
+  Quad<double> reach_{};
+  double speed_[4] = {};
   int count_ = 0;
 };
 

@@ -11,11 +11,12 @@ namespace neve::app {
 namespace {
 
 TEST(SweepSelection, SelectionsOfRunsAreNumbersAndRanges) {
-  EXPECT_EQ(app::sweep::plan::parse_selection("3,7-9,1", 20), (std::vector<int>{1, 3, 7, 8, 9}));
-  EXPECT_EQ(app::sweep::plan::parse_selection("2,2,1-3", 3), (std::vector<int>{1, 2, 3}));
-  EXPECT_EQ(app::sweep::plan::parse_selection("0", 0), (std::vector<int>{0}));
+  EXPECT_EQ(app::sweep::plan::parse_selection("--only", "3,7-9,1", 20),
+            (std::vector<int>{1, 3, 7, 8, 9}));
+  EXPECT_EQ(app::sweep::plan::parse_selection("--only", "2,2,1-3", 3), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(app::sweep::plan::parse_selection("--only", "0", 0), (std::vector<int>{0}));
   for (const char* wrong : {"", ",", "1,", "a", "-1", "3-1", "1-", "1 2", "21", "5-21", "1--2"})
-    EXPECT_THROW(app::sweep::plan::parse_selection(wrong, 20), app::UsageError) << wrong;
+    EXPECT_THROW(app::sweep::plan::parse_selection("--only", wrong, 20), app::UsageError) << wrong;
 }
 
 TEST(SweepSelection, SelectionsOfRunsAreWrittenInTheShortestWay) {

@@ -361,6 +361,9 @@ TEST_F(SweepCli, StarsAndNotesStayWithTheSweep) {
   EXPECT_TRUE(contains(neve({"sweep", "star", "s.cdb"}).output, "no run has a star"));
   EXPECT_FALSE(contains(read_text(folder / "s.cdb/data.csv"), "star,note"));
   EXPECT_EQ(neve({"sweep", "star", "s.cdb", "0"}).exit_code, 0);
+  const auto no_run = neve({"sweep", "star", "s.cdb", "7"});
+  EXPECT_EQ(no_run.exit_code, 2);
+  EXPECT_TRUE(contains(no_run.errors, "RUNS: there is no run 7")) << no_run.errors;
   const auto given = neve({"sweep", "star", "s.cdb", "2", "--note", "the edge, </script>"});
   ASSERT_EQ(given.exit_code, 0) << given.errors;
   EXPECT_TRUE(contains(given.output, "the edge")) << given.output;

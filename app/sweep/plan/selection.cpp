@@ -33,7 +33,7 @@ std::string shard_text(const Shard& shard) {
   return fmt::format("{}/{}", shard.index, shard.count);
 }
 
-std::vector<int> parse_selection(const std::string& text, int last) {
+std::vector<int> parse_selection(const std::string& flag, const std::string& text, int last) {
   std::set<int> numbers;
   std::string_view rest = text;
   while (true) {
@@ -43,10 +43,10 @@ std::vector<int> parse_selection(const std::string& text, int last) {
     const auto first = whole(part.substr(0, dash));
     const auto end = dash == std::string_view::npos ? first : whole(part.substr(dash + 1));
     if (!first || !end || *end < *first)
-      throw UsageError("--only", "cannot use \"" + text + "\"",
+      throw UsageError(flag, "cannot use \"" + text + "\"",
                        "expected numbers of runs, as in 3,7-12");
     if (*end > last)
-      throw UsageError("--only", fmt::format("there is no run {}", *end),
+      throw UsageError(flag, fmt::format("there is no run {}", *end),
                        fmt::format("expected numbers from 0 to {}", last));
     for (int k = *first; k <= *end; ++k) numbers.insert(k);
     if (comma == rest.size()) break;

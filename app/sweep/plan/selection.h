@@ -15,8 +15,9 @@ struct Shard {
 Shard parse_shard(const std::string& text);
 std::string shard_text(const Shard& shard);
 
-/// "3,7-12": numbers and ranges, sorted, each once. @throws UsageError, also beyond `last`
-std::vector<int> parse_selection(const std::string& text, int last);
+/// "3,7-12": numbers and ranges, sorted, each once.
+/// @param flag  that has the text, for errors  @throws UsageError, also beyond `last`
+std::vector<int> parse_selection(const std::string& flag, const std::string& text, int last);
 
 /// The shortest such text: "0-7,9,12-14".
 std::string selection_text(const std::vector<int>& numbers);

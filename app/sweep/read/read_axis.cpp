@@ -83,7 +83,6 @@ int kinds_given(const AxisRule& s) {
          s.normal.has_value();
 }
 
-/// @param where for complaints
 /// numpy's logspace takes exponents: 4 to 6 Pa is snow of nobody.
 void refuse_exponents(const Ends& ends, const std::string& address, const scene::Source& source,
                       scene::toml::Location where) {
@@ -102,6 +101,7 @@ void refuse_exponents(const Ends& ends, const std::string& address, const scene:
                   scene::toml::number_text(std::pow(10, ends.last))));
 }
 
+/// @param where for complaints
 std::vector<scene::toml::Value> values_of(const AxisRule& spec, const std::string& address,
                                           const scene::Source& source,
                                           scene::toml::Location where) {

@@ -247,6 +247,9 @@ void write_starred(const fs::path& folder, const store::Manifest& manifest,
 }  // namespace
 
 void show_marks(const fs::path& folder, const store::Manifest& manifest, Progress& progress) {
+  // Someone who collects would write the page that is read here.
+  const std::optional<output::FolderLock> lock = wait_for_turn(folder, progress);
+  if (!lock) return;
   const std::vector<store::RunResult> results = store::read_results(folder, manifest);
   std::error_code error;
   if (fs::exists(folder / "data.csv", error))

@@ -25,7 +25,7 @@ void change(const StarOptions& options, const store::Manifest& manifest, store::
     for (const auto& [run, mark] : store::read_marks_file(options.read, manifest))
       marks[run] = mark;
   if (options.runs.empty()) return;
-  for (const int run : plan::parse_selection(options.runs, last)) {
+  for (const int run : plan::parse_selection("RUNS", options.runs, last)) {
     if (options.is_removed) {
       marks.erase(run);
       continue;

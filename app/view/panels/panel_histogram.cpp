@@ -76,10 +76,7 @@ class Bars {
   /// Values beyond an end are at it.
   float place_of(double value) const {
     if (!(h_.high > h_.low)) return at_.x + 0.5f * size_.x;
-    double share = (value - h_.low) / (h_.high - h_.low);
-    if (h_.is_logarithmic)
-      share = value > h_.low ? std::log(value / h_.low) / std::log(h_.high / h_.low) : 0;
-    return at_.x + static_cast<float>(std::clamp(share, 0.0, 1.0)) * size_.x;
+    return at_.x + static_cast<float>(h_.share_of(value)) * size_.x;
   }
 
   const dump::Histogram& h_;
