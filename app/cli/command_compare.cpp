@@ -13,7 +13,7 @@
 #include "app/cli/folder_advice.h"
 #include "app/cli/report_error.h"
 #include "app/compare/compare_run.h"
-#include "app/output/atomic_file.h"
+#include "app/output/json_file.h"
 #include "app/output/read_picture.h"
 #include "app/output/sequence.h"
 #include "app/record/picture_record.h"
@@ -64,7 +64,7 @@ int compare_pictures(const CompareOptions& options) {
 /// Frame number to state hash.
 std::map<int, std::string> read_hashes(const fs::path& folder) {
   const fs::path file = output::run_json_path(folder);
-  const std::vector<std::uint8_t> bytes = output::read_file(file);
+  const std::vector<std::uint8_t> bytes = output::read_json_bytes(file);
   std::map<int, std::string> hashes;
   try {
     const Json run = parse_json(bytes);

@@ -3,8 +3,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/folder_advice.h"
-#include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
+#include "app/output/json_file.h"
 #include "app/output/sequence.h"
 #include "app/record/picture_record.h"
 #include "app/scene/coarsen.h"
@@ -56,7 +56,7 @@ void print_picture(const record::PictureRecord& record, const std::string& pictu
 }
 
 Json read_run(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = output::read_file(file);
+  const std::vector<std::uint8_t> bytes = output::read_json_bytes(file);
   try {
     Json run = parse_json(bytes);
     if (run.is_object() && run.contains("status") && run["status"].is_string()) return run;

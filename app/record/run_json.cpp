@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/output/atomic_file.h"
+#include "app/output/json_file.h"
 #include "app/output/sequence.h"
 #include "app/support/version.h"
 #include "sim/base/hash.h"
@@ -225,12 +226,11 @@ std::string channels_name(const std::string& view, int frame) {
 
 Json read_json(const std::filesystem::path& file) {
   try {
-    return parse_json(output::read_file(file));
+    return output::read_json(file);
   } catch (const UnreadableError&) {
     throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     return {};
   }
 }

@@ -6,6 +6,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
+#include "app/output/json_file.h"
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
 #include "app/record/earlier.h"
@@ -66,7 +67,7 @@ Kept replace_earlier(const ExportJob& job) {
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return {};
   const std::vector<scene::Export>& ours = job.run.scene.exports;
   try {
-    const Json list = parse_json(output::read_file(file));
+    const Json list = output::read_json(file);
     const bool is_of_scene = list.at("scene_file") == job.run.scene_file;
     Kept kept;
     record::FileHashes replaced = record::file_hashes(list);
@@ -82,9 +83,8 @@ Kept replace_earlier(const ExportJob& job) {
     return kept;
   } catch (const IoError&) {
     throw;  // files of an earlier export would lie beside the new ones
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     return {};  // No list of ours: nothing is removed.
   }
 }

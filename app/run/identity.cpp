@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/output/atomic_file.h"
+#include "app/output/json_file.h"
 #include "app/output/sequence.h"
 #include "app/record/picture_files.h"
 #include "app/scene/flat.h"
@@ -70,7 +70,7 @@ std::string difference_from_run(const std::filesystem::path& folder,
                                 const record::PictureRecord& picture, const std::string& simd) {
   const bool of_simulation = !simd.empty();
   try {
-    const Json run = parse_json(output::read_file(output::run_json_path(folder)));
+    const Json run = output::read_json(output::run_json_path(folder));
     const scene::Scene before =
         scene::read_scene_text(run.at("scene").get<std::string>(), "run.json");
     const scene::Scene after = scene::read_scene_text(picture.scene, "the scene");
@@ -101,9 +101,8 @@ std::string difference_from_run(const std::filesystem::path& folder,
     if (passes != Json(picture.passes))
       return passes.empty() ? "it had no --passes"
                             : "--passes was " + joined(passes.get<std::vector<std::string>>(), ",");
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    rethrow_no_memory(error);
     // An unreadable scene changes nothing here: the identity alone says that the run differs.
   }
   return "its scene, changes, views, quality or version differ";

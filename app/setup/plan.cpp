@@ -43,7 +43,7 @@ constexpr double bytes_per_pixel = 4;
 /// Of the program and a software rasteriser before anything is drawn.
 constexpr double program_bytes = 8e7;
 /// Of a frame; the texts of so many are small beside their pixels.
-constexpr double few_pictures = 20;
+constexpr std::size_t few_pictures = 20;
 
 std::vector<scene::PictureSize> picture_sizes(const scene::Scene& scene) {
   std::vector<scene::PictureSize> sizes;
@@ -63,9 +63,10 @@ double picture_memory(const scene::Scene& scene, Quality quality) {
     waiting = std::max(waiting, pixels * bytes_per_pixel * (output::picture_queue_capacity + 1));
   }
   // Each picture has the whole scene in it.
-  const double pictures = static_cast<double>(scene.views.size() + scene.mosaics.size());
+  const std::size_t pictures = scene.views.size() + scene.mosaics.size();
   if (pictures > few_pictures)
-    together += 1.2 * pictures * static_cast<double>(scene::write_scene(scene).size());
+    together +=
+        1.2 * static_cast<double>(pictures) * static_cast<double>(scene::write_scene(scene).size());
   return drawn + together + waiting;
 }
 
@@ -152,18 +153,32 @@ void check_particles(const scene::Scene& scene, const Plan& plan, double coarsen
                      excess, coarsening));
 }
 
+/// Where snow in larger cells would change nothing.
+std::string picture_advice(const scene::Scene& scene) {
+  const std::size_t views = scene.views.size() + scene.mosaics.size();
+  return (views > few_pictures ? "the scene's " + std::to_string(views) +
+                                     " pictures a frame take most of it: draw some of them with "
+                                     "--view, or smaller ones"
+                               : "its pictures take most of it: draw smaller ones") +
+         std::string(" with --size");
+}
+
 void check_memory(const scene::Scene& scene, const Plan& plan, double coarsening) {
   if (plan.memory <= plan.memory_limit) return;
   const double excess = static_cast<double>(plan.memory) / static_cast<double>(plan.memory_limit);
   const std::string needed = "about " + bytes_text(plan.memory) + " of memory are more than ";
+  const bool is_of_pictures = 2 * plan.pictures > static_cast<double>(plan.memory);
   if (plan.is_memory_capped)
     refuse(needed + "--max-memory, " + bytes_text(plan.memory_limit), "--max-memory",
-           cap_advice(scene, "--max-memory or NEVE_MAX_MEMORY", excess, coarsening));
-  refuse(
-      needed + "limits.memory = " + bytes_text(plan.memory_limit) +
-          (scene.limits.memory > 0 ? "" : ", 80 % of the available memory"),
-      "limits.memory",
-      size_advice(scene, plan, "limits.memory=" + std::to_string(plan.memory), excess, coarsening));
+           is_of_pictures
+               ? picture_advice(scene)
+               : cap_advice(scene, "--max-memory or NEVE_MAX_MEMORY", excess, coarsening));
+  refuse(needed + "limits.memory = " + bytes_text(plan.memory_limit) +
+             (scene.limits.memory > 0 ? "" : ", 80 % of the available memory"),
+         "limits.memory",
+         is_of_pictures ? picture_advice(scene)
+                        : size_advice(scene, plan, "limits.memory=" + std::to_string(plan.memory),
+                                      excess, coarsening));
 }
 
 /// Lattice, mesh and attributes of the finest surface; the worker makes one at a time. 150 bytes
@@ -300,10 +315,10 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   const double blurred = quality == Quality::final ? counted * moments * point_bytes : 0;
   // States of exports wait for the worker as pictures do, and are text or bytes while it writes.
   const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
+  plan.pictures = picture_memory(scene, quality) + channel_memory(scene, quality, channel_bytes);
   plan.memory =
       whole_bytes(simulated + arrays + exported + blurred + surface_memory(scene, counted) +
-                  collider_memory(scene) + dust_memory(scene) + picture_memory(scene, quality) +
-                  channel_memory(scene, quality, channel_bytes));
+                  collider_memory(scene) + dust_memory(scene) + plan.pictures);
   set_limits(scene, plan);
   for (const scene::PictureSize& size : picture_sizes(scene)) {
     const double samples = supersampling(quality) * supersampling(quality);

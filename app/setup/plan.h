@@ -37,6 +37,7 @@ struct Plan {
   double particle_limit = 0;
   /// The limits are caps() instead of those of the scene.
   bool is_memory_capped = false, are_particles_capped = false;
+  double pictures = 0;         ///< bytes of the memory that pictures take
   double largest_picture = 0;  ///< pixels, supersamples included
   FrameRange frames;
   int first_number = 0;  ///< of frame 0

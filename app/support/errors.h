@@ -70,10 +70,10 @@ struct LimitError : Error {
       : Error(exit_refused, message, std::move(place), std::move(advice)) {}
 };
 
-/// Lets an error of memory pass on. Call it first where any error of a file is handled: an
-/// allocation that failed says nothing about the file.
+/// Lets an error of memory, or of its limit, pass on. Call it first where any error of a file is
+/// handled: an allocation that failed says nothing about the file.
 inline void rethrow_no_memory(const std::exception& error) {
-  if (dynamic_cast<const std::bad_alloc*>(&error)) throw;
+  if (dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const LimitError*>(&error)) throw;
 }
 
 }  // namespace neve::app

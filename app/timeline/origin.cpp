@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/output/json_file.h"
 #include "app/output/sequence.h"
 #include "app/record/picture_files.h"
 #include "app/scene/coarsen.h"
@@ -133,7 +134,7 @@ void read_run(const Edits& edits, Origin& origin) {
   origin.run = origin.scene_file;
   const fs::path file = output::run_json_path(origin.run);
   try {
-    const Json run = parse_json(output::read_file(file));
+    const Json run = output::read_json(file);
     origin.scene = scene::read_scene_text(run.at("scene").get<std::string>(),
                                           file.string() + " (its scene)", {}, changes);
     origin.changes = changes_of_run(run, file);

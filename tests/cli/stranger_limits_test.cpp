@@ -1,6 +1,8 @@
 /// Outputs beyond a limit: refused by their plan, before the first step, and within the limit.
 
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
 #include "app/output/atomic_file.h"
 #include "app/record/picture_record.h"
@@ -93,8 +95,36 @@ TEST_F(StrangerLimits, ManySmallViewsAreForeseen) {
   expect_within("render views.toml --frames 0 --no-movie");
   for (const int count : {1000, 3000}) {
     folder.write("views.toml", with_views(count, "[16, 16]"));
-    expect_refused("render views.toml --frames 0 --no-movie", "of memory");
+    expect_refused("render views.toml --frames 0 --no-movie",
+                   std::to_string(count + 1) + " pictures a frame take most of it: draw some");
   }
+}
+
+/// Values of two characters take the most memory for their length.
+TEST_F(StrangerLimits, ListsAreNoLongerThanTheirLimit) {
+  make_run();
+  const std::string run = read_text(folder / "run/run.json");
+  const auto with_list = [&](std::size_t values) {
+    std::ofstream file(folder / "run/run.json", std::ios::binary);
+    file << run.substr(0, run.rfind('}')) << ", \"list\": [0";
+    for (std::size_t k = 1; k < values; ++k) file << ",0";
+    file << "]}";
+  };
+  ::setenv("NEVE_MAX_MEMORY", "400MB", 1);  // verify and info have no flag for it
+  with_list(7'000'000);
+  EXPECT_LT(cost_of("info run").memory, most);
+  with_list(12'000'000);
+  for (const char* command : {"verify run", "info run", "render run --yes", "compare run run"}) {
+    const Cost cost = cost_of(command);
+    EXPECT_EQ(cost.exit_code, 8) << command;
+    EXPECT_TRUE(contains(read_text(folder / "said"), "what it lists needs about")) << command;
+    EXPECT_LT(cost.memory, 100e6) << command;
+  }
+  ::unsetenv("NEVE_MAX_MEMORY");
+  // Beyond any list of ours, whatever memory there is.
+  std::filesystem::resize_file(folder / "run/run.json", 140'000'000);
+  EXPECT_EQ(cost_of("info run").exit_code, 6);
+  EXPECT_TRUE(contains(read_text(folder / "said"), "larger than 134217728 bytes"));
 }
 
 /// A string attribute of 2^31 - 1 bytes in 1 kB.

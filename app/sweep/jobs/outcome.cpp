@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/output/atomic_file.h"
+#include "app/output/json_file.h"
 #include "app/output/sequence.h"
 #include "app/support/errors.h"
 #include "app/support/progress.h"
@@ -46,7 +46,7 @@ void judge_divergence(const store::Manifest& manifest, const Run& run, const fs:
                       store::RunStatus& status) {
   status.state = store::RunState::diverged;
   try {
-    const Json incident = parse_json(output::read_file(output::incident_path(folder)));
+    const Json incident = output::read_json(output::incident_path(folder));
     status.reason = incident.at("sentence").get<std::string>();
     const double time = incident.value("time", 0.0);
     const auto frame =

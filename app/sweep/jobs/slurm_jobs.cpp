@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/output/atomic_file.h"
+#include "app/output/json_file.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
 #include "app/support/text.h"
@@ -40,7 +41,7 @@ std::string job_number(const std::string& answer) {
 std::vector<QueuedJob> queued_jobs(const fs::path& folder) {
   std::vector<QueuedJob> jobs;
   try {
-    for (const Json& job : parse_json(output::read_file(jobs_path(folder))))
+    for (const Json& job : output::read_json(jobs_path(folder)))
       jobs.push_back({job.at("job").get<std::string>(), job.at("runs").get<std::vector<int>>(),
                       job.at("is_beginning").get<bool>()});
   } catch (const std::exception& error) {

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/output/json_file.h"
 #include "app/output/sequence.h"
 #include "app/record/run_json.h"
 #include "app/scene/coarsen.h"
@@ -442,7 +443,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
     throw IoError(folder.string() + ": " + why_no_sweep(folder) +
                       "; expected the folder that neve sweep wrote, as out/snow_variations.cdb",
                   folder.string());
-  return parse_manifest(output::read_file(file), file.string());
+  return parse_manifest(output::read_json_bytes(file), file.string());
 }
 
 Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& file) {

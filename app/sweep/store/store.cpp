@@ -8,6 +8,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
+#include "app/output/json_file.h"
 #include "app/output/sequence.h"
 #include "app/record/run_json.h"
 #include "app/scene/leaf.h"
@@ -75,7 +76,7 @@ RunStatus read_status(const fs::path& run_folder) {
   std::error_code error;
   damaged.is_damaged = fs::exists(status_path(run_folder), error);
   try {
-    const Json json = parse_json(output::read_file(status_path(run_folder), 1 << 20));
+    const Json json = output::read_json(status_path(run_folder), 1 << 20);
     if (!record::is_untouched(json)) return damaged;
     const auto found = std::find(states.begin(), states.end(), json.at("state").get<std::string>());
     status.key = json.at("key").get<std::string>();
