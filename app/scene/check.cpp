@@ -560,12 +560,6 @@ Found body_problem(const Scene& scene, const Collider& collider) {
   if (!scene.solver.is_contact_at_particles())
     return Problem{at + key, "snow does not move bodies with solver.contact_at = \"nodes\"",
                    "use contact_at = \"particles\", the default"};
-  for (const Collider& other : scene.colliders)
-    if (std::holds_alternative<sim::shapes::MeshSequence>(other.shape.form))
-      return Problem{at + key,
-                     "bodies that move by themselves do not meet meshes that deform, as " +
-                         toml::toml_string(other.name) + " does",
-                     "omit the mass, or use a mesh in place of the sequence"};
   const sim::Vec3d& inertia = body.inertia;
   if (!inertia.isZero(0) && (inertia.minCoeff() <= 0 || 2 * inertia.maxCoeff() > inertia.sum()))
     return Problem{at + ".inertia", "no body has these moments of inertia",

@@ -14,6 +14,7 @@
 
 #include "sim/rigid/held.h"
 #include "sim/rigid/rigid_shape.h"
+#include "sim/rigid/triangles.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::sim::rigid {
@@ -68,19 +69,24 @@ class RigidBodies::World {
     for (std::size_t k = 0; k < colliders.size(); ++k) {
       const bool moves = next != bodies.end() && next->collider == k;
       things_.push_back(moves ? moving_thing(*next, colliders[k]) : fixed_thing(colliders[k]));
+      things_.back().collider = k;
       if (moves) moving_.push_back(k), ++next;
       things_.back().restitution = moves ? colliders[k].body.restitution : 0;
       any_bounces_ = any_bounces_ || things_.back().restitution > 0;
     }
+    for (std::size_t k = 0; k < colliders.size(); ++k)
+      if (things_[k].deforming) add_twins(colliders[k], k);
     leave_out_joined(bodies, colliders);
   }
 
   void place(const std::vector<Body>& bodies, const std::vector<shapes::Collider>& colliders,
              double time) {
-    for (std::size_t k = 0; k < things_.size(); ++k)
-      if (!things_[k].moves) place_fixed(things_[k], colliders[k], time);
+    for (Thing& thing : things_)
+      if (!thing.moves) place_fixed(thing, colliders[thing.collider], time);
     for (std::size_t b = 0; b < bodies.size(); ++b) reset(bodies[b], things_[moving_[b]]);
     detect();
+    for (Thing& thing : things_)
+      if (thing.deforming) follow_surface(thing, colliders[thing.collider], time);
   }
 
   void respond(std::vector<Body>& bodies, double dt, const Vec3d& gravity,
@@ -98,8 +104,13 @@ class RigidBodies::World {
  private:
   struct Thing {
     bool moves = false;
+    std::size_t collider = 0;
     double restitution = 0;
-    std::unique_ptr<RigidShape> shape;
+    std::shared_ptr<RigidShape> shape;
+    /// The shape, if it deforms. Bullet knows rigid motions alone: there is such a thing for each
+    /// body, and it moves as the surface does where that body touches it.
+    Deforming* deforming = nullptr;
+    const btRigidBody* meets = nullptr;  ///< the only body that it touches; null: all
     std::unique_ptr<btRigidBody> body;
     Mat3d axes = Mat3d::Identity();       ///< of the form
     Mat3d principal = Mat3d::Identity();  ///< in the axes of the form
@@ -111,12 +122,41 @@ class RigidBodies::World {
   static Thing fixed_thing(const shapes::Collider& collider) {
     Thing out;
     out.axes = shapes::form_axes(collider.shape);
-    out.shape = fixed_shape(collider.shape);
+    if (const auto* sequence = std::get_if<shapes::MeshSequence>(&collider.shape.form)) {
+      auto shape = std::make_shared<Deforming>(*sequence);
+      out.deforming = shape.get();
+      out.shape = std::move(shape);
+    } else {
+      out.shape = fixed_shape(collider.shape);
+    }
+    give_fixed_body(collider, out);
+    return out;
+  }
+
+  static void give_fixed_body(const shapes::Collider& collider, Thing& out) {
     out.body = std::make_unique<btRigidBody>(construction(0, out.shape->get(), btVector3(0, 0, 0)));
     out.body->setFriction(bullet_friction(collider));
     out.body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     out.body->setActivationState(DISABLE_DEACTIVATION);
-    return out;
+  }
+
+  /// @param k  of the collider, whose thing the first body meets
+  void add_twins(const shapes::Collider& collider, std::size_t k) {
+    for (const std::size_t body : moving_) {
+      const btRigidBody* meets = things_[body].body.get();
+      if (!things_[k].meets) {
+        things_[k].meets = meets;
+        continue;
+      }
+      Thing twin;
+      twin.collider = k;
+      twin.axes = things_[k].axes;
+      twin.shape = things_[k].shape;
+      twin.deforming = things_[k].deforming;
+      twin.meets = meets;
+      give_fixed_body(collider, twin);
+      things_.push_back(std::move(twin));
+    }
   }
 
   Thing moving_thing(const Body& body, const shapes::Collider& collider) const {
@@ -144,6 +184,29 @@ class RigidBodies::World {
         btTransform(to_bullet(Mat3d(pose.rotation * thing.axes)), to_bullet(pose.point)));
     thing.body->setLinearVelocity(to_bullet(pose.velocity));
     thing.body->setAngularVelocity(to_bullet(pose.angular_velocity));
+    if (thing.deforming) thing.deforming->move_to(shapes::shape_time(collider, time));
+  }
+
+  /// As the surface moves where the body that it meets touches it.
+  void follow_surface(Thing& thing, const shapes::Collider& collider, double time) {
+    const shapes::Pose pose = shapes::pose_at(collider, time);
+    std::vector<Vec3d> places, velocities;
+    each_point([&](const btPersistentManifold& manifold, const btManifoldPoint& point) {
+      const bool is_first = manifold.getBody0() == thing.body.get();
+      if (!is_first && manifold.getBody1() != thing.body.get()) return;
+      const Vec3d place =
+          from_bullet(is_first ? point.getPositionWorldOnA() : point.getPositionWorldOnB());
+      const Vec3d arm = place - pose.point;
+      const Mat3d axes = pose.rotation * thing.axes;
+      const int triangle = is_first ? point.m_index0 : point.m_index1;
+      places.push_back(place);
+      velocities.push_back(pose.velocity + pose.angular_velocity.cross(arm) +
+                           axes * thing.deforming->velocity(triangle, axes.transpose() * arm));
+    });
+    if (places.empty()) return;
+    const Twist twist = twist_of(places, velocities, pose.point);
+    thing.body->setLinearVelocity(to_bullet(twist.velocity));
+    thing.body->setAngularVelocity(to_bullet(twist.spin));
   }
 
   /// As it was before the step.
@@ -296,10 +359,15 @@ class RigidBodies::World {
     Dispatcher(btCollisionConfiguration* configuration, const std::vector<Thing>& things)
         : btCollisionDispatcher(configuration), things_(things) {}
     bool needsCollision(const btCollisionObject* a, const btCollisionObject* b) override {
-      return btCollisionDispatcher::needsCollision(a, b) && !is_joined(a, b) && !is_joined(b, a);
+      return btCollisionDispatcher::needsCollision(a, b) && !is_joined(a, b) && !is_joined(b, a) &&
+             meets(a, b) && meets(b, a);
     }
 
    private:
+    bool meets(const btCollisionObject* a, const btCollisionObject* b) const {
+      const btRigidBody* only = things_[static_cast<std::size_t>(a->getUserIndex())].meets;
+      return !only || only == b;
+    }
     bool is_joined(const btCollisionObject* a, const btCollisionObject* b) const {
       const auto& joined = things_[static_cast<std::size_t>(a->getUserIndex())].joined;
       return std::find(joined.begin(), joined.end(), static_cast<std::size_t>(b->getUserIndex())) !=
@@ -310,7 +378,7 @@ class RigidBodies::World {
 
   /// kg. Bullet's impulses have a largest size: its unit of mass is that of the heaviest body.
   double heaviest_ = 0;
-  std::vector<Thing> things_;        ///< per collider
+  std::vector<Thing> things_;        ///< per collider, and further ones of those that deform
   std::vector<std::size_t> moving_;  ///< per body: its thing
   std::vector<double> distances_;    ///< m, per point of contact, as they were found
   bool any_bounces_ = false;

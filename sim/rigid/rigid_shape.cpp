@@ -1,7 +1,6 @@
 #include "sim/rigid/rigid_shape.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
-#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConeShape.h>
@@ -10,7 +9,6 @@
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
-#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 #include <LinearMath/btConvexHullComputer.h>
 
 #include <Eigen/Geometry>
@@ -21,6 +19,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "sim/rigid/triangles.h"
 #include "sim/shapes/height_field.h"
 #include "sim/shapes/mesh_surface.h"
 
@@ -65,29 +64,6 @@ class Compound final : public RigidShape {
  private:
   std::vector<std::unique_ptr<RigidShape>> parts_;
   btCompoundShape shape_;
-};
-
-class Triangles final : public RigidShape {
- public:
-  explicit Triangles(const shapes::MeshSurface& surface) {
-    for (const Vec3d& x : surface.mesh().vertices)
-      vertices_.insert(vertices_.end(), {x[0], x[1], x[2]});
-    for (const auto& t : surface.mesh().triangles)
-      for (const std::uint32_t v : t) corners_.push_back(static_cast<int>(v));
-    mesh_ = std::make_unique<btTriangleIndexVertexArray>(
-        static_cast<int>(corners_.size() / 3), corners_.data(), static_cast<int>(3 * sizeof(int)),
-        static_cast<int>(vertices_.size() / 3), vertices_.data(),
-        static_cast<int>(3 * sizeof(double)));
-    shape_ = std::make_unique<btBvhTriangleMeshShape>(mesh_.get(), true);
-    shape_->setMargin(0);
-  }
-  btCollisionShape* get() override { return shape_.get(); }
-
- private:
-  std::vector<double> vertices_;
-  std::vector<int> corners_;
-  std::unique_ptr<btTriangleIndexVertexArray> mesh_;
-  std::unique_ptr<btBvhTriangleMeshShape> shape_;
 };
 
 /// Holes are so deep that nothing stands in them.
@@ -252,7 +228,8 @@ struct MakeFixed : MakeForm {
     return single<btStaticPlaneShape>(0, to_bullet(Vec3d(s.normal.normalized())), 0.0);
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Mesh& s) const {
-    return std::make_unique<Triangles>(*shapes::mesh_surface(s));
+    const auto surface = shapes::mesh_surface(s);
+    return std::make_unique<Triangles>(surface->mesh(), surface->bounds());
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Terrain& s) const {
     return std::make_unique<Ground>(*shapes::height_field(s));

@@ -18,7 +18,7 @@ class RigidShape {
 
 /// A collider that the scene moves, in the axes of its form about the shape's centre. Meshes and
 /// terrain are their triangles.
-/// @throws ShapeError, std::invalid_argument for what deforms
+/// @throws ShapeError, std::invalid_argument for points and for what deforms (triangles.h)
 std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape);
 
 /// A body, in principal axes about its centre of mass. A convex mesh is its hull, any other one its

@@ -83,35 +83,6 @@ TEST(RigidMass, OfAMeshIsThatOfItsPolyhedron) {
             3e-3 * box.inertia.norm());
 }
 
-/// Steps of bodies alone.
-class BodiesAlone {
- public:
-  explicit BodiesAlone(std::vector<shapes::Collider> colliders,
-                       const Vec3d& gravity = {0, -9.81, 0})
-      : list(std::move(colliders)), bodies_(list), gravity_(gravity) {}
-
-  void run(double seconds, double dt) {
-    const auto steps = static_cast<int>(std::lround(seconds / dt));
-    for (int k = 0; k < steps; ++k) step(dt);
-  }
-  void step(double dt, const std::vector<rigid::Push>& pushes = {}) {
-    bodies_.begin(list, time);
-    bodies_.respond(dt, gravity_,
-                    pushes.empty() ? std::vector<rigid::Push>(bodies_.size()) : pushes);
-    time += dt;
-    for (std::size_t b = 0; b < bodies_.size(); ++b)
-      bodies_.move(b, dt, time, list[bodies_.collider(b)]);
-  }
-  shapes::Pose pose(std::size_t k) const { return shapes::pose_at(list[k], time); }
-
-  std::vector<shapes::Collider> list;
-  double time = 0;
-
- private:
-  rigid::RigidBodies bodies_;
-  Vec3d gravity_;
-};
-
 TEST(RigidBodies, FallsAndSpinsFreely) {
   shapes::Collider ball = ball_of(700, {0, 1, 0}, 0.1, {1, 2, 0});
   ball.angular_velocity = {0, 3, 0};

@@ -148,10 +148,10 @@ class Scene:
     def let_move(self, colliders, solver):
         """Some colliders become bodies that move by themselves."""
         draw = self.draw
-        if solver.get("contact_at") == "nodes" or any("mesh_sequence" in c["shape"] for c in colliders):
+        if solver.get("contact_at") == "nodes":
             return
         for collider in colliders:
-            if "plane" in collider["shape"] or "terrain" in collider["shape"] or draw.chance(0.5):
+            if collider["shape"].keys() & {"plane", "terrain", "mesh_sequence"} or draw.chance(0.5):
                 continue
             collider.pop("keyframes", None)
             collider["density"] = 10 ** draw.within(0, 4)

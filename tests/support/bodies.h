@@ -2,6 +2,9 @@
 /// Bodies that move by themselves, and snow for them.
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "sim/rigid/rigid_bodies.h"
 #include "tests/support/snow.h"
@@ -48,5 +51,34 @@ inline BodyMomentum momentum_of(const sim::shapes::Collider& body, double time) 
   return {mass.mass * velocity, centre.cross(mass.mass * velocity) + spin,
           0.5 * mass.mass * velocity.squaredNorm() + 0.5 * pose.angular_velocity.dot(spin)};
 }
+
+/// Steps of bodies alone.
+class BodiesAlone {
+ public:
+  explicit BodiesAlone(std::vector<sim::shapes::Collider> colliders,
+                       const Vec3d& gravity = {0, -9.81, 0})
+      : list(std::move(colliders)), bodies_(list), gravity_(gravity) {}
+
+  void run(double seconds, double dt) {
+    const auto steps = static_cast<int>(std::lround(seconds / dt));
+    for (int k = 0; k < steps; ++k) step(dt);
+  }
+  void step(double dt, const std::vector<sim::rigid::Push>& pushes = {}) {
+    bodies_.begin(list, time);
+    bodies_.respond(dt, gravity_,
+                    pushes.empty() ? std::vector<sim::rigid::Push>(bodies_.size()) : pushes);
+    time += dt;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      bodies_.move(b, dt, time, list[bodies_.collider(b)]);
+  }
+  sim::shapes::Pose pose(std::size_t k) const { return sim::shapes::pose_at(list[k], time); }
+
+  std::vector<sim::shapes::Collider> list;
+  double time = 0;
+
+ private:
+  sim::rigid::RigidBodies bodies_;
+  Vec3d gravity_;
+};
 
 }  // namespace neve::test

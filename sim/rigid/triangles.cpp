@@ -1,0 +1,78 @@
+#include "sim/rigid/triangles.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <utility>
+
+namespace neve::sim::rigid {
+
+Triangles::Triangles(const shapes::SolidMesh& mesh, const shapes::Bounds& all)
+    : min_(to_bullet(all.min)), max_(to_bullet(all.max)) {
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t) corners_.push_back(static_cast<int>(v));
+  vertices_.resize(3 * mesh.vertices.size());
+  write(mesh.vertices);
+  triangles_ = std::make_unique<btTriangleIndexVertexArray>(
+      static_cast<int>(corners_.size() / 3), corners_.data(), static_cast<int>(3 * sizeof(int)),
+      static_cast<int>(mesh.vertices.size()), vertices_.data(),
+      static_cast<int>(3 * sizeof(double)));
+  shape_ = std::make_unique<btBvhTriangleMeshShape>(triangles_.get(), true, min_, max_);
+  shape_->setMargin(0);
+}
+
+void Triangles::write(const std::vector<Vec3d>& vertices) {
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    for (std::size_t x = 0; x < 3; ++x)
+      vertices_[3 * v + x] = vertices[v][static_cast<Eigen::Index>(x)];
+}
+
+void Triangles::move(const std::vector<Vec3d>& vertices) {
+  write(vertices);
+  shape_->refitTree(min_, max_);
+}
+
+Deforming::Deforming(std::shared_ptr<const shapes::DeformingMesh> mesh)
+    : Triangles(mesh->mesh(0, 0), mesh->bounds()),
+      mesh_(std::move(mesh)),
+      now_(mesh_->mesh(0, 0)) {}
+
+void Deforming::move_to(double time) {
+  const shapes::DeformingMesh::Moment before = moment_;
+  moment_ = mesh_->moment(time);
+  if (moment_.interval == before.interval && moment_.part == before.part) return;
+  now_ = mesh_->mesh(moment_.interval, moment_.part);
+  move(now_.vertices);
+}
+
+Vec3d Deforming::velocity(int triangle, const Vec3d& place) const {
+  const bool is_known = triangle >= 0 && static_cast<std::size_t>(triangle) < now_.triangles.size();
+  if (!moment_.moves || !is_known) return Vec3d::Zero();
+  return mesh_->velocity(moment_.interval, now_, static_cast<std::uint32_t>(triangle), place);
+}
+
+Twist twist_of(const std::vector<Vec3d>& places, const std::vector<Vec3d>& velocities,
+               const Vec3d& point) {
+  Vec3d middle = Vec3d::Zero(), mean = Vec3d::Zero();
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    middle += places[k] / static_cast<double>(places.size());
+    mean += velocities[k] / static_cast<double>(places.size());
+  }
+  Mat3d inertia = Mat3d::Zero();
+  Vec3d momentum = Vec3d::Zero();
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Vec3d arm = places[k] - middle;
+    inertia += arm.squaredNorm() * Mat3d::Identity() - arm * arm.transpose();
+    momentum += arm.cross(velocities[k] - mean);
+  }
+  // Places on a line say nothing about a spin around it, and one place nothing about any.
+  const Eigen::SelfAdjointEigenSolver<Mat3d> axes(inertia);
+  Vec3d spin = Vec3d::Zero();
+  constexpr double on_a_line = 1e-9;
+  for (int x = 0; x < 3; ++x)
+    if (axes.eigenvalues()[x] > on_a_line * inertia.trace())
+      spin += axes.eigenvectors().col(x) * axes.eigenvectors().col(x).dot(momentum) /
+              axes.eigenvalues()[x];
+  return {mean + spin.cross(point - middle), spin};
+}
+
+}  // namespace neve::sim::rigid

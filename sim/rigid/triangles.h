@@ -1,0 +1,67 @@
+#pragma once
+/// Meshes of the scene, also those that deform, as bodies that move by themselves meet them.
+
+#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+
+#include <memory>
+#include <vector>
+
+#include "sim/rigid/rigid_shape.h"
+#include "sim/shapes/deforming_mesh.h"
+
+namespace neve::sim::rigid {
+
+/// Of a mesh, which have no inside.
+class Triangles : public RigidShape {
+ public:
+  /// @param all  bounds of all places where its vertices will ever be
+  Triangles(const shapes::SolidMesh& mesh, const shapes::Bounds& all);
+  btCollisionShape* get() override { return shape_.get(); }
+
+ protected:
+  /// Bullet's tree of them stays that of the mesh they were made of, and its boxes follow: which
+  /// triangles are found first does not depend on the moments that were asked for.
+  void move(const std::vector<Vec3d>& vertices);
+
+ private:
+  void write(const std::vector<Vec3d>& vertices);
+
+  btVector3 min_, max_;
+  std::vector<double> vertices_;
+  std::vector<int> corners_;
+  std::unique_ptr<btTriangleIndexVertexArray> triangles_;
+  std::unique_ptr<btBvhTriangleMeshShape> shape_;
+};
+
+class Deforming final : public Triangles {
+ public:
+  /// @throws ShapeError
+  explicit Deforming(const shapes::MeshSequence& sequence)
+      : Deforming(shapes::deforming_mesh(sequence)) {}
+
+  /// @param time  s, of its shape
+  void move_to(double time);
+  /// m/s, of a place of the surface, in its axes about its origin.
+  Vec3d velocity(int triangle, const Vec3d& place) const;
+
+ private:
+  explicit Deforming(std::shared_ptr<const shapes::DeformingMesh> mesh);
+
+  std::shared_ptr<const shapes::DeformingMesh> mesh_;
+  shapes::DeformingMesh::Moment moment_{};
+  shapes::SolidMesh now_;
+};
+
+/// A rigid motion.
+struct Twist {
+  Vec3d velocity{0, 0, 0};  ///< m/s, of a point
+  Vec3d spin{0, 0, 0};      ///< rad/s
+};
+
+/// Nearest to velocities at places, by least squares; the smallest spin where several are.
+/// @param point  whose velocity is wanted
+Twist twist_of(const std::vector<Vec3d>& places, const std::vector<Vec3d>& velocities,
+               const Vec3d& point);
+
+}  // namespace neve::sim::rigid
