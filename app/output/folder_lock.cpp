@@ -105,7 +105,7 @@ std::optional<FolderLock> FolderLock::try_lock(const fs::path& folder, const std
   if (result != 0 && errno == EWOULDBLOCK) return std::nullopt;
   if (result != 0) fail_locking(file, errno);
   write_holder(file, lock.get(), holder);
-  remove_abandoned(folder);
+  remove_abandoned_below(folder);
   return FolderLock(std::move(lock));
 }
 

@@ -130,4 +130,13 @@ void remove_abandoned(const fs::path& folder) {
   }
 }
 
+void remove_abandoned_below(const fs::path& folder) {
+  remove_abandoned(folder);
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (fs::is_directory(it->symlink_status(ignored))) remove_abandoned(it->path());
+  }
+}
+
 }  // namespace neve::app::output

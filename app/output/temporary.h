@@ -12,5 +12,7 @@ std::filesystem::path temporary_name(const std::filesystem::path& path);
 /// Removes what processes that have ended left in a folder: those of this machine at once, those of
 /// others after a day. Other files stay.
 void remove_abandoned(const std::filesystem::path& folder);
+/// The same in the folders that it has, too; not through links.
+void remove_abandoned_below(const std::filesystem::path& folder);
 
 }  // namespace neve::app::output

@@ -10,7 +10,6 @@
 #include "app/output/file_hash.h"
 #include "app/output/movie.h"
 #include "app/output/sequence.h"
-#include "app/output/temporary.h"
 #include "app/record/earlier.h"
 #include "app/run/identity.h"
 #include "app/scene/burn_in.h"
@@ -90,10 +89,7 @@ void Ledger::take(const timeline::Moment& moment) {
 
 void Ledger::open() {
   if (!job_.scene.exports.empty()) output::make_own_folder(job_.folder / output::exports_folder);
-  for (const std::string& view : record_.views) {
-    output::make_own_folder(job_.folder / view);
-    output::remove_abandoned(job_.folder / view);
-  }
+  for (const std::string& view : record_.views) output::make_own_folder(job_.folder / view);
   write();
 }
 

@@ -44,6 +44,7 @@ struct ColliderPose {
   shapes::HeightSamples heights;    ///< of a terrain
   double shape_speed;               ///< m/s, of the fastest place of a shape that deforms
   double velocity[3], omega[3];
+  bool moves_by_itself;  ///< a body: velocities are those before the step
 };
 
 /// The same, seen from a block: distances inside the block keep full precision wherever it is.

@@ -411,6 +411,7 @@ RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
     if (!c.body.moves()) continue;
     try {
       const MassProperties mass = mass_properties(c);
+      check_faces(c.shape);
       const shapes::Bounds box = shapes::Solid(c.shape).local_bounds();
       const Vec3d far = (box.max - mass.centre).cwiseMax(mass.centre - box.min);
       bodies_.push_back({k,
@@ -420,6 +421,8 @@ RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
                          far.norm(),
                          {},
                          {}});
+    } catch (const ShapeError& error) {
+      throw ShapeError("collider " + c.name + ": " + error.what());
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument("collider " + c.name + ": " + error.what());
     }

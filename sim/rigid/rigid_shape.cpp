@@ -32,6 +32,7 @@ constexpr double rounding = 0.04;
 /// Faces of a body with hollows are plates, at most so thick, as a share of its least extent.
 constexpr double thickest_plate = 0.1;
 constexpr int doublings = 7;
+constexpr std::size_t max_plates = 10'000;
 /// Bullet adds to a convex hull this share of the least extent of its body.
 constexpr double beyond_hull = 1e-3;
 /// No vertex of a convex mesh is further beyond a face than this share of its largest extent.
@@ -272,6 +273,17 @@ std::unique_ptr<RigidShape> body_shape(const shapes::Shape& shape, const MassPro
   const Mat3d axes = principal.transpose();
   out->add(std::move(form), btTransform(to_bullet(axes), to_bullet(Vec3d(-axes * mass.centre))));
   return out;
+}
+
+void check_faces(const shapes::Shape& shape) {
+  const auto* mesh = std::get_if<shapes::Mesh>(&shape.form);
+  if (!mesh) return;
+  const std::shared_ptr<const shapes::MeshSurface> surface = shapes::mesh_surface(*mesh);
+  const std::size_t faces = surface->mesh().triangles.size();
+  if (faces > max_plates && !is_convex(*surface))
+    throw ShapeError(mesh->file + ": has hollows and " + std::to_string(faces) +
+                     " faces, and a body that moves by itself can have " +
+                     std::to_string(max_plates) + "; simplify the mesh, or take its convex hull");
 }
 
 btVector3 to_bullet(const Vec3d& v) {

@@ -27,6 +27,10 @@ std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape);
 std::unique_ptr<RigidShape> body_shape(const shapes::Shape& shape, const MassProperties& mass,
                                        const Mat3d& principal);
 
+/// Each face of a mesh with hollows is a shape of its own, and 10 000 of them take a tenth of a
+/// second in every step. @throws ShapeError for a body of more
+void check_faces(const shapes::Shape& shape);
+
 btVector3 to_bullet(const Vec3d& v);
 btMatrix3x3 to_bullet(const Mat3d& m);
 Vec3d from_bullet(const btVector3& v);

@@ -95,6 +95,7 @@ std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& c, doub
   kernels::ColliderPose out{};
   out.contact = static_cast<kernels::ContactLaw>(c.contact);
   out.friction = c.friction;
+  out.moves_by_itself = c.body.moves();
   for (int a = 0; a < 3; ++a) {
     const double in_cells = pose.point[a] / cell_size;
     split(in_cells, out.cell[a], out.offset[a]);

@@ -229,6 +229,7 @@ def scene_of(kind, file):
 
 # What would look at too many faces for each place.
 REFUSED = {("collider", "slabs behind one another, tilted"), ("collider", "60 000 faces at one edge"), ("body", "60 000 faces at one edge"),
+           ("rigid", "a spiral of 40 000 corners"),
            ("cover", "60 000 faces at one vertex")}
 RENDER = "render s.toml --frames 0 --no-movie --quiet --out o"
 

@@ -11,6 +11,7 @@
 
 #include "sim/shapes/solid.h"
 #include "tests/support/bodies.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -210,6 +211,31 @@ TEST(RigidBodies, ARingThatIsAMeshHangsOnItsPeg) {
   EXPECT_NEAR(pose.point.z(), 0, 5e-3);
   // It swings on the edges of the peg, and stops.
   EXPECT_LE(pose.velocity.norm(), 0.02);
+}
+
+/// Each of its faces is a shape of its own.
+TEST(RigidBodies, AHollowMeshOfManyFacesIsRefused) {
+  const TemporaryFolder folder;
+  shapes::Collider sheet;
+  sheet.name = "sheet";
+  sheet.body.density = 300;
+  const auto file = [&](const std::string& name, int parts, double bend) {
+    const auto way = [&](double x) { return Vec3d(0, bend * x * x, 0); };
+    return folder.write(name, plate_obj(Vec3d(1, 0.1, 1), parts, way)).string();
+  };
+  const std::string hollow = file("hollow.obj", 1300, 0.2), flat = file("flat.obj", 1300, 0);
+  sheet.shape.form = shapes::Mesh{hollow};
+  try {
+    BodiesAlone world({sheet});
+    FAIL() << "10 404 faces are taken";
+  } catch (const ShapeError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("collider sheet: " + hollow + ": has hollows and 10404"),
+        std::string::npos)
+        << error.what();
+  }
+  sheet.shape.form = shapes::Mesh{flat};
+  EXPECT_NO_THROW(BodiesAlone({sheet}));
 }
 
 /// Three boxes on each other, on every kind of ground that there is: they stay.

@@ -11,7 +11,6 @@
 #include "app/output/movie.h"
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
-#include "app/output/temporary.h"
 #include "app/picture/legends.h"
 #include "app/record/picture_record.h"
 #include "app/scene/read.h"
@@ -153,7 +152,6 @@ void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, S
   const int first = manifest.first_frame();
   const std::string name = page_name("sheet", page);
   output::make_own_folder(folder / name);
-  output::remove_abandoned(folder / name);
   output::PictureWriter writer;
   for (int frame = first; frame <= last && !is_interrupted(); ++frame) {
     render::Image image = maker.sheet(frame, page);
