@@ -158,6 +158,7 @@ void make_part(const std::filesystem::path& folder) {
 }  // namespace
 
 void write_manual(const Entry& program, const std::filesystem::path& folder) {
+  make_part(folder);
   for (const char* part : {"man1", "bash", "zsh", "fish"}) make_part(folder / part);
   write_pages(program, folder / "man1");
   output::write_file(folder / "bash" / "neve", bash_completion(program));

@@ -121,7 +121,8 @@ fs::path temporary_name(const fs::path& path) {
 
 void remove_abandoned(const fs::path& folder) {
   std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+  const fs::path here = folder.empty() ? "." : folder;  // the parent of a name alone
+  for (fs::directory_iterator it(here, error), end; !error && it != end; it.increment(error)) {
     const std::optional<Owner> owner = owner_of(it->path().filename().string());
     std::error_code ignored;
     if (owner && fs::is_regular_file(it->symlink_status(ignored)) &&

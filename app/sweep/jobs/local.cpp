@@ -14,6 +14,7 @@
 #include "app/output/checkpoint.h"
 #include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
+#include "app/output/temporary.h"
 #include "app/record/earlier.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -100,9 +101,11 @@ class LocalJobs {
 
   /// Once for all runs: by this process, or by another one that is waited for.
   void make_beginning() {
-    if (!manifest_.beginning || (queue_.empty() && !options_.makes_beginning)) return;
-    const Run& run = manifest_.beginning->run;
+    if (!manifest_.beginning) return;
     const fs::path folder = store::beginning_folder(folder_);
+    output::remove_abandoned_below(folder);
+    if (queue_.empty() && !options_.makes_beginning) return;
+    const Run& run = manifest_.beginning->run;
     bool is_told = false;
     if (!manifest_.beginning->source.empty()) return require_beginning(run, folder);
     while (!has_beginning(run, folder) && !is_interrupted()) {
