@@ -41,23 +41,70 @@ void BodyContact<Real>::begin(State<Real>& state, const kernels::ContactArgs<Rea
     seen.radius = std::sqrt(inertia.trace() / (3 * mass));
   }
   is_first_ = true;
-  list_touches(a, blocks);
+  list_touches(state, a, blocks);
 }
 
 /// What does not change in the step.
 template <class Real>
-void BodyContact<Real>::list_touches(const kernels::ContactArgs<Real>& a,
+void BodyContact<Real>::list_touches(const State<Real>& state, const kernels::ContactArgs<Real>& a,
                                      const std::vector<std::uint32_t>& blocks) {
-  touches_.clear();
-  blocks_.clear();
-  for (const std::uint32_t b : blocks) {
-    const std::size_t before = touches_.size();
+  in_block_.resize(blocks.size());
+  std::size_t most = 0;
+  for (std::size_t n = 0; n < blocks.size(); ++n) {
+    in_block_[n].first = most;
+    most += a.counts[blocks[n]];
+  }
+  if (touches_.size() < most) touches_.resize(most);
+  const auto list_block = [&](std::size_t n) {
+    const std::uint32_t b = blocks[n];
+    std::size_t end = in_block_[n].first;
+    bool is_mixed = false;
     for (std::uint64_t k = a.first[b]; k < a.first[b] + a.counts[b]; ++k) {
       const int body = body_of_[static_cast<std::size_t>(a.contacts[k].list)];
-      if (body >= 0) touches_.push_back(touch_of(k, static_cast<std::size_t>(body), a));
+      if (body < 0) continue;
+      touches_[end++] = touch_of(k, static_cast<std::size_t>(body), a);
+      is_mixed = is_mixed || touches_[end - 1].body != touches_[in_block_[n].first].body;
     }
-    if (touches_.size() > before) blocks_.push_back(b);
+    in_block_[n].end = end;
+    if (is_mixed)
+      std::sort(touches_.data() + in_block_[n].first, touches_.data() + end,
+                [](const Touch& x, const Touch& y) {
+                  return std::pair(x.body, x.contact) < std::pair(y.body, y.contact);
+                });
+  };
+  state.pool->ranges(blocks.size(), state.active_threads(),
+                     [&](std::size_t begin, std::size_t end) {
+                       for (std::size_t n = begin; n < end; ++n) list_block(n);
+                     });
+  list_groups(blocks);
+}
+
+template <class Real>
+void BodyContact<Real>::list_groups(const std::vector<std::uint32_t>& blocks) {
+  groups_.clear();
+  blocks_.clear();
+  for (std::size_t n = 0; n < blocks.size(); ++n) {
+    const InBlock in = in_block_[n];
+    if (in.first == in.end) continue;
+    blocks_.push_back(blocks[n]);
+    const auto body_at = [&](std::size_t k) { return touches_[k].body; };
+    for (std::size_t k = in.first; k < in.end;) {
+      std::size_t end = in.end;
+      if (body_at(k) != body_at(in.end - 1))
+        for (end = k + 1; body_at(end) == body_at(k);) ++end;
+      groups_.push_back({k, end, body_at(k)});
+      k = end;
+    }
   }
+}
+
+template <class Real>
+template <class Work>
+void BodyContact<Real>::over_groups(const State<Real>& state, const Work& work) {
+  state.pool->ranges(groups_.size(), state.active_threads(),
+                     [&](std::size_t begin, std::size_t end) {
+                       for (std::size_t n = begin; n < end; ++n) work(groups_[n]);
+                     });
 }
 
 template <class Real>
@@ -84,28 +131,41 @@ typename BodyContact<Real>::Touch BodyContact<Real>::touch_of(
 }
 
 template <class Real>
-void BodyContact<Real>::collect(const kernels::ContactArgs<Real>& a) {
+void BodyContact<Real>::collect(const State<Real>& state, const kernels::ContactArgs<Real>& a) {
+  over_groups(state, [&](Group& group) { add_up(a, group); });
   std::swap(pushes_, before_);
   pushes_.assign(seen_.size(), rigid::Push{});
   for (Seen& seen : seen_) seen.count = 0;
+  for (const Group& group : groups_) {
+    pushes_[group.body].impulse += group.push.impulse;
+    pushes_[group.body].moment += group.push.moment;
+    seen_[group.body].count += group.count;
+  }
+  are_settled_ = !is_first_;
+  for (std::size_t b = 0; are_settled_ && b < seen_.size(); ++b) are_settled_ = is_settled(b);
+  is_first_ = false;
+}
+
+template <class Real>
+void BodyContact<Real>::add_up(const kernels::ContactArgs<Real>& a, Group& group) const {
   const Real alpha = a.step.constants.alpha;
-  for (const Touch& touch : touches_) {
+  rigid::Push push;
+  group.count = 0;
+  for (std::size_t k = group.first; k < group.end; ++k) {
+    const Touch& touch = touches_[k];
     const kernels::Contact<Real>& c = a.contacts[touch.contact];
     Vec3<Real> impulse;
     for (int x = 0; x < 3; ++x)
       impulse[x] = c.mass * alpha * c.lost[x] - (c.normal[x] * c.impulse + c.sliding[x]);
     const Vec3<Real> moment = cross(touch.arm, impulse);
-    rigid::Push& push = pushes_[touch.body];
     for (int x = 0; x < 3; ++x) {
       push.impulse[x] += static_cast<double>(impulse[x]);
       push.moment[x] += static_cast<double>(moment[x]);
     }
     // Before the first pass nobody knows which of them will press.
-    seen_[touch.body].count += is_first_ || c.impulse != Real(0) ? 1 : 0;
+    group.count += is_first_ || c.impulse != Real(0) ? 1 : 0;
   }
-  are_settled_ = !is_first_;
-  for (std::size_t b = 0; are_settled_ && b < seen_.size(); ++b) are_settled_ = is_settled(b);
-  is_first_ = false;
+  group.push = push;
 }
 
 template <class Real>
@@ -139,24 +199,27 @@ void BodyContact<Real>::find_out_what_gives() {
 }
 
 template <class Real>
-void BodyContact<Real>::show(const kernels::ContactArgs<Real>& a) const {
-  for (const Touch& touch : touches_) {
-    kernels::Contact<Real>& contact = a.contacts[touch.contact];
-    const Seen& seen = seen_[touch.body];
-    const Vec3<Real> turned = cross(seen.spin, touch.arm);
-    for (int x = 0; x < 3; ++x) contact.surface[x] = seen.velocity[x] + turned[x];
-    contact.give = seen.share * touch.give;
-    contact.give_along = seen.share * touch.along;
-  }
+void BodyContact<Real>::show(const State<Real>& state, const kernels::ContactArgs<Real>& a) {
+  over_groups(state, [&](const Group& group) {
+    const Seen& seen = seen_[group.body];
+    for (std::size_t k = group.first; k < group.end; ++k) {
+      const Touch& touch = touches_[k];
+      kernels::Contact<Real>& contact = a.contacts[touch.contact];
+      const Vec3<Real> turned = cross(seen.spin, touch.arm);
+      for (int x = 0; x < 3; ++x) contact.surface[x] = seen.velocity[x] + turned[x];
+      contact.give = seen.share * touch.give;
+      contact.give_along = seen.share * touch.along;
+    }
+  });
 }
 
 template <class Real>
 void BodyContact<Real>::answer(const State<Real>& state, const kernels::ContactArgs<Real>& a) {
-  collect(a);
+  collect(state, a);
   bodies_->respond(static_cast<double>(a.step.constants.dt), state.method.settings.gravity,
                    pushes_);
   find_out_what_gives();
-  show(a);
+  show(state, a);
 }
 
 template class BodyContact<float>;

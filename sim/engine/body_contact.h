@@ -11,8 +11,8 @@ namespace neve::sim::engine {
 
 /// After each pass bodies get the impulses that contacts have by then, and answer: what they touch,
 /// what holds them and gravity count. Then the surfaces of contacts have the new velocity, and say
-/// what they give way by in the next pass. Contacts are added up in one order by one thread: they
-/// are few.
+/// what they give way by in the next pass. Threads add up contacts of a block and a body, and one
+/// of them those sums: in one order, whatever the number of threads.
 template <class Real>
 class BodyContact {
  public:
@@ -28,7 +28,8 @@ class BodyContact {
   /// Blocks of particles that touch a body, a part of those in begin().
   const std::vector<std::uint32_t>& blocks() const { return blocks_; }
   std::size_t memory_bytes() const {
-    return sizeof(Touch) * touches_.capacity() + sizeof(std::uint32_t) * blocks_.capacity();
+    return sizeof(Touch) * touches_.capacity() + sizeof(Group) * groups_.capacity() +
+           sizeof(InBlock) * in_block_.capacity() + sizeof(std::uint32_t) * blocks_.capacity();
   }
 
   /// Of the impulse of snow on a body in the step, and of that of gravity.
@@ -57,18 +58,37 @@ class BodyContact {
     Real give, along;  ///< 1/kg: a free body gives way by so much to an impulse along the normal,
                        ///< and in both directions along the surface
   };
-  void list_touches(const kernels::ContactArgs<Real>& a, const std::vector<std::uint32_t>& blocks);
+  /// Contacts of a block of particles with a body.
+  struct Group {
+    std::size_t first, end;  ///< touches
+    std::size_t body;
+    rigid::Push push{};
+    int count = 0;  ///< that press
+  };
+  /// Touches of a block of particles, sorted by body.
+  struct InBlock {
+    std::size_t first, end;
+  };
+  void list_touches(const State<Real>& state, const kernels::ContactArgs<Real>& a,
+                    const std::vector<std::uint32_t>& blocks);
+  void list_groups(const std::vector<std::uint32_t>& blocks);
+  /// work(group) by all threads.
+  template <class Work>
+  void over_groups(const State<Real>& state, const Work& work);
   Touch touch_of(std::uint64_t contact, std::size_t body,
                  const kernels::ContactArgs<Real>& a) const;
-  void collect(const kernels::ContactArgs<Real>& a);
+  void collect(const State<Real>& state, const kernels::ContactArgs<Real>& a);
+  void add_up(const kernels::ContactArgs<Real>& a, Group& group) const;
   bool is_settled(std::size_t body) const;
   void find_out_what_gives();
-  void show(const kernels::ContactArgs<Real>& a) const;
+  void show(const State<Real>& state, const kernels::ContactArgs<Real>& a);
 
   rigid::RigidBodies* bodies_ = nullptr;
   std::vector<int> body_of_;  ///< per collider; -1: the scene moves it
   std::vector<Seen> seen_;
-  std::vector<Touch> touches_;
+  std::vector<Touch> touches_;     ///< with gaps
+  std::vector<InBlock> in_block_;  ///< per block in begin()
+  std::vector<Group> groups_;
   std::vector<std::uint32_t> blocks_;
   std::vector<rigid::Push> pushes_, before_;
   bool is_first_ = true;
