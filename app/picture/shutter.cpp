@@ -63,31 +63,62 @@ void turn_by_pixels(double right, double up, render::Frame& frame) {
       (view.right * static_cast<float>(right) + view.up * static_cast<float>(up)) * pixel;
 }
 
+/// Where the picture is seen from at the ends of an interval.
+class Ends {
+ public:
+  Ends(const MotionSource& source, const render::Frame& frame, double open)
+      : width_(static_cast<float>(frame.width)),
+        height_(static_cast<float>(frame.height)),
+        half_(static_cast<float>(0.5 * open)) {
+    const auto view_at = [&](double seconds) {
+      return make_view(camera_after(source, seconds), frame.width, frame.height);
+    };
+    before_ = view_at(-0.5 * open);
+    after_ = view_at(0.5 * open);
+  }
+  /// A way across the picture; none beside it.
+  struct Way {
+    float pixels = 0, metres = 0;
+  };
+  Way way(Vec3f before, Vec3f after) const {
+    const Vec3f from = before_.project(before), to = after_.project(after);
+    if (!is_inside(from) && !is_inside(to)) return {};
+    const float pixels = std::hypot(to.x - from.x, to.y - from.y);
+    return {pixels, pixels * 0.5f * (from.z + to.z) / before_.pixels_per_slope};
+  }
+  Way way_of(Vec3f position, Vec3f velocity) const {
+    return way(position - velocity * half_, position + velocity * half_);
+  }
+
+ private:
+  bool is_inside(Vec3f p) const {
+    return p.z > 0 && p.x >= 0 && p.y >= 0 && p.x <= width_ && p.y <= height_;
+  }
+  float width_, height_, half_;
+  render::View before_, after_;
+};
+
 /// Pixels that anything moves by in the picture while the shutter is open.
 float largest_motion(const MotionSource& source, const render::Frame& frame,
                      const std::vector<Vec3f>& velocity, double open) {
-  const auto view_at = [&](double seconds) {
-    return make_view(camera_after(source, seconds), frame.width, frame.height);
-  };
-  const render::View before = view_at(-0.5 * open), after = view_at(0.5 * open);
+  const Ends ends(source, frame, open);
   float largest = 0;
-  const auto take = [&](Vec3f a, Vec3f b) {
-    const Vec3f from = before.project(a), to = after.project(b);
-    const auto is_inside = [&](Vec3f p) {
-      return p.z > 0 && p.x >= 0 && p.y >= 0 && p.x <= static_cast<float>(frame.width) &&
-             p.y <= static_cast<float>(frame.height);
-    };
-    if (is_inside(from) || is_inside(to))
-      largest = std::max(largest, std::hypot(to.x - from.x, to.y - from.y));
-  };
-  const auto half = static_cast<float>(0.5 * open);
   for (std::size_t p = 0; p < frame.points.position.size(); ++p)
-    take(frame.points.position[p] - velocity[p] * half,
-         frame.points.position[p] + velocity[p] * half);
+    largest = std::max(largest, ends.way_of(frame.points.position[p], velocity[p]).pixels);
   const std::vector<Thing> things = moving_meshes(source, 0.5 * open);
   for (std::size_t m = 0; m < things.size(); ++m)
-    for (const Vec3f& p : frame.meshes[m].position) take(things[m].before(p), things[m].after(p));
+    for (const Vec3f& p : frame.meshes[m].position)
+      largest = std::max(largest, ends.way(things[m].before(p), things[m].after(p)).pixels);
   return largest;
+}
+
+/// Says of points by how much they are blurred.
+void add_blur(const Ends& ends, const std::vector<Vec3f>& velocity, auto& points) {
+  std::vector<float> blur;
+  blur.reserve(velocity.size());
+  for (std::size_t p = 0; p < velocity.size(); ++p)
+    blur.push_back(std::max(ends.way_of(points.position[p], velocity[p]).metres, 0.0f));
+  points.blur = std::move(blur);
 }
 
 }  // namespace
@@ -101,9 +132,13 @@ std::vector<render::Frame> shutter_moments(const MotionSource& source, const ren
   const float pixels = largest_motion(source, frame, velocity, open);
   std::vector<render::Frame> moments;
   if (!(pixels >= 0.5f)) return moments;
+  render::Frame blurred = frame;
+  const Ends ends(source, frame, open);
+  add_blur(ends, velocity, blurred.points);
+  if (blurred.points.cut) add_blur(ends, cut_velocity, *blurred.points.cut);
   const int count = std::clamp(static_cast<int>(std::ceil(pixels)), 2, max_moments);
   for (int k = 0; k < count; ++k) {
-    render::Frame& moment = moments.emplace_back(frame);
+    render::Frame& moment = moments.emplace_back(blurred);
     move_solids(source, open * time_of_share((k + 0.5) / count), moment);
     const auto move = [&](const std::vector<Vec3f>& by, auto& points) {
       std::vector<Vec3f>& position = points.position.edit();
@@ -124,6 +159,7 @@ std::vector<render::Frame> with_shared_samples(std::vector<render::Frame> moment
   int n = 0;
   for (render::Frame& moment : moments) {
     if (moment.supersampling == 1) return moments;
+    moment.grain_detail = moment.supersampling;
     moment.supersampling = 1;
     if (moment.smoke.samples_per_ray > 0) moment.smoke.samples_per_ray = 1;
     ++n;

@@ -11,6 +11,7 @@ struct alignas(32) Grain {
   unsigned color = 0;  ///< as the G-buffer has it (gbuffer_tile.h)
   unsigned seed = 0;   ///< a random number that stays with the particle
   short turn[4]{};     ///< as PackedTurn
+  float relief = 1;    ///< factor of its relief
 };
 
 /// Texels of the noise that relief is made of, along each axis; it repeats.

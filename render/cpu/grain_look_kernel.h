@@ -138,8 +138,9 @@ NEVE_INLINE void look_at_grains(const GrainLookJob& job) {
     };
     const LaneRelief<V> relief = relief_at<V>(
         job, offset * all<V>(units_per_spacing) + Points3<V>{shift(0), shift(1), shift(2)}, pixels);
-    store_lanes(relief.height, job.height + at);
-    store_points(turn.forth(relief.slope) * all<V>(units_per_spacing), job.slope, at);
+    const V factor = number(7);
+    store_lanes(relief.height * factor, job.height + at);
+    store_points(turn.forth(relief.slope) * (units_per_spacing * factor), job.slope, at);
   }
 }
 

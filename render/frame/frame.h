@@ -31,6 +31,7 @@ struct CutAway {
   Values<std::uint32_t> id;  ///< these as of Points
   Values<float> value, volume;
   Values<PackedTurn> turn;
+  Values<float> blur{};
   bool operator==(const CutAway&) const = default;
 };
 
@@ -40,6 +41,7 @@ struct Points {
   Values<std::uint32_t> id;  ///< breaks ties and seeds the small variation of shade
   Values<float> value;
   Values<float> volume;     ///< m3 as deformed, for the snow surface; empty: that of packed points
+  Values<float> blur;       ///< m across the picture while the shutter is open; empty: none moves
   Values<PackedTurn> turn;  ///< turns the grain of the snow surface; empty: none has turned
   float radius = 0.005f;    ///< m, as drawn
   float spacing = 0.01f;    ///< m, mean distance of packed points: scale of the light volume
@@ -207,8 +209,9 @@ struct ScaleBar {
 struct Frame {
   int width = 1280, height = 720;  ///< pixels of the finished picture
   int supersampling = 1;           ///< 1 or 2: samples per pixel and axis
-  bool has_smooth_edges = false;   ///< with one sample for each pixel
-  bool is_transparent = false;     ///< nothing behind: the picture has an alpha channel
+  int grain_detail = 1;  ///< grain is as fine as for so many samples in place of one, on each axis
+  bool has_smooth_edges = false;  ///< with one sample for each pixel
+  bool is_transparent = false;    ///< nothing behind: the picture has an alpha channel
   Camera camera;
   Light light;
   Points points;

@@ -118,6 +118,7 @@ Points with_cut_away(const Points& points) {
   append(all.id, points.cut->id);
   append(all.value, points.cut->value);
   append(all.volume, points.cut->volume);
+  append(all.blur, points.cut->blur);
   append(all.turn, points.cut->turn);
   return all;
 }

@@ -75,17 +75,28 @@ NEVE_INLINE FieldPlace place_near(const Body& body, std::size_t b, Vec3f world) 
           node_in_block(place)};
 }
 
+/// Factor of the grain of snow that moves while the shutter is open. Each place of the picture then
+/// shows the mean of all grains that pass it, which varies less by the root of their number: fast
+/// snow looked like cotton wool. Streaks of stronger grain remain.
+/// @param blur  m
+NEVE_INLINE float relief_in_motion(float blur, float spacing) {
+  constexpr float grain_length = 1.0f;  // spacings
+  constexpr float largest = 3;          // steeper relief darkens snow
+  return std::min(std::sqrt(1 + blur / (grain_length * spacing)), largest);
+}
+
 /// Each grain is a little darker or lighter than the next: a second scale of grain, above that of
 /// its relief. Colours of values stay what their legend says.
-NEVE_INLINE std::uint32_t toned(std::uint32_t root_albedo, std::uint32_t seed) {
+NEVE_INLINE std::uint32_t toned(std::uint32_t root_albedo, std::uint32_t seed, float relief) {
   constexpr float darkest = 0.06f;  // of the root of the albedo
   const float chance = static_cast<float>(seed >> 8) * 0x1p-24f;
-  const float tone = 1 - darkest * chance * chance;
+  // As light on average, however much they differ.
+  const float tone = 1 - darkest * (relief * chance * chance + (1 - relief) / 3);
   std::uint32_t word = root_albedo & 0xff000000u;
   for (int shift = 0; shift < 24; shift += 8)
-    word |=
-        static_cast<std::uint32_t>(static_cast<float>(root_albedo >> shift & 0xff) * tone + 0.5f)
-        << shift;
+    word |= static_cast<std::uint32_t>(
+                std::min(static_cast<float>(root_albedo >> shift & 0xff) * tone + 0.5f, 255.0f))
+            << shift;
   return word;
 }
 
@@ -190,10 +201,13 @@ void list_grains(const Points& points, const GrainPlaces& places, ThreadPool* po
       const PackedTurn turn = points.turn.empty() ? no_turn : points.turn[p];
       const auto seed = static_cast<std::uint32_t>(mix64(id_of(points, p) + 1));
       const std::uint32_t albedo = color.root_albedo(p);
+      const float relief =
+          points.blur.empty() ? 1 : relief_in_motion(points.blur[p], points.spacing);
       grains.grain[k] = {place,
-                         points.value.empty() ? toned(albedo, seed) : albedo,
+                         points.value.empty() ? toned(albedo, seed, relief) : albedo,
                          seed,
-                         {turn[0], turn[1], turn[2], turn[3]}};
+                         {turn[0], turn[1], turn[2], turn[3]},
+                         relief};
     }
   });
 }

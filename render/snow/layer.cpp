@@ -32,6 +32,7 @@ void Layer::prepare(const Frame& frame, const View& view, const light::LightVolu
     grounds_ = frame.grounds;
   }
   view_ = &view;
+  grain_size_ = 1 / (view.pixels_per_slope * static_cast<float>(frame.grain_detail));
   volume_ = &volume;
   light_ = light;
   if (!has_nodes) {
@@ -82,7 +83,7 @@ void Layer::draw_tile(int x, int y, light::GBufferTile& tile, light::LitTile* li
 
 SnowPlace Layer::place_at(const Sample& sample, float distance) const {
   SnowPlace place;
-  place.sample_size = distance / view_->pixels_per_slope;
+  place.sample_size = distance * grain_size_;
   place.world = view_->eye + sample.ray * distance;
   return place;
 }

@@ -43,6 +43,7 @@ class Layer : public cpu::TileSource {
   std::optional<Points> points_;      ///< that the body is made of
   std::vector<GroundPlane> grounds_;  ///< likewise
   const View* view_ = nullptr;
+  float grain_size_ = 1;  ///< of a sample at a distance of 1, for the detail of grain
   const light::LightVolume* volume_ = nullptr;
   std::uint64_t serial_ = 0;  ///< of the light volume that nodes_ are made of
   std::optional<ExposedNodes> nodes_;

@@ -32,7 +32,7 @@ struct SnowPlace {
   Vec3f world;                              ///< m
   std::uint32_t block = surface::no_block;  ///< of the field; no_block: far from any
   Vec3f node;                               ///< place in nodes from the corner of the block
-  float sample_size = 1;                    ///< m, of a sample of the picture there
+  float sample_size = 1;  ///< m, of a sample of the picture there, for the detail of grain
 };
 
 /// Outward normal of the field, unit.

@@ -157,5 +157,86 @@ TEST(Noise, FinalQualityShowsNoneWhereSnowIsBlurredByItsMotion) {
   EXPECT_LT(noise, visible);
 }
 
+/// Root of the mean square by which rows differ from the mean of those three above and below, of
+/// 255: contrast of the scale of grain across a motion to the side.
+double grain_across(const render::Image& image) {
+  constexpr int reach = 3;
+  double sum = 0;
+  std::size_t count = 0;
+  const auto at = [&](int x, int y) {
+    return image.pixels.data() + 4 * (static_cast<std::ptrdiff_t>(y) * image.width + x);
+  };
+  for (int y = reach; y < image.height - reach; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      double around = 0;
+      bool is_snow = true;
+      for (int k = -reach; k <= reach; ++k) {
+        is_snow &= at(x, y + k)[3] == 255;
+        around += at(x, y + k)[1] / (2.0 * reach + 1);
+      }
+      if (!is_snow) continue;
+      sum += (at(x, y)[1] - around) * (at(x, y)[1] - around);
+      ++count;
+    }
+  EXPECT_GT(count, 800u);
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+/// Mean of the green of snow.
+double brightness_of(const render::Image& image) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4)
+    if (image.pixels[i + 3] == 255) sum += image.pixels[i + 1], ++count;
+  return sum / count;
+}
+
+/// Fast snow keeps streaks of grain, and does not look like cotton wool.
+TEST(Noise, GrainRemainsWhereSnowIsBlurredByItsMotion) {
+  OPEN_OR_SKIP(context, "auto");
+  render::Renderer renderer(*context);
+  const Shaded flying("2.4");
+  const render::Frame frame = flying.frame();
+  std::vector<render::Frame> moments = picture::with_shared_samples(flying.moments(frame));
+  ASSERT_GT(moments.size(), 12u);
+  render::MeanImage with, without;
+  for (render::Frame& moment : moments) {
+    with.add(renderer.draw(moment));
+    moment.points.blur = {};
+    moment.grain_detail = 1;
+    without.add(renderer.draw(moment));
+  }
+  const double sharp = grain_across(renderer.draw(frame)), blurred = grain_across(with.mean()),
+               wool = grain_across(without.mean());
+  RecordProperty("sharp", std::to_string(sharp));
+  RecordProperty("blurred", std::to_string(blurred));
+  RecordProperty("wool", std::to_string(wool));
+  EXPECT_GT(blurred, 0.5 * sharp);
+  EXPECT_GT(blurred, 1.5 * wool);
+  EXPECT_LT(blurred, sharp);
+  EXPECT_NEAR(brightness_of(with.mean()), brightness_of(without.mean()), 3);
+}
+
+/// What stands still beside fast snow is as sharp as without motion blur.
+TEST(Noise, SnowAtRestKeepsItsGrainWhereMomentsShareSamples) {
+  OPEN_OR_SKIP(context, "auto");
+  render::Renderer renderer(*context);
+  render::Frame frame = Shaded("0").frame();
+  frame.camera.eye = frame.camera.eye * 2.2f;  // grains of about a pixel and a half
+  render::MeanImage shared, coarse;
+  std::vector<render::Frame> moments =
+      picture::with_shared_samples(std::vector<render::Frame>(16, frame));
+  for (render::Frame& moment : moments) {
+    shared.add(renderer.draw(moment));
+    moment.grain_detail = 1;
+    coarse.add(renderer.draw(moment));
+  }
+  const double sharp = grain_across(renderer.draw(frame)), mean = grain_across(shared.mean());
+  RecordProperty("sharp", std::to_string(sharp));
+  RecordProperty("shared", std::to_string(mean));
+  RecordProperty("coarse", std::to_string(grain_across(coarse.mean())));
+  EXPECT_NEAR(mean / sharp, 1, 0.06);
+  EXPECT_LT(grain_across(coarse.mean()), 0.93 * mean);
+}
+
 }  // namespace
 }  // namespace neve::test
