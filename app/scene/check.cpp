@@ -318,6 +318,11 @@ Found camera_problem(const CameraSettings& camera, const std::string& at) {
     return Problem{at + ".turntable", "orbit and turntable both turn the eye",
                    "give one: orbit = degrees over the whole scene, turntable = seconds per turn"};
   }
+  if (camera.push_in && (camera.eye || !camera.keyframes.empty() || !camera.follow.empty())) {
+    const std::string other = camera.eye ? "eye" : camera.follow.empty() ? "keyframes" : "follow";
+    return Problem{at + ".push_in", "push_in moves an automatic camera, and " + other + " is given",
+                   "omit " + other + ", or give the move as keyframes"};
+  }
   if (camera.eye) {
     if (Found found =
             place_problem(*camera.eye, *camera.target, camera.up, at + ".target", at + ".up"))

@@ -572,6 +572,9 @@ void describe(V& visit, CameraSettings& c) {
         "to rest.");
   visit("turntable", c.turntable, unit::second, between(1e-3, 1e6), live,
         "Time of one turn of the eye around the target, about up, at constant speed.");
+  visit(
+      "push_in", c.push_in, unit::none, anything, live,
+      "Whether an automatic camera moves slowly from the whole fall to the snow that has settled.");
   visit("follow", c.follow, unit::none, anything, live,
         "Name of a body or collider that the camera moves along with: eye and target are relative "
         "to its centre of mass.");

@@ -89,8 +89,12 @@ contact = "separate"
 @collider.NAME.friction
 friction = 0.5
 
-# The pictures. Without a [camera] they frame the whole scene, and without a [[view]] they show snow;
-# --view particles, smoke or slice look into it.
+# Where the pictures are seen from. Without eye and target the camera frames the whole scene.
+[camera]
+@camera.push_in
+push_in = true
+
+# The pictures. Without a [[view]] they show snow; --view particles, smoke or slice look into it.
 [output]
 @output.size
 size = [1280, 720]

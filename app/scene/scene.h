@@ -104,6 +104,7 @@ struct CameraSettings {
   double fov = 30;                  ///< vertical, degrees
   std::optional<double> orbit;      ///< degrees over the whole scene; not with turntable
   std::optional<double> turntable;  ///< s of a full turn
+  bool push_in = false;             ///< comes nearer to the settled snow; only where automatic
   std::string follow;               ///< body or collider that moves eye and target along; "": none
   std::vector<CameraKeyframe> keyframes;  ///< times increase
 };

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "app/setup/camera_path.h"
+#include "app/setup/framing.h"
+#include "app/setup/push_in.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/round_number.h"
 
@@ -27,63 +29,6 @@ constexpr double growth_for_few = 2.2, share_of_few = 0.45;
 
 /// Share of the way to the corners of a box: about the extent of a sphere in it.
 constexpr double towards_sphere = 0.8;
-
-double radians(double degrees) {
-  return degrees * std::numbers::pi / 180;
-}
-
-struct Box {
-  Vec3d min = Vec3d::Constant(1e300), max = Vec3d::Constant(-1e300);
-  void add(const Vec3d& x) {
-    min = min.cwiseMin(x);
-    max = max.cwiseMax(x);
-  }
-  Vec3d center() const { return 0.5 * (min + max); }
-  double diagonal() const { return (max - min).norm(); }
-};
-
-Box box_of(const std::vector<Vec3d>& points) {
-  Box box;
-  for (const Vec3d& x : points) box.add(x);
-  return box;
-}
-
-Vec3d median(const std::vector<Vec3d>& points) {
-  Vec3d result;
-  std::vector<double> values(points.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    std::transform(points.begin(), points.end(), values.begin(),
-                   [&](const Vec3d& x) { return x[axis]; });
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    result[axis] = *middle;
-  }
-  return result;
-}
-
-/// The points without the share that is farthest from the median: splinters do not set the frame.
-std::vector<Vec3d> without_outliers(std::vector<Vec3d> points) {
-  std::erase_if(points, [](const Vec3d& x) { return !x.allFinite(); });
-  if (points.empty()) return points;
-  const Vec3d middle = median(points);
-  const auto kept =
-      static_cast<std::ptrdiff_t>(static_cast<double>(points.size()) * (1 - outliers));
-  std::nth_element(points.begin(), points.begin() + kept, points.end(),
-                   [&](const Vec3d& a, const Vec3d& b) {
-                     return (a - middle).squaredNorm() < (b - middle).squaredNorm();
-                   });
-  points.resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(kept, 1)));
-  return points;
-}
-
-/// The points farther from their middle, sideways.
-std::vector<Vec3d> scattered(std::vector<Vec3d> points) {
-  if (points.empty()) return points;
-  const Vec3d middle = median(points);
-  for (Vec3d& x : points)
-    for (const int axis : {0, 2}) x[axis] = middle[axis] + spread * (x[axis] - middle[axis]);
-  return points;
-}
 
 std::array<Vec3d, 8> corners(const Vec3d& min, const Vec3d& max) {
   std::array<Vec3d, 8> result;
@@ -143,7 +88,7 @@ std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<CoarseMo
   Box seen;
   for (const CoarseMoment& moment : moments) {
     const std::vector<Vec3d> kept =
-        moment.time > 0 ? scattered(without_outliers(moment.x)) : moment.x;
+        moment.time > 0 ? scattered(without_outliers(moment.x, outliers), spread) : moment.x;
     Box grown = seen;
     for (const Vec3d& x : kept) grown.add(x);
     if (moment.time > 0 && grown.diagonal() > largest_growth * first_size) break;
@@ -237,27 +182,12 @@ Vec3d direction(double azimuth, double elevation) {
   return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
 }
 
-struct Framing {
-  Vec3d target;
-  double distance;
-};
-
 /// Degrees; arrows seen exactly from the front have no depth.
 constexpr double askew = 7;
 
 double azimuth_of(const Vec3d& normal) {
   return std::atan2(normal.x(), normal.z()) * 180 / std::numbers::pi;
 }
-
-/// Projection of directions by the angle of view and the shape of the picture.
-struct Lens {
-  Vec3d up;
-  double slope;               ///< tan(fov / 2)
-  double aspect;              ///< width / height
-  double filled;              ///< share of the picture that the subject takes
-  std::vector<double> turns;  ///< degrees about up that the camera passes; only 0 when it is still
-  bool is_turning() const { return turns.size() > 1; }
-};
 
 /// Angles of the camera, in steps so small that nothing leaves the picture between them.
 std::vector<double> turns_of(const scene::CameraSettings& settings, double duration) {
@@ -267,49 +197,6 @@ std::vector<double> turns_of(const scene::CameraSettings& settings, double durat
   std::vector<double> turns{0};
   for (int k = 1; k <= count; ++k) turns.push_back(all * k / count);
   return turns;
-}
-
-/// Turns the points instead of a camera that turns about their middle.
-std::vector<Vec3d> turned_backwards(const std::vector<Vec3d>& points, const Lens& lens) {
-  const Vec3d middle = box_of(points).center();
-  std::vector<Vec3d> seen;
-  seen.reserve(points.size() * lens.turns.size());
-  for (const double turn : lens.turns)
-    for (const Vec3d& x : points) seen.push_back(middle + turn_about(lens.up, -turn, x - middle));
-  return seen;
-}
-
-/// Moves the target to the middle of the visible subject and the eye back until it fits. While the
-/// camera turns, the target stays above or below the middle of the points.
-Framing fit(const std::vector<Vec3d>& points, const Vec3d& middle, const Vec3d& towards_eye,
-            const Lens& lens) {
-  Vec3d right = lens.up.cross(towards_eye);
-  if (right.norm() < 1e-6) right = towards_eye.unitOrthogonal();
-  right.normalize();
-  const Vec3d up = towards_eye.cross(right);
-  const double t = lens.slope, aspect = lens.aspect;
-  Framing framing{middle, std::max(2 * box_of(points).diagonal() / t, 1e-3)};
-  for (int round = 0; round < 30; ++round) {
-    double left = 1e300, bottom = 1e300, rightmost = -1e300, top = -1e300;
-    for (const Vec3d& point : points) {
-      const Vec3d q = point - framing.target;
-      const double depth = std::max(framing.distance - q.dot(towards_eye), 0.1 * framing.distance);
-      const double x = q.dot(right) / (depth * t * aspect), y = q.dot(up) / (depth * t);
-      left = std::min(left, x), rightmost = std::max(rightmost, x);
-      bottom = std::min(bottom, y), top = std::max(top, y);
-    }
-    const double reach = t * framing.distance;
-    if (lens.is_turning()) {
-      framing.target += 0.5 * (bottom + top) * reach * lens.up;
-      rightmost = std::max(rightmost, -left), left = -rightmost;
-    } else {
-      framing.target +=
-          0.5 * ((left + rightmost) * aspect * reach * right + (bottom + top) * reach * up);
-    }
-    const double share = 0.5 * std::max(rightmost - left, top - bottom);
-    framing.distance *= std::clamp(share / lens.filled, 0.5, 2.0);
-  }
-  return framing;
 }
 
 /// When to look where planes are: keyframes may move and tilt them.
@@ -357,6 +244,34 @@ bool is_clear(const scene::Scene& scene, const Framing& framing, const Vec3d& to
   });
 }
 
+struct Place {
+  Vec3d eye, target;
+};
+
+/// In round numbers.
+/// @param origin  what both are relative to
+Place rounded_place(const Framing& framing, const Vec3d& towards_eye, const Vec3d& origin) {
+  Place place{framing.target + framing.distance * towards_eye - origin, framing.target - origin};
+  for (int axis = 0; axis < 3; ++axis) {
+    place.target[axis] = round_to(place.target[axis], framing.distance, 3);
+    place.eye[axis] = round_to(place.eye[axis], framing.distance, 3);
+  }
+  return place;
+}
+
+/// The move to the settled snow as two keyframes, unless the way there is not clear.
+void add_push_in(const scene::Scene& scene, const std::vector<CoarseMoment>& moments,
+                 const Shot& whole, const Lens& lens, scene::CameraSettings& camera) {
+  const std::optional<PushIn> move = push_in(moments, whole, lens, scene::duration(scene));
+  if (!move) return;
+  for (const double part : {0.25, 0.5, 0.75, 1.0})
+    if (!is_clear(scene, between(whole.framing, move->framing, part), whole.towards_eye, lens))
+      return;
+  const Place place = rounded_place(move->framing, whole.towards_eye, Vec3d::Zero());
+  camera.keyframes = {{move->begin, camera.eye, camera.target, {}},
+                      {move->end, place.eye, place.target, {}}};
+}
+
 }  // namespace
 
 scene::CameraSettings automatic_camera(const scene::Scene& scene,
@@ -378,7 +293,7 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
 
   const double preferred = normal ? azimuth_of(*normal) + askew : best_azimuth(points);
   const Vec3d middle = box_of(points).center();
-  if (lens.is_turning()) points = turned_backwards(points, lens);
+  if (lens.is_turning()) points = turned_backwards(points, middle, lens);
   // A level plane is looked at from well above it.
   const bool is_level = normal && std::abs(normal->normalized().y()) > 0.7;
   Vec3d towards_eye = direction(preferred, is_level ? 60 : normal ? askew : 14);
@@ -394,14 +309,13 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
     }
 
   scene::CameraSettings camera = settings;
-  Vec3d target = framing.target, eye = framing.target + framing.distance * towards_eye;
-  if (is_following) target -= middle, eye -= middle;
-  for (int axis = 0; axis < 3; ++axis) {
-    target[axis] = round_to(target[axis], framing.distance, 3);
-    eye[axis] = round_to(eye[axis], framing.distance, 3);
-  }
-  camera.eye = eye;
-  camera.target = target;
+  const Vec3d origin = is_following ? middle : Vec3d::Zero();
+  const Place place = rounded_place(framing, towards_eye, origin);
+  camera.eye = place.eye;
+  camera.target = place.target;
+  if (settings.push_in && !normal)
+    add_push_in(scene, moments, {framing, towards_eye}, lens, camera);
+  camera.push_in = false;
   return camera;
 }
 

@@ -1,0 +1,71 @@
+#pragma once
+/// Where a camera has to be for points to fill its picture.
+
+#include <vector>
+
+#include "sim/types/math.h"
+
+namespace neve::app::setup {
+
+struct Box {
+  sim::Vec3d min = sim::Vec3d::Constant(1e300), max = sim::Vec3d::Constant(-1e300);
+  void add(const sim::Vec3d& x) {
+    min = min.cwiseMin(x);
+    max = max.cwiseMax(x);
+  }
+  sim::Vec3d center() const { return 0.5 * (min + max); }
+  double diagonal() const { return (max - min).norm(); }
+};
+
+Box box_of(const std::vector<sim::Vec3d>& points);
+
+sim::Vec3d median(const std::vector<sim::Vec3d>& points);
+
+/// The points without the share that is farthest from the median: splinters do not set the frame.
+std::vector<sim::Vec3d> without_outliers(std::vector<sim::Vec3d> points, double share);
+
+/// The points farther from their middle, sideways.
+std::vector<sim::Vec3d> scattered(std::vector<sim::Vec3d> points, double factor);
+
+double radians(double degrees);
+
+struct Framing {
+  sim::Vec3d target;
+  double distance;
+};
+
+/// Projection of directions by the angle of view and the shape of the picture.
+struct Lens {
+  sim::Vec3d up;
+  double slope;               ///< tan(fov / 2)
+  double aspect;              ///< width / height
+  double filled;              ///< share of the picture that the subject takes
+  std::vector<double> turns;  ///< degrees about up that the camera passes; only 0 when it is still
+  bool is_turning() const { return turns.size() > 1; }
+};
+
+/// A framing and the unit vector from its target to the eye.
+struct Shot {
+  Framing framing;
+  sim::Vec3d towards_eye;
+};
+
+/// What is seen of points during the turns of the camera, turned backwards about a middle instead.
+std::vector<sim::Vec3d> turned_backwards(const std::vector<sim::Vec3d>& points,
+                                         const sim::Vec3d& middle, const Lens& lens);
+
+/// Borders of points in the picture, 1 at its own.
+struct Extent {
+  double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
+};
+Extent extent_of(const std::vector<sim::Vec3d>& points, const Shot& shot, const Lens& lens);
+
+/// Moves the target to the middle of the visible subject and the eye back until it fits. While the
+/// camera turns, the target stays above or below the middle of the points.
+Framing fit(const std::vector<sim::Vec3d>& points, const sim::Vec3d& middle,
+            const sim::Vec3d& towards_eye, const Lens& lens);
+
+/// A share of the way from one framing to another.
+Framing between(const Framing& from, const Framing& to, double part);
+
+}  // namespace neve::app::setup
