@@ -1,6 +1,7 @@
 #include "app/cli/usage_hints.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "app/advice/suggest.h"
 #include "app/scene/search.h"
@@ -85,6 +86,18 @@ void refuse_known_word(const std::string& word) {
     throw UsageError("", unknown, advice::did_you_mean("neve render " + word));
 }
 
+/// A scene has another name, or is there.
+void refuse_near_part(const Entry& entry, const std::string& word) {
+  std::error_code error;
+  if (word.empty() || word.find_first_of("-./=") != std::string::npos ||
+      std::filesystem::exists(word, error))
+    return;
+  const std::string nearest = advice::nearest_name(word, entry.part_names());
+  if (!nearest.empty())
+    throw UsageError(entry.name() + " " + word, "unknown subcommand, and no file",
+                     advice::did_you_mean("neve " + entry.name() + " " + nearest));
+}
+
 }  // namespace
 
 void check_command(Entry& program, const std::vector<std::string>& words) {
@@ -100,7 +113,8 @@ void check_command(Entry& program, const std::vector<std::string>& words) {
         advice::suggest(word, {"command", program.part_names()}, "neve --help lists them"));
   }
   const std::string part = words.size() > 1 ? words[1] : "";
-  if (entry->run || part == "-h" || part == "--help" || entry->part(part)) return;
+  if (part == "-h" || part == "--help" || entry->part(part)) return;
+  if (entry->run) return refuse_near_part(*entry, part);
   const std::string known = "expected one of " + joined(entry->part_names(), ", ");
   if (part.empty() || part.starts_with("-"))
     throw UsageError(word, "a subcommand is missing", known);

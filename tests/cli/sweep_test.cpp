@@ -393,6 +393,15 @@ TEST_F(SweepCli, StarsAndNotesStayWithTheSweep) {
   EXPECT_EQ(neve({"sweep", "star", "s.cdb", "--note", "x"}).exit_code, 2);
   folder.write("stars.json", R"({"format": "neve stars 1", "runs": [{"run": 7, "star": true}]})");
   const auto beyond = neve({"sweep", "star", "s.cdb", "--read", "stars.json"});
+  for (const auto& [text, said] :
+       {std::pair{"{\"format\": \"neve stars 1\", \"runs\": [", "byte 37 is no JSON"},
+        {"{\"format\": \"neve stars 1\", \"runs\": [7]}", "expected a \"run\", a \"star\""}}) {
+    folder.write("broken.json", text);
+    const auto broken = neve({"sweep", "star", "s.cdb", "--read", "broken.json"});
+    EXPECT_EQ(broken.exit_code, 3);
+    EXPECT_TRUE(contains(broken.errors, said)) << broken.errors;
+    EXPECT_FALSE(contains(broken.errors, "json.exception")) << broken.errors;
+  }
   EXPECT_EQ(beyond.exit_code, 3) << beyond.errors;
   EXPECT_TRUE(contains(beyond.errors, "the runs of this sweep are 0 to 2")) << beyond.errors;
   folder.write("s.cdb/stars.json", "{");

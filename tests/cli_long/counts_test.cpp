@@ -248,7 +248,8 @@ TEST_F(CostlyCli, EstimatesAreTheMemoryThatIsTaken) {
     return json_of("told")["memory_bytes"].get<double>();
   };
   const auto peak_of = [&](const std::string& arguments) {
-    const Cost cost = cost_of("render " + arguments + " --out out --no-movie --frames 0-2");
+    const Cost cost =
+        cost_of("render " + arguments + " --out out --replace --no-movie --frames 0-2");
     EXPECT_EQ(cost.exit_code, 0) << read_text(folder / "said");
     return cost.memory;
   };

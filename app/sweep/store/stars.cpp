@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/output/atomic_file.h"
+#include "app/output/json_file.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
 #include "app/support/text.h"
@@ -28,7 +29,7 @@ fs::path marks_path(const fs::path& folder) {
 Marks parse_marks(const fs::path& file) {
   Marks marks;
   try {
-    const Json json = parse_json(output::read_file(file));
+    const Json json = output::read_json(file);
     if (!json.is_object() || json.value("format", "") != format || !json.contains("runs"))
       refuse(file, fmt::format("expected \"format\": \"{}\" and \"runs\"", format));
     for (const Json& item : json["runs"]) {
@@ -44,7 +45,10 @@ Marks parse_marks(const fs::path& file) {
     throw;
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
-    refuse(file, error.what());
+    const auto* broken = dynamic_cast<const Json::parse_error*>(&error);
+    refuse(file, broken ? fmt::format("byte {} is no JSON", broken->byte)
+                        : std::string("expected a \"run\", a \"star\" and a \"note\" in each of "
+                                      "its \"runs\""));
   }
   return marks;
 }
