@@ -2,6 +2,7 @@
 /// JSON from files that may come from strangers.
 
 #include <filesystem>
+#include <vector>
 
 #include "app/support/json.h"
 

@@ -394,7 +394,7 @@ TEST_F(SweepCli, StarsAndNotesStayWithTheSweep) {
   folder.write("stars.json", R"({"format": "neve stars 1", "runs": [{"run": 7, "star": true}]})");
   const auto beyond = neve({"sweep", "star", "s.cdb", "--read", "stars.json"});
   for (const auto& [text, said] :
-       {std::pair{"{\"format\": \"neve stars 1\", \"runs\": [", "byte 37 is no JSON"},
+       {std::pair{"{\"format\": \"neve stars 1\", \"runs\": [", "byte 37 is not JSON"},
         {"{\"format\": \"neve stars 1\", \"runs\": [7]}", "expected a \"run\", a \"star\""}}) {
     folder.write("broken.json", text);
     const auto broken = neve({"sweep", "star", "s.cdb", "--read", "broken.json"});

@@ -46,7 +46,7 @@ Marks parse_marks(const fs::path& file) {
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
     const auto* broken = dynamic_cast<const Json::parse_error*>(&error);
-    refuse(file, broken ? fmt::format("byte {} is no JSON", broken->byte)
+    refuse(file, broken ? fmt::format("byte {} is not JSON", broken->byte)
                         : std::string("expected a \"run\", a \"star\" and a \"note\" in each of "
                                       "its \"runs\""));
   }
