@@ -9,7 +9,6 @@
 #include "app/card/card_picture.h"
 #include "app/card/subjects.h"
 #include "app/output/atomic_file.h"
-#include "app/output/temporary.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/out_folder.h"
@@ -78,8 +77,7 @@ int run(const CardOptions& options) {
   const std::vector<std::uint8_t> png =
       render::encode_png(draw_cards(cards, renderer), texts_of(sources));
   if (picture.has_parent_path()) output::make_folder(picture.parent_path());
-  output::remove_abandoned(std::filesystem::path(picture).parent_path());
-  output::write_file(picture, png);
+  output::write_among_others(picture, png);
   output::write_file(numbers, to_text(json) + "\n");
   if (options.is_json) {
     std::cout << to_text(json) << "\n";

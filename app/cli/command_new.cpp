@@ -23,10 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* schema_name = "scene.schema.json";
 
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : ".";
-}
-
 /// "FOLDER/NAME.toml" for "FOLDER/NAME". @throws UsageError, IoError
 fs::path new_scene_path(const std::string& name) {
   fs::path path = name;
@@ -40,7 +36,7 @@ fs::path new_scene_path(const std::string& name) {
   if (fs::symlink_status(path, error).type() != fs::file_type::not_found)
     throw UsageError("new", path.string() + " already exists",
                      "choose another name, or move that file away");
-  const fs::path folder = folder_of(path);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!fs::is_directory(folder, error))
     throw IoError(folder.string() + ": no such folder; make it first: mkdir -p " + folder.string(),
                   folder.string());
@@ -58,7 +54,7 @@ void write_schema_once(const fs::path& path) {
 int run_new(const PlainOptions& options) {
   const fs::path path = new_scene_path(options.name), schema = path.parent_path() / schema_name;
   try {
-    output::remove_abandoned(folder_of(path));
+    output::remove_abandoned(path.parent_path());
     // The scene last: where it exists, the same command refuses to write it again.
     write_schema_once(schema);
     output::write_file(

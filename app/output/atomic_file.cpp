@@ -107,6 +107,16 @@ void write_file(const std::filesystem::path& path, std::string_view text, Durabi
   write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, durability);
 }
 
+void write_among_others(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  remove_abandoned(path.parent_path());
+  write_file(path, bytes);
+}
+
+void write_among_others(const std::filesystem::path& path, std::string_view text) {
+  remove_abandoned(path.parent_path());
+  write_file(path, text);
+}
+
 void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path) {
   try {
     refuse_special(path);

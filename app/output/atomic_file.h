@@ -23,6 +23,11 @@ void write_file(const std::filesystem::path& path, std::span<const std::uint8_t>
 void write_file(const std::filesystem::path& path, std::string_view text,
                 Durability durability = Durability::cached);
 
+/// The same, into a folder where a person has other files: temporary ones that killed programs left
+/// there go first. @throws IoError
+void write_among_others(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+void write_among_others(const std::filesystem::path& path, std::string_view text);
+
 /// Sets up a temporary file before it replaces another one. @return 0 or errno
 using Prepare = std::function<int(int fd)>;
 

@@ -99,9 +99,8 @@ class Ends {
 };
 
 /// Pixels that anything moves by in the picture while the shutter is open.
-float largest_motion(const MotionSource& source, const render::Frame& frame,
+float largest_motion(const MotionSource& source, const Ends& ends, const render::Frame& frame,
                      const std::vector<Vec3f>& velocity, double open) {
-  const Ends ends(source, frame, open);
   float largest = 0;
   for (std::size_t p = 0; p < frame.points.position.size(); ++p)
     largest = std::max(largest, ends.way_of(frame.points.position[p], velocity[p]).pixels);
@@ -129,11 +128,11 @@ std::vector<render::Frame> shutter_moments(const MotionSource& source, const ren
   const std::vector<Vec3f> velocity = velocities(source, frame.points.id);
   const std::vector<Vec3f> cut_velocity =
       frame.points.cut ? velocities(source, frame.points.cut->id) : std::vector<Vec3f>{};
-  const float pixels = largest_motion(source, frame, velocity, open);
+  const Ends ends(source, frame, open);
+  const float pixels = largest_motion(source, ends, frame, velocity, open);
   std::vector<render::Frame> moments;
   if (!(pixels >= 0.5f)) return moments;
   render::Frame blurred = frame;
-  const Ends ends(source, frame, open);
   add_blur(ends, velocity, blurred.points);
   if (blurred.points.cut) add_blur(ends, cut_velocity, *blurred.points.cut);
   const int count = std::clamp(static_cast<int>(std::ceil(pixels)), 2, max_moments);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "app/output/atomic_file.h"
-#include "app/output/temporary.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/legends.h"
 #include "app/record/picture_record.h"
@@ -248,8 +247,8 @@ StripResult run_strip(const StripJob& job, const RenderOptions& options, Progres
     if (job.file.has_parent_path()) output::make_folder(job.file.parent_path());
     const record::PictureRecord record =
         strip.record(scene::write_scene(resolved), timeline.simulation().simd());
-    output::remove_abandoned(job.file.parent_path());
-    output::write_file(job.file, render::encode_png(strip.finish(), record::to_png_text(record)));
+    output::write_among_others(job.file,
+                               render::encode_png(strip.finish(), record::to_png_text(record)));
   }
   return result;
 }

@@ -293,7 +293,7 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
 
   const double preferred = normal ? azimuth_of(*normal) + askew : best_azimuth(points);
   const Vec3d middle = box_of(points).center();
-  if (lens.is_turning()) points = turned_backwards(points, middle, lens);
+  points = turned_backwards(points, middle, lens);
   // A level plane is looked at from well above it.
   const bool is_level = normal && std::abs(normal->normalized().y()) > 0.7;
   Vec3d towards_eye = direction(preferred, is_level ? 60 : normal ? askew : 14);

@@ -45,6 +45,10 @@ constexpr double program_bytes = 8e7;
 /// Of a frame; the texts of so many are small beside their pixels.
 constexpr std::size_t few_pictures = 20;
 
+std::size_t picture_count(const scene::Scene& scene) {
+  return scene.views.size() + scene.mosaics.size();
+}
+
 std::vector<scene::PictureSize> picture_sizes(const scene::Scene& scene) {
   std::vector<scene::PictureSize> sizes;
   for (const scene::View& view : scene.views) sizes.push_back(size_of(scene, view));
@@ -63,7 +67,7 @@ double picture_memory(const scene::Scene& scene, Quality quality) {
     waiting = std::max(waiting, pixels * bytes_per_pixel * (output::picture_queue_capacity + 1));
   }
   // Each picture has the whole scene in it.
-  const std::size_t pictures = scene.views.size() + scene.mosaics.size();
+  const std::size_t pictures = picture_count(scene);
   if (pictures > few_pictures)
     together +=
         1.2 * static_cast<double>(pictures) * static_cast<double>(scene::write_scene(scene).size());
@@ -155,11 +159,11 @@ void check_particles(const scene::Scene& scene, const Plan& plan, double coarsen
 
 /// Where snow in larger cells would change nothing.
 std::string picture_advice(const scene::Scene& scene) {
-  const std::size_t views = scene.views.size() + scene.mosaics.size();
-  return (views > few_pictures ? "the scene's " + std::to_string(views) +
-                                     " pictures a frame take most of it: draw some of them with "
-                                     "--view, or smaller ones"
-                               : "its pictures take most of it: draw smaller ones") +
+  const std::size_t pictures = picture_count(scene);
+  return (pictures > few_pictures ? "the scene's " + std::to_string(pictures) +
+                                        " pictures a frame take most of it: draw some of them with "
+                                        "--view, or smaller ones"
+                                  : "its pictures take most of it: draw smaller ones") +
          std::string(" with --size");
 }
 

@@ -164,7 +164,7 @@ class RigidBodies::World {
     out.moves = true;
     out.axes = body.axes;
     out.principal = principal_axes(body.mass.inertia);
-    out.shape = body_shape(collider.shape, body.mass, out.principal);
+    out.shape = body_shape(collider.shape, body.mass, out.principal, body.is_convex);
     const Vec3d inertia =
         (out.principal.transpose() * body.mass.inertia * out.principal).diagonal() / heaviest_;
     out.body = std::make_unique<btRigidBody>(
@@ -190,6 +190,7 @@ class RigidBodies::World {
   /// As the surface moves where the body that it meets touches it.
   void follow_surface(Thing& thing, const shapes::Collider& collider, double time) {
     const shapes::Pose pose = shapes::pose_at(collider, time);
+    const Mat3d axes = pose.rotation * thing.axes;
     std::vector<Vec3d> places, velocities;
     each_point([&](const btPersistentManifold& manifold, const btManifoldPoint& point) {
       const bool is_first = manifold.getBody0() == thing.body.get();
@@ -197,7 +198,6 @@ class RigidBodies::World {
       const Vec3d place =
           from_bullet(is_first ? point.getPositionWorldOnA() : point.getPositionWorldOnB());
       const Vec3d arm = place - pose.point;
-      const Mat3d axes = pose.rotation * thing.axes;
       const int triangle = is_first ? point.m_index0 : point.m_index1;
       places.push_back(place);
       velocities.push_back(pose.velocity + pose.angular_velocity.cross(arm) +
@@ -411,7 +411,6 @@ RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
     if (!c.body.moves()) continue;
     try {
       const MassProperties mass = mass_properties(c);
-      check_faces(c.shape);
       const shapes::Bounds box = shapes::Solid(c.shape).local_bounds();
       const Vec3d far = (box.max - mass.centre).cwiseMax(mass.centre - box.min);
       bodies_.push_back({k,
@@ -419,6 +418,7 @@ RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
                          shapes::form_axes(c.shape),
                          (box.max - box.min).minCoeff(),
                          far.norm(),
+                         is_convex(c.shape),
                          {},
                          {}});
     } catch (const ShapeError& error) {

@@ -76,6 +76,7 @@ class RigidBodies {
     Mat3d axes;        ///< of its form
     double thickness;  ///< m, the least, of its bounds
     double furthest;   ///< m, of its places from the centre of mass
+    bool is_convex;
     Motion before, after;
     Vec3d point{0, 0, 0};  ///< see point()
   };

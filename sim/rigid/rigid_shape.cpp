@@ -117,7 +117,7 @@ struct BeyondPlane {
   }
 };
 
-bool is_convex(const shapes::MeshSurface& surface) {
+bool is_convex_surface(const shapes::MeshSurface& surface) {
   const std::vector<Vec3d>& vertices = surface.mesh().vertices;
   std::vector<Eigen::AlignedBox3d> boxes(vertices.begin(), vertices.end());
   // Each face asks for all vertices; of those on its own side of it a tree knows at once.
@@ -238,10 +238,12 @@ struct MakeFixed : MakeForm {
 };
 
 struct MakeBody : MakeForm {
+  bool is_convex;
+
   using MakeForm::operator();
   std::unique_ptr<RigidShape> operator()(const shapes::Mesh& s) const {
     const std::shared_ptr<const shapes::MeshSurface> surface = shapes::mesh_surface(s);
-    if (!is_convex(*surface)) return plates(*surface);
+    if (!is_convex) return plates(*surface);
     const std::vector<Vec3d>& vertices = surface->mesh().vertices;
     std::vector<double> numbers;
     for (const Vec3d& x : vertices) numbers.insert(numbers.end(), {x[0], x[1], x[2]});
@@ -265,25 +267,27 @@ std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape) {
   return std::visit(MakeFixed{}, shape.form);
 }
 
+bool is_convex(const shapes::Shape& shape) {
+  const auto* mesh = std::get_if<shapes::Mesh>(&shape.form);
+  if (!mesh) return true;
+  const std::shared_ptr<const shapes::MeshSurface> surface = shapes::mesh_surface(*mesh);
+  if (is_convex_surface(*surface)) return true;
+  const std::size_t faces = surface->mesh().triangles.size();
+  if (faces > max_plates)
+    throw ShapeError(mesh->file + ": has hollows and " + std::to_string(faces) +
+                     " faces, and a body that moves by itself can have " +
+                     std::to_string(max_plates) + "; simplify the mesh, or take its convex hull");
+  return false;
+}
+
 std::unique_ptr<RigidShape> body_shape(const shapes::Shape& shape, const MassProperties& mass,
-                                       const Mat3d& principal) {
-  std::unique_ptr<RigidShape> form = std::visit(MakeBody{}, shape.form);
+                                       const Mat3d& principal, bool is_convex) {
+  std::unique_ptr<RigidShape> form = std::visit(MakeBody{{}, is_convex}, shape.form);
   if (principal.isIdentity(0) && mass.centre.isZero(0)) return form;
   auto out = std::make_unique<Compound>();
   const Mat3d axes = principal.transpose();
   out->add(std::move(form), btTransform(to_bullet(axes), to_bullet(Vec3d(-axes * mass.centre))));
   return out;
-}
-
-void check_faces(const shapes::Shape& shape) {
-  const auto* mesh = std::get_if<shapes::Mesh>(&shape.form);
-  if (!mesh) return;
-  const std::shared_ptr<const shapes::MeshSurface> surface = shapes::mesh_surface(*mesh);
-  const std::size_t faces = surface->mesh().triangles.size();
-  if (faces > max_plates && !is_convex(*surface))
-    throw ShapeError(mesh->file + ": has hollows and " + std::to_string(faces) +
-                     " faces, and a body that moves by itself can have " +
-                     std::to_string(max_plates) + "; simplify the mesh, or take its convex hull");
 }
 
 btVector3 to_bullet(const Vec3d& v) {

@@ -21,15 +21,16 @@ class RigidShape {
 /// @throws ShapeError, std::invalid_argument for points and for what deforms (triangles.h)
 std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape);
 
+/// True unless a body of it has hollows: a mesh that is not convex.
+/// @throws ShapeError for one with hollows and more faces than a step has time for: each is a shape
+bool is_convex(const shapes::Shape& shape);
+
 /// A body, in principal axes about its centre of mass. A convex mesh is its hull, any other one its
 /// faces.
 /// @param principal  columns are those axes in the axes of the form
+/// @param is_convex  as is_convex() says, which looks at all faces of a mesh
 std::unique_ptr<RigidShape> body_shape(const shapes::Shape& shape, const MassProperties& mass,
-                                       const Mat3d& principal);
-
-/// Each face of a mesh with hollows is a shape of its own, and 10 000 of them take a tenth of a
-/// second in every step. @throws ShapeError for a body of more
-void check_faces(const shapes::Shape& shape);
+                                       const Mat3d& principal, bool is_convex);
 
 btVector3 to_bullet(const Vec3d& v);
 btMatrix3x3 to_bullet(const Mat3d& m);

@@ -303,14 +303,12 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   for (app::scene::View& view : scene.views) {
     view.slice.follow = "mesh";
     view.slice.isolines = 7;
-    if (view.camera) view.camera->follow = "mesh";
+    if (view.camera) view.camera->follow = "mesh", view.camera->push_in = false;
   }
   scene.camera->follow = "mesh";
   for (app::scene::Export& e : scene.exports) e.dust = false;  // it has a surface
   scene.camera->turntable.reset();                             // there is an orbit
   scene.camera->push_in = false;                               // there is an eye
-  for (auto& view : scene.views)
-    if (view.camera) view.camera->push_in = false;
   scene.views[1].camera->orbit.reset();
   scene.camera->keyframes[1].time = scene.camera->keyframes[0].time + 1.0 / 3;
 

@@ -10,7 +10,6 @@
 #include "app/options/common.h"
 #include "app/options/languages.h"
 #include "app/output/atomic_file.h"
-#include "app/output/temporary.h"
 #include "app/record/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/read.h"
@@ -112,8 +111,7 @@ int run_promote(const PromoteOptions& options) {
   if (fs::exists(out, error) && scene::read_toml_file(out.string()) != made)
     throw UsageError("sweep promote", out.string() + " exists, and is another scene",
                      "name another file with --out, or move that one away");
-  output::remove_abandoned(out.parent_path());
-  output::write_file(out, made);
+  output::write_among_others(out, made);
   const bool has_changed =
       !manifest.scene_hash.empty() && manifest.scene_hash != record::hash_of(text);
   if (has_changed)

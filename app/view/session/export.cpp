@@ -8,7 +8,6 @@
 
 #include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
-#include "app/output/temporary.h"
 #include "app/run/render_options.h"
 #include "app/scene/flat.h"
 #include "app/scene/leaf.h"
@@ -80,10 +79,9 @@ void write_sweep_around(const std::filesystem::path& file, const Document& docum
     if (param.address != address) continue;
     take_finer_value(param, document);
     output::make_folder(file.parent_path());
-    output::remove_abandoned(file.parent_path());
-    output::write_file(file, sweep::plan::sweep_around(document.file(), file.string(), param,
-                                                       set_in_all(document, address),
-                                                       document.coarsening(), set_later));
+    output::write_among_others(file, sweep::plan::sweep_around(document.file(), file.string(),
+                                                               param, set_in_all(document, address),
+                                                               document.coarsening(), set_later));
     return;
   }
   throw UsageError("", "nothing has the address " + address);
