@@ -272,7 +272,13 @@ void RenderRun::begin_next(int frame) {
       is_mending_ || checkpoint_is_due(frame) || timeline_.moments().has(frame + 1) ||
       is_done(frame + 1) || is_interrupted())
     return;
-  next_ = std::async(std::launch::async, [this, frame] { return simulate_to(frame + 1); });
+  // Moments stay with this thread, which keeps one while the other simulates: looking for one there
+  // too would wait for the same file twice.
+  next_ = std::async(std::launch::async, [this] {
+    const auto start = Clock::now();
+    const bool is_reached = timeline_.advance_frame();
+    return Advanced{is_reached, seconds_since(start)};
+  });
 }
 
 bool RenderRun::take_kept(int frame) {

@@ -36,6 +36,20 @@ TEST_F(Faults, PicturesAndRunJsonReachTheDiskBeforeTheCheckpoint) {
       << calls;
 }
 
+/// The next frame is simulated while the state of the last one is still being written.
+TEST_F(Faults, ASlowDiskHurtsNoFrameThatIsSimulatedBeside) {
+  const auto quick =
+      neve({"render", "scene.toml", "--threads", "4", "--no-movie", "--out", "quick"});
+  ASSERT_EQ(quick.exit_code, 0) << quick.errors;
+  const auto slow =
+      failing("rename:0:slow/states/", "render scene.toml --threads 4 --no-movie --out slow");
+  ASSERT_EQ(slow.exit_code, 0) << slow.errors;
+  const RunFiles expected = files_of(folder / "quick"), found = files_of(folder / "slow");
+  EXPECT_TRUE(found.hashes == expected.hashes && found.pictures == expected.pictures);
+  EXPECT_EQ(json_of("slow/run.json")["states"]["frames"],
+            json_of("quick/run.json")["states"]["frames"]);
+}
+
 TEST_F(Faults, AFullDiskStopsASweepAndTheSameCommandContinues) {
   for (const int error : {ENOSPC, EIO, EDQUOT}) {
     const auto stopped = failing(fault("write", error, "runs/0001/particles", 1), sweep);
