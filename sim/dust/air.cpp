@@ -118,9 +118,8 @@ void Air::restore(const AirBox& box, FaceVelocities faces) {
   box_ = box;
   u_ = std::move(faces);
   solids_key_ = 0;
-  pressure_.assign(box.count() + (box.is_empty() ? 0 : 2 * box.step(2)), 0);
-  for (std::vector<float>* field :
-       {&divergence_, &per_open_, &fill_, &strain_, &snow_v_[0], &snow_v_[1], &snow_v_[2]})
+  for (ChessField* field : {&pressure_, &divergence_, &per_open_}) field->assign(box);
+  for (std::vector<float>* field : {&fill_, &strain_, &snow_v_[0], &snow_v_[1], &snow_v_[2]})
     field->assign(box.count(), 0);
   distance_.clear();
 }
@@ -363,69 +362,69 @@ void Air::hold_at_solids(ThreadPool& pool) {
   });
 }
 
-/// Makes the flow free of divergence. The pressure is 0 outside the box, where places of the field
-/// that are no cells, and the pad around it, stay 0; and in solids, which count as no neighbours.
+/// Makes the flow free of divergence. The pressure is 0 outside the box and in solids, which count
+/// as no neighbours.
 void Air::project(ThreadPool& pool) {
-  std::fill(pressure_.begin(), pressure_.end(), 0.0f);
+  pressure_.clear();
   each_cell(pool, [&](int i, int j, int k) {
     const int at[3] = {i, j, k};
     const std::size_t n = box_.index(i, j, k);
-    divergence_[n] = per_open_[n] = 0;
-    if (is_solid(n)) return;
-    float open = 0;
-    for (int a = 0; a < 3; ++a) {
+    float flow = 0, open = 0;
+    for (int a = 0; !is_solid(n) && a < 3; ++a) {
       const std::size_t step = box_.step(a);
       const std::vector<float>& u = u_[static_cast<std::size_t>(a)];
-      divergence_[n] += u[n + step] - u[n];
+      flow += u[n + step] - u[n];
       open += at[a] == 0 || !is_solid(n - step) ? 1.0f : 0.0f;
       open += at[a] + 1 == box_.size[a] || !is_solid(n + step) ? 1.0f : 0.0f;
     }
-    if (open > 0) per_open_[n] = 1 / open;
+    divergence_.at(i, j, k) = flow;
+    per_open_.at(i, j, k) = open > 0 ? 1 / open : 0;
   });
   for (int sweep = 0; sweep < pressure_sweeps; ++sweep)
     for (int color = 0; color < 2; ++color) relax(color, pool);
-  const float* p = pressure_.data() + box_.step(2);
   pool.ranges(static_cast<std::size_t>(box_.size.z() + 1), pool.thread_count(),
               [&](std::size_t begin, std::size_t end) {
                 for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
                   for (int j = 0; j <= box_.size.y(); ++j)
-                    for (int i = 0; i <= box_.size.x(); ++i) {
-                      const int at[3] = {i, j, k};
-                      const std::size_t n = box_.index(i, j, k);
-                      for (int a = 0; a < 3; ++a) {
-                        if (!is_face(a, i, j, k)) continue;
-                        const bool has_low = at[a] > 0, has_high = at[a] < box_.size[a];
-                        if ((has_low && is_solid(n - box_.step(a))) || (has_high && is_solid(n)))
-                          continue;
-                        u_[static_cast<std::size_t>(a)][n] -=
-                            p[n] - *(p + n - static_cast<std::ptrdiff_t>(box_.step(a)));
-                      }
-                    }
+                    for (int i = 0; i <= box_.size.x(); ++i) push_by_pressure(i, j, k);
               });
 }
 
-/// One colour of a chess board reads the other alone: the same bits on any number of threads. Rows
-/// are worked out whole, in lanes.
+/// The lower faces of a cell.
+void Air::push_by_pressure(int i, int j, int k) {
+  const int at[3] = {i, j, k};
+  const std::size_t n = box_.index(i, j, k);
+  for (int a = 0; a < 3; ++a) {
+    if (!is_face(a, i, j, k)) continue;
+    const bool has_low = at[a] > 0, has_high = at[a] < box_.size[a];
+    if ((has_low && is_solid(n - box_.step(a))) || (has_high && is_solid(n))) continue;
+    u_[static_cast<std::size_t>(a)][n] -=
+        pressure_.at(i, j, k) - pressure_.at(i - (a == 0), j - (a == 1), k - (a == 2));
+  }
+}
+
+/// One colour of a chess board reads the other alone: the same bits on any number of threads.
 void Air::relax(int color, ThreadPool& pool) {
-  const auto row = static_cast<std::ptrdiff_t>(box_.step(1)),
-             slab = static_cast<std::ptrdiff_t>(box_.step(2));
+  const ChessField& field = pressure_;
   pool.ranges(static_cast<std::size_t>(box_.size.z()), pool.thread_count(),
               [&](std::size_t begin, std::size_t end) {
-                const int count = box_.size.x();
-                std::vector<float> change(static_cast<std::size_t>(count));
                 for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
                   for (int j = 0; j < box_.size.y(); ++j) {
-                    const std::size_t first = box_.index(0, j, k);
-                    float* p = pressure_.data() + slab + first;
-                    const float *divergence = divergence_.data() + first,
-                                *per_open = per_open_.data() + first;
-                    float* to = change.data();
-                    for (int i = 0; i < count; ++i) {
+                    const int first = (j + k + color) & 1, other = 1 - color;
+                    const int count = (box_.size.x() - first + 1) / 2;
+                    float* __restrict p = pressure_.row(color, j, k);
+                    const float *along = field.row(other, j, k) + first - 1,
+                                *below = field.row(other, j - 1, k),
+                                *above = field.row(other, j + 1, k),
+                                *behind = field.row(other, j, k - 1),
+                                *before = field.row(other, j, k + 1),
+                                *divergence = divergence_.row(color, j, k),
+                                *per_open = per_open_.row(color, j, k);
+                    for (int m = 0; m < count; ++m) {
                       const float around =
-                          p[i - 1] + p[i + 1] + p[i - row] + p[i + row] + p[i - slab] + p[i + slab];
-                      to[i] = over_relaxation * ((around - divergence[i]) * per_open[i] - p[i]);
+                          along[m] + along[m + 1] + below[m] + above[m] + behind[m] + before[m];
+                      p[m] += over_relaxation * ((around - divergence[m]) * per_open[m] - p[m]);
                     }
-                    for (int i = (j + k + color) & 1; i < count; i += 2) p[i] += to[i];
                   }
               });
 }
@@ -485,8 +484,8 @@ std::size_t Air::memory_bytes() const {
   std::size_t bytes = 0;
   for (const auto* fields : {&u_, &next_, &snow_v_, &solid_v_})
     for (const std::vector<float>& field : *fields) bytes += 4 * field.capacity();
-  for (const auto* field : {&pressure_, &divergence_, &per_open_, &fill_, &strain_, &distance_})
-    bytes += 4 * field->capacity();
+  for (const auto* field : {&fill_, &strain_, &distance_}) bytes += 4 * field->capacity();
+  for (const auto* field : {&pressure_, &divergence_, &per_open_}) bytes += field->memory_bytes();
   bytes += sizeof(SnowSum) * sums_.capacity() + 4 * row_speed_.capacity();
   return bytes;
 }

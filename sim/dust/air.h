@@ -11,6 +11,7 @@
 
 #include "sim/base/thread_pool.h"
 #include "sim/dust/air_box.h"
+#include "sim/dust/chess_field.h"
 #include "sim/dust/snow_grain.h"
 #include "sim/dust/solids.h"
 #include "sim/types/dust.h"
@@ -62,6 +63,7 @@ class Air {
   void hold_at_solids(ThreadPool& pool);
   void project(ThreadPool& pool);
   void relax(int color, ThreadPool& pool);
+  void push_by_pressure(int i, int j, int k);
   /// True if a cell has this place as its lower face along axis a, or would have it beyond the end.
   bool is_face(int a, int i, int j, int k) const {
     const Vec3i at(i, j, k);
@@ -78,10 +80,9 @@ class Air {
 
   AirBox box_;
   FaceVelocities u_, next_;
-  std::vector<float> pressure_;               ///< with a slab of zeros before and after
-  std::vector<float> divergence_, per_open_;  ///< per cell; 1 / its neighbours, 0 in solids
-  std::vector<float> fill_, strain_;          ///< per cell
-  std::array<std::vector<float>, 3> snow_v_;  ///< per cell, m/s
+  ChessField pressure_, divergence_, per_open_;  ///< the last: 1 / its neighbours, 0 in solids
+  std::vector<float> fill_, strain_;             ///< per cell
+  std::array<std::vector<float>, 3> snow_v_;     ///< per cell, m/s
   /// Mass, volume and momentum of the snow of a cell, in whole numbers of units: see see_snow.
   using SnowSum = std::array<std::int64_t, 5>;
   std::vector<SnowSum> sums_;
