@@ -186,6 +186,9 @@ struct Plot {
 struct Patch {
   float x = 0, y = 0, width = 0, height = 0;
   std::array<std::uint8_t, 4> color{8, 10, 16, 150};  ///< sRGB and opacity
+  /// Of text over it: no wider than the longest line and the rims beside it.
+  std::vector<std::string> lines{};
+  float rim = 0;  ///< px
 };
 
 /// A line of text at a place on the finished picture.

@@ -255,10 +255,15 @@ void OverlayPass::draw_labels(const Frame& frame, const View& view) const {
 
 void OverlayPass::draw_notes(const Frame& frame) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (const Patch& patch : frame.patches)
-    list.AddRectFilled(ImVec2(patch.x, patch.y),
-                       ImVec2(patch.x + patch.width, patch.y + patch.height),
+  for (const Patch& patch : frame.patches) {
+    float longest = 0;
+    for (const std::string& line : patch.lines)
+      longest = std::max(longest, text_width(*imgui_.text_font(), line));
+    const float width =
+        patch.lines.empty() ? patch.width : std::min(patch.width, longest + 2 * patch.rim);
+    list.AddRectFilled(ImVec2(patch.x, patch.y), ImVec2(patch.x + width, patch.y + patch.height),
                        IM_COL32(patch.color[0], patch.color[1], patch.color[2], patch.color[3]));
+  }
   for (const Note& note : frame.notes) {
     const ImFont& font = note.is_title ? *imgui_.title_font() : *imgui_.text_font();
     const std::string text = note.room > 0 ? elide(font, note.text, note.room) : note.text;

@@ -177,21 +177,22 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
   const float left = static_cast<float>(tile.x) + 0.6f * size,
               top = static_cast<float>(tile.y) + 0.45f * size;
   const float room = static_cast<float>(layout.tile_width) - 1.2f * size;
-  const std::vector<std::string> lines =
-      tile_words(manifest_, *tile.run, layout.has_edges, layout.words);
+  std::vector<std::string> lines = tile_words(manifest_, *tile.run, layout.has_edges, layout.words);
+  const std::size_t names = lines.size();
+  if (!tile.result->warnings.empty())
+    lines.push_back("! " + store::warning_count_text(tile.result->warnings.size()));
   // Several lines reach into the snow.
   if (lines.size() > 1)
     words.patches.push_back({static_cast<float>(tile.x), static_cast<float>(tile.y),
-                             std::min(room + 1.2f * size, width_of(lines) * size + 1.2f * size),
-                             1.25f * size * static_cast<float>(lines.size()) + 0.7f * size});
+                             static_cast<float>(layout.tile_width),
+                             1.25f * size * static_cast<float>(lines.size()) + 0.7f * size,
+                             render::Patch{}.color, lines, 0.6f * size});
   for (std::size_t k = 0; k < lines.size(); ++k)
     words.notes.push_back({left, top + 1.25f * size * static_cast<float>(k), lines[k],
                            render::Note::Anchor::left, room, false,
-                           k == 0 && !tile.run->label.empty() ? bright : soft});
-  if (!tile.result->warnings.empty())
-    words.notes.push_back({left, top + 1.25f * size * static_cast<float>(lines.size()),
-                           "! " + store::warning_count_text(tile.result->warnings.size()),
-                           render::Note::Anchor::left, room, false, caution});
+                           k >= names                           ? caution
+                           : k == 0 && !tile.run->label.empty() ? bright
+                                                                : soft});
   add_seal(layout, tile, words);
   add_star(layout, tile, words);
   if (!is_dark) return;
