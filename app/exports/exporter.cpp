@@ -43,10 +43,15 @@ Json surface_json(const scene::Scene& scene, const scene::Export& spec) {
           {"smallest_piece", spec.smallest_piece}};
 }
 
-/// Not where the scene alone says that they are.
-bool has_own_ways(const std::vector<scene::Collider>& colliders) {
-  return std::any_of(colliders.begin(), colliders.end(),
-                     [](const scene::Collider& collider) { return collider.body.moves(); });
+/// Whether all are where the scene alone says: not where they move by themselves, came later,
+/// waited in steps that skip colliders, or were changed while they moved.
+bool are_as_in(const scene::Scene& scene, const Sample& sample) {
+  return std::ranges::equal(sample.colliders, placed_at(scene.colliders, sample.time),
+                            [](const PlacedShape& a, const PlacedShape& b) {
+                              return a.collider == b.collider && a.time == b.time &&
+                                     a.pose.point == b.pose.point &&
+                                     a.pose.rotation == b.pose.rotation;
+                            });
 }
 
 /// Exact: a run that is resumed writes the same stage.
@@ -212,11 +217,6 @@ Json Exporter::to_json(const std::string& below) const {
     json["surface"] = spec.surface ? surface_json(scene_, spec) : Json();
     json["series"] = series.empty() ? Json() : Json(below + series);
     json["files"] = Json::array();
-    // The stage tells where colliders are; the scene does not where they move by themselves, or
-    // came later.
-    const bool has_places =
-        spec.format == scene::ExportFormat::usda &&
-        (colliders_.size() > scene_.colliders.size() || has_own_ways(colliders_));
     // Each file has its sample, in the same order.
     for (std::size_t k = 0; k < job.record.files.size(); ++k) {
       const Record::File& file = job.record.files[k];
@@ -224,7 +224,9 @@ Json Exporter::to_json(const std::string& below) const {
                                {"number", file.number},
                                {"time", number_or_null(file.time)},
                                {"state_hash", hash_digits(file.hash)}});
-      if (has_places) json["files"].back()["colliders"] = places_json(job.samples[k]);
+      // The stage tells where colliders are.
+      if (spec.format == scene::ExportFormat::usda && !are_as_in(scene_, job.samples[k]))
+        json["files"].back()["colliders"] = places_json(job.samples[k]);
     }
     list.push_back(std::move(json));
   }

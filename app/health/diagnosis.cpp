@@ -67,6 +67,12 @@ struct Case {
     for (const sim::StepRecord& step : d.last_steps) longest = std::max(longest, step.dt);
     return longest;
   }
+  /// Of the law of energy, which knows no particle, any material may be the cause.
+  template <class Badness>
+  const sim::Material& worst(const Badness& badness) const {
+    if (d.rule != "energy") return material;
+    return *std::ranges::max_element(scene.materials, {}, badness);
+  }
   std::string at(const char* key) const { return "material." + material.name + "." + key; }
   /// Advice on the fixed step.
   std::string dt_text(double seconds) const {
@@ -313,13 +319,15 @@ Hypothesis hardened_beyond_fixed_step(const Case& c) {
 }
 
 Hypothesis incompressible(const Case& c) {
-  if (c.material.poisson_ratio < cause(Law::poisson_ratio)) return std::nullopt;
-  const double nu = c.material.poisson_ratio;
+  const sim::Material& m =
+      c.worst([](const sim::Material& material) { return material.poisson_ratio; });
+  const double nu = m.poisson_ratio;
+  if (nu < cause(Law::poisson_ratio)) return std::nullopt;
   return Diagnosis{
       Cause::incompressible,
       fmt::format("poisson_ratio is {}: lambda is {} times mu, so the snow cannot be compressed",
                   scene::toml::number_text(nu), rough_text(2 * nu / (1 - 2 * nu))),
-      "use 0.2 for snow, 0.3 to 0.4 for rubber", c.at("poisson_ratio")};
+      "use 0.2 for snow, 0.3 to 0.4 for rubber", "material." + m.name + ".poisson_ratio"};
 }
 
 Hypothesis shock(const Case& c) {
@@ -387,10 +395,8 @@ Hypothesis doubts_of_the_law(const Case& c) {
 Hypothesis rounding(const Case& c) {
   if (c.scene.solver.precision != sim::Precision::single) return std::nullopt;
   constexpr double epsilon = 6e-8, notable = 0.1;
-  const sim::Material& m = *std::max_element(c.scene.materials.begin(), c.scene.materials.end(),
-                                             [](const sim::Material& a, const sim::Material& b) {
-                                               return a.youngs_modulus < b.youngs_modulus;
-                                             });
+  const sim::Material& m = *std::ranges::max_element(
+      c.scene.materials, {}, [](const sim::Material& a) { return a.youngs_modulus; });
   const double sound = sim::sound_speed(m), stress = epsilon * m.density * sound * sound;
   const double speed = c.speed_before_failure();
   if (!(stress > notable * m.density * speed * speed)) return std::nullopt;

@@ -189,7 +189,10 @@ class PlotDrawing {
     for (std::size_t k = 0; k < ticks.size(); ++k) {
       const bool has_unit = k + 1 == ticks.size() && !plot_.x_unit.empty();
       const float number = canvas_.text_width(ticks[k].label);
-      canvas_.text({x(ticks[k].value) - 0.5f * number, y}, Note::Anchor::left, soft_text,
+      float left = x(ticks[k].value) - 0.5f * number;
+      // Given ones may be long, and end where the picture does.
+      if (!plot_.x_ticks.empty()) left = std::min(left, panel_.right + 0.5f * size_ - number);
+      canvas_.text({left, y}, Note::Anchor::left, soft_text,
                    has_unit ? ticks[k].label + " " + plot_.x_unit : ticks[k].label);
     }
     if (!plot_.x_title.empty())

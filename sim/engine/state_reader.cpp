@@ -174,6 +174,7 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
     const Vec3d x = state_.position(p), v = vector(p.v);
     s.mass += m;
     s.kinetic_energy += method.kinetic_energy(p);
+    s.affine_energy += method.affine_energy(p);
     s.momentum += m * v;
     s.centre_of_mass += m * x;
     s.angular_momentum += m * x.cross(v);
@@ -207,6 +208,7 @@ Summary StateReader<Real>::summary() const {
     const Summary& s = parts[c];
     all.mass += s.mass;
     all.kinetic_energy += s.kinetic_energy;
+    all.affine_energy += s.affine_energy;
     all.elastic_energy += s.elastic_energy;
     all.momentum += s.momentum;
     all.centre_of_mass += s.centre_of_mass;

@@ -113,7 +113,10 @@ void StagedDriver<Real>::collide_grid() {
     state_.particles.contacts.keep_none();
   };
   const auto collide = [&] {
-    if (state_.method.settings.is_contact_at_particles())
+    // Nodes without masses take no impulses.
+    if (state_.method.settings.skips(Stage::rasterize))
+      keep_v_free();
+    else if (state_.method.settings.is_contact_at_particles())
       collide_at_particles();
     else
       over_node_blocks(state_.method.sweeps->grid_collisions);
@@ -126,7 +129,8 @@ void StagedDriver<Real>::collide_grid() {
 template <class Real>
 void StagedDriver<Real>::solve_velocities() {
   const SolverSettings& settings = state_.method.settings;
-  const bool skips_contact = settings.skips(Stage::grid_collisions);
+  const bool skips_contact =
+      settings.skips(Stage::grid_collisions) || settings.skips(Stage::rasterize);
   const bool has_channels = settings.is_contact_at_particles() && !skips_contact;
   const auto keep_v_star = [&] {
     if (has_channels)

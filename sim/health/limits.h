@@ -352,6 +352,12 @@ constexpr const char* meaning(Law law) {
 /// the run; the default range of J_P ends here.
 inline constexpr double packed_J_P = limits_of(Law::compaction).stop * (1 + 1e-6);
 
+/// Of the energy of affine velocities, in aflip and asflip: transfers keep the momentum that those
+/// share with particles' own velocities, not its energy. A ball of one cell's radius that spins has
+/// as much energy in each, and gains 0.28 of one, at any dt; a tenth of the whole is allowed
+/// anyway. Check: Divergence.AThinBodyMaySpinInEveryTransfer
+inline constexpr double traded_share = 0.25;
+
 /// False for no_line, which is NaN.
 constexpr bool is_line(double value) {
   return value == value;

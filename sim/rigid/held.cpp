@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace neve::sim::rigid {
 
@@ -30,6 +31,11 @@ std::array<Vec3d, 2> across(const Vec3d& axis) {
   return {first, axis.cross(first)};
 }
 
+/// 1/s. A body is put back by so many times its size, or radians. Contact lets a body out of what
+/// it overlaps without regard to what holds it; put back in a single step, it was thrown along what
+/// is free, by 1e9 m/s.
+constexpr double recovery = 2;
+
 /// Impulse of a spring and a damper along one freedom.
 /// @param beyond  of rest  @param speed  of it  @param inertia  of the freedom
 double spring(double stiffness, double damping, double beyond, double speed, double inertia,
@@ -45,6 +51,7 @@ Held::Held(btRigidBody& body, const shapes::Collider& collider, const MassProper
     : btTypedConstraint(D6_CONSTRAINT_TYPE, body),
       held_(collider.body),
       mass_(mass.mass),
+      size_(std::sqrt(0.5 * mass.inertia.trace() / mass.mass)),
       start_(shapes::center(collider.shape) + rotation * mass.centre),
       rotation_(rotation),
       arm_(rotation.transpose() * (collider.body.joint_point - start_)),
@@ -130,7 +137,8 @@ void Held::getInfo2(btConstraintInfo2* info) {
       info->m_J1linearAxis[at + x] = row.along[x];
       info->m_J1angularAxis[at + x] = row.about[x];
     }
-    info->m_constraintError[at] = info->fps * info->erp * row.error;
+    const double limit = recovery * (row.along.isZero(0) ? 1 : std::max(size_, arm_.norm()));
+    info->m_constraintError[at] = std::clamp(info->fps * info->erp * row.error, -limit, limit);
     at += info->rowskip;
   }
 }

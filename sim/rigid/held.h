@@ -41,11 +41,11 @@ class Held final : public btTypedConstraint {
   void add_joint(std::vector<Row>& rows) const;
 
   const shapes::RigidBody held_;
-  const double mass_;
-  Vec3d start_;     ///< m, of the centre of mass
-  Mat3d rotation_;  ///< in the scene
-  Vec3d arm_;       ///< of the joint's point, in the axes of the form from the centre of mass
-  Vec3d axis_;      ///< of the joint, in the axes of the world
+  const double mass_, size_;  ///< m, the radius of gyration
+  Vec3d start_;               ///< m, of the centre of mass
+  Mat3d rotation_;            ///< in the scene
+  Vec3d arm_;   ///< of the joint's point, in the axes of the form from the centre of mass
+  Vec3d axis_;  ///< of the joint, in the axes of the world
   Vec3d centre_;
   Mat3d now_;
 };

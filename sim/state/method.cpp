@@ -150,9 +150,13 @@ double Method<Real>::affine_inertia() const {
 
 template <class Real>
 double Method<Real>::kinetic_energy(const kernels::Particle<Real>& p) const {
-  const double m = static_cast<double>(p.m), energy = 0.5 * m * vector(p.v).squaredNorm();
-  if (!settings.has_affine_velocity()) return energy;
-  return energy + 0.5 * m * affine_inertia() * matrix(p.C).squaredNorm();
+  return 0.5 * static_cast<double>(p.m) * vector(p.v).squaredNorm() + affine_energy(p);
+}
+
+template <class Real>
+double Method<Real>::affine_energy(const kernels::Particle<Real>& p) const {
+  if (!settings.has_affine_velocity()) return 0;
+  return 0.5 * static_cast<double>(p.m) * affine_inertia() * matrix(p.C).squaredNorm();
 }
 
 template <class Real>

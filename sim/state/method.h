@@ -36,13 +36,13 @@ struct Method {
   kernels::StepConstants<Real> step_constants(double dt) const;
 
   /// True if particles keep velocities of their own and have an affine one: it has to fit them.
-  bool fits_affine_velocity() const {
-    return settings.transfer == Transfer::aflip || settings.transfer == Transfer::asflip;
-  }
+  bool fits_affine_velocity() const { return settings.has_affine_and_own_velocity(); }
 
   /// m2, of the weights around a particle.
   double affine_inertia() const;
   double kinetic_energy(const kernels::Particle<Real>& p) const;
+  /// J, of it: that of the affine velocity.
+  double affine_energy(const kernels::Particle<Real>& p) const;
   double elastic_energy(const kernels::Particle<Real>& p) const;
   /// The same of four particles, at a third of the cost.
   std::array<double, 4> elastic_energies(

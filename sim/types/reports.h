@@ -43,6 +43,7 @@ struct Summary {
   std::size_t grid_blocks = 0;             ///< of 4^3 nodes, in the last step; 0 before the first
   double mass = 0;
   double kinetic_energy = 0, elastic_energy = 0;  ///< J
+  double affine_energy = 0;                       ///< J, of the kinetic energy: in C
   Vec3d momentum{0, 0, 0}, centre_of_mass{0, 0, 0};
   Vec3d angular_momentum{0, 0, 0};  ///< about the lattice origin
   double max_speed = 0, min_J_P = 1, max_J_P = 1;

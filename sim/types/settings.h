@@ -71,6 +71,9 @@ struct SolverSettings {
   Vec3i period{0, 0, 0};
 
   bool has_affine_velocity() const { return transfer != Transfer::flip; }
+  bool has_affine_and_own_velocity() const {
+    return transfer == Transfer::aflip || transfer == Transfer::asflip;
+  }
   bool takes_stages() const { return !bypass.empty() || resting_mass > 0; }
   bool is_contact_at_particles() const { return contact_at == ContactAt::particles; }
   bool is_implicit() const { return beta > 0 && !skips(Stage::implicit_solve); }

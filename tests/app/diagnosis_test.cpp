@@ -247,6 +247,18 @@ TEST(Diagnosis, DiagnosisNamesFaultsBeforeTheFirstStep) {
   EXPECT_NE(nan.evidence.find("particle 9"), std::string::npos) << nan.evidence;
 }
 
+/// The law of energy knows no particle, so no material either.
+TEST(Diagnosis, AnyMaterialMayMakeEnergy) {
+  const app::scene::Scene scene = app::scene::read_scene_text(
+      std::string(base) + "[material.snow]\n[material.gel]\npoisson_ratio = 0.4999995\n",
+      "two.toml");
+  sim::Divergence d;
+  d.rule = "energy";
+  const app::health::Diagnosis diagnosis = app::health::diagnose(scene, d);
+  EXPECT_EQ(diagnosis.cause, app::health::Cause::incompressible) << diagnosis.evidence;
+  EXPECT_EQ(diagnosis.address, "material.gel.poisson_ratio");
+}
+
 /// Adaptive steps shrink with hardening for hours before a rule breaks; the end is made up here.
 TEST(Diagnosis, DiagnosisNamesHardeningOfAdaptiveSteps) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");

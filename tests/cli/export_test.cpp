@@ -345,6 +345,24 @@ TEST_F(Export, ColumnsThatNoFileHasAreRefusedWithTheNearest) {
   EXPECT_TRUE(contains(located("carried = [\"weight\", \"weight\"]"), "named twice"));
 }
 
+/// Where they are follows from no time of the scene.
+TEST_F(Export, TheStageOfCollidersThatWaitIsTheSameAfterAResume) {
+  folder.write("waits.toml",
+               std::string(tiny_scene) +
+                   "[[export]]\nformat = \"usda\"\n[[collider]]\nvelocity = [1, 0, 0]\n"
+                   "shape = { box = { center = [0.5, 0.1, 0], size = [0.1, 0.1, 0.1] } }\n");
+  const auto render = [&](const std::string& out, const std::string& frames, const char* more) {
+    const auto made = neve({"render", "waits.toml", "--set", "solver.bypass=[\"colliders\"]",
+                            "--frames", frames, "--out", out, "--no-movie", "--quiet", more});
+    EXPECT_EQ(made.exit_code, 0) << made.errors;
+  };
+  render("whole", "0-3", "--no-keep-states");
+  render("parts", "0-1", "--no-keep-states");
+  render("parts", "0-3", "--resume");
+  EXPECT_EQ(read_text(folder / "whole/exports/usda.usda"),
+            read_text(folder / "parts/exports/usda.usda"));
+}
+
 TEST_F(Export, TheNextExportReplacesTheOneOfItsNameAndKeepsOthers) {
   json_of_export({"scene.toml", "--format", "vtp,usda", "--out", "x"});
   folder.write("x/vtp/mine.txt", "kept");

@@ -50,6 +50,19 @@ TEST(Bypass, SkippedDeformationTurnsSnowIntoDust) {
   EXPECT_FALSE(simulation.divergence());
 }
 
+/// Nodes that nothing was written to have no velocity to do work with.
+TEST(Bypass, AStateOfStepsWithoutNodesCanBeRestored) {
+  BypassCase c;
+  c.colliders.push_back(plane({0, 0.02, 0}, {0.5, 1, 0.3}, 1.5));
+  c.colliders.back().velocity = {0, 0.5, 0};
+  const SolverSettings s =
+      skipping({Stage::colliders, Stage::rasterize, Stage::grid_velocities, Stage::advection});
+  const Simulation simulation = c.run(s);
+  Simulation again(s, {Material{}}, c.colliders, c.particles, 1);
+  ASSERT_NO_THROW(again.restore_healthy(simulation.save()));
+  EXPECT_EQ(again.state_hash(), simulation.state_hash());
+}
+
 TEST(Bypass, SkippedForcesLetSnowFallAndStrainGrow) {
   BypassCase c;
   c.colliders.clear();

@@ -352,6 +352,18 @@ TEST(RigidBodies, WhatIsHeldStays) {
   EXPECT_LE((slide.pose(0).point - axis * slide.pose(0).point.dot(axis)).norm(), 1e-6);
 }
 
+/// It is let out of the slope along the one way that is free, gently.
+TEST(RigidBodies, WhatIsHeldInsideOfASlopeIsNotThrown) {
+  shapes::Collider box = box_of(300, {0, -0.02, 0}, {0.2, 0.2, 0.2});
+  box.body.hold = {shapes::HeldAxis::y, shapes::HeldAxis::z, shapes::HeldAxis::turn_z};
+  BodiesAlone world({plane({0, 0, 0}, {0.2, 1, 0}, 0.3), box});
+  for (int step = 0; step < 200; ++step) {
+    world.run(0.01, 1e-3);
+    EXPECT_LT(world.pose(1).velocity.norm(), 4) << "twenty times its size in a second";
+  }
+  EXPECT_NEAR(world.pose(1).point.y(), -0.02, 1e-3);
+}
+
 /// A can in a hollow of a mesh, and on a terrain; every form of body falls on a floor and stays.
 TEST(RigidBodies, EveryFormComesToRestOnTheFloor) {
   std::vector<shapes::Shape> all = {{shapes::Sphere{{0, 0.5, 0}, 0.1}, {}},

@@ -156,6 +156,14 @@ TEST(Workbench, ARunContinuedFromAnOlderFrameIsReplayedToTheBit) {
   EXPECT_DOUBLE_EQ(last.solver.gravity.x(), 2);
 }
 
+TEST(Workbench, APictureOfACameraThatPushesInCanBeMadeAgain) {
+  Working work(std::string(tiny_scene) + "\n[camera]\npush_in = true\n");
+  work.session().next_frame();
+  const auto live = rest_at(work.session(), 1);
+  const scene::Scene again = scene::read_scene_text(work.picture(*live).scene, "record");
+  EXPECT_FALSE(again.camera->push_in);
+}
+
 /// A coarsened scene has other values than were typed; pictures keep those that the run had.
 TEST(Workbench, ChangesOfACoarsenedRunAreReplayedToTheBit) {
   Working work(tiny_scene, 1.5);

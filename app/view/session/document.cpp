@@ -31,6 +31,9 @@ void place(const scene::CameraSettings& found, scene::CameraSettings& camera) {
   if (camera.eye && camera.target) return;
   camera.eye = found.eye;
   camera.target = found.target;
+  // Found with the eye: where it moves to.
+  if (camera.push_in) camera.keyframes = found.keyframes;
+  camera.push_in = false;
 }
 
 void put_edit(std::vector<scene::Override>& edits, const std::string& address,
