@@ -294,7 +294,9 @@ SplitDifferences split_live(const Scene& before, const Scene& after) {
 }
 
 bool spans_decades(const Valid& valid, const std::optional<double>& usual) {
+  constexpr double wide_from = 1e3;    // between the bounds
   constexpr double decades_from = 30;  // times the usual value
+  if (valid.min > 0 && valid.max >= wide_from * valid.min) return true;
   return usual && *usual > 0 && valid.min >= 0 && valid.max >= decades_from * *usual &&
          *usual >= decades_from * valid.min;
 }

@@ -71,8 +71,9 @@ SplitDifferences split_live(const Scene& before, const Scene& after);
 /// Same type and content; -0 is not 0.
 bool same_value(const std::optional<toml::Value>& a, const std::optional<toml::Value>& b);
 
-/// Whether ratios of such a parameter matter: it is allowed over many times less and more than it
-/// usually is. Sliders are logarithmic then, and values around one have equal ratios.
+/// Whether ratios of such a parameter matter: its bounds are many times apart, or it is allowed
+/// over many times less and more than it usually is. Sliders are logarithmic then, and values
+/// around one have equal ratios.
 bool spans_decades(const Valid& valid, const std::optional<double>& usual);
 
 }  // namespace neve::app::scene

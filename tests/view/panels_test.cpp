@@ -42,6 +42,18 @@ TEST(SliderScale, SliderScaleIsLogarithmicWhereAValueSpansDecades) {
   }
 }
 
+TEST(SliderScale, SliderScaleIsLogarithmicBetweenBoundsThatAreFarApartWhateverIsUsual) {
+  const app::scene::Valid valid = app::scene::between(0.01, 1e4);
+  const app::view::panels::SliderScale scale =
+      app::view::panels::slider_scale(valid, std::nullopt, 5);
+  EXPECT_EQ(scale.kind, TurnedAs::logarithmic);
+  EXPECT_EQ(scale.low, 0.01);
+  EXPECT_EQ(scale.high, 1e4);
+  EXPECT_TRUE(app::scene::spans_decades(valid, 9e3)) << "values around it have equal ratios, too";
+  EXPECT_EQ(app::view::panels::slider_scale(app::scene::between(1, 170), std::nullopt, 5).kind,
+            TurnedAs::linear);
+}
+
 TEST(SliderScale, SliderScaleIsLinearBetweenNearEndsAndOpenWithoutAny) {
   for (const char* address : {"material.snow.poisson_ratio", "solver.flip_ratio", "solver.beta",
                               "material.snow.hardening", "camera.fov"})

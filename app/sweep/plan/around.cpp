@@ -41,10 +41,8 @@ double inside(const scene::Valid& valid, double x, double from) {
   return x;
 }
 
-/// Also where it is allowed over decades, whatever is usual.
 bool do_ratios_matter(const scene::FlatParam& param, double x) {
-  return x > 0 && ((param.valid.min > 0 && param.valid.max / param.valid.min >= 1e3) ||
-                   scene::spans_decades(param.valid, double_of(param.default_value)));
+  return x > 0 && scene::spans_decades(param.valid, double_of(param.default_value));
 }
 
 /// Distance of the outer values from a number: half of it, or of its known scale.

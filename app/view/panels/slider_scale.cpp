@@ -32,7 +32,8 @@ SliderScale slider_scale(const scene::Valid& valid, const std::optional<double>&
   if (!is_bounded) return {};
   const double min = least(valid), max = greatest(valid);
   if (scene::spans_decades(valid, usual)) {
-    double low = std::max(min, *usual / slider_reach), high = std::min(max, *usual * slider_reach);
+    double low = usual ? std::max(min, *usual / slider_reach) : min;
+    double high = usual ? std::min(max, *usual * slider_reach) : max;
     if (value > 0) low = std::min(low, value);
     high = std::max(high, value);
     return {SliderScale::Kind::logarithmic, low, high, min == 0};

@@ -12,14 +12,15 @@ struct SliderScale {
   enum class Kind {
     drag,        ///< no ends: changes by a share of itself
     linear,      ///< from end to end
-    logarithmic  ///< decades around the usual value; where 0 is allowed it is the lower end
+    logarithmic  ///< decades around the usual value, without one from end to end; where 0 is
+                 ///< allowed it is the lower end
   };
   Kind kind = Kind::drag;
   double low = 0, high = 0;     ///< ends of the slider
   bool is_zero_at_low = false;  ///< the lower end means 0
 };
 
-/// @param usual  the default; without one there are no decades to choose
+/// @param usual  the default
 /// @param value  present; a slider reaches so far in any case
 SliderScale slider_scale(const scene::Valid& valid, const std::optional<double>& usual,
                          double value);
