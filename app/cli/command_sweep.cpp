@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -317,18 +317,6 @@ double take_costs(const sweep::plan::SweepPlan& plan, const sweep::plan::StudyFo
   return seconds;
 }
 
-/// @param seconds  of one thread, of all runs
-void note_refinement(const sweep::plan::SweepOptions& options, const sweep::plan::SweepPlan& plan,
-                     double seconds, int cores, Progress& progress) {
-  const auto count = static_cast<std::size_t>(options.refine) * plan.sweep.runs_per_point();
-  const double share =
-      std::min(1.0, static_cast<double>(count) / static_cast<double>(plan.runs.size()));
-  const double all = seconds * sweep::plan::work_ratio(plan, 1) / plan.sweep.runs_per_point();
-  progress.note(fmt::format("then {} {} at full resolution, about {} if they cost as most",
-                            options.refine, options.refine == 1 ? "point" : "points",
-                            duration_text(all * share / cores)));
-}
-
 /// Says how long the sweep will take, and gives the manifest the cost of each run, by which runs
 /// start and share the cores. @return s; 0: nothing is left to do, or it is not known
 double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan::SweepPlan& plan,
@@ -356,7 +344,7 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
         of_copies > 0 ? ": about " + duration_text(of_copies / cores) + " more on these cores"
                       : ""));
   if (options.refine > 0 && forecast.seconds_per_work > 0)
-    note_refinement(options, plan, seconds, cores, progress);
+    progress.note(sweep::plan::refinement_text(plan, options.refine, seconds, cores));
   return forecast.seconds_of_all(left.runs, cores).expected + of_copies / cores;
 }
 
@@ -393,7 +381,7 @@ sweep::jobs::JobsResult refine(const sweep::plan::SweepOptions& options, int cor
   sweep::plan::add_full_runs(options, points, plan);
   sweep::plan::share_camera_and_ranges(plan, cores);
   sweep::store::Manifest with_full = sweep::store::prepare_sweep(plan);
-  std::vector<std::string> names;
+  std::vector<std::size_t> made;
   double seconds = 0;
   for (std::size_t k = 0; k < with_full.runs.size(); ++k)
     with_full.runs[k].work = manifest.runs[k].work;
@@ -402,13 +390,14 @@ sweep::jobs::JobsResult refine(const sweep::plan::SweepOptions& options, int cor
     variant.run.work =
         with_full.runs[variant.of].work * sweep::plan::work_ratio(plan, variant.coarsening);
     if (!variant.is_full()) continue;
-    names.push_back(std::to_string(variant.of));
+    made.push_back(variant.of);
     seconds += variant.run.work * with_full.seconds_per_work;
   }
   sweep::store::write_manifest(plan.folder, with_full);
   manifest = with_full;
-  progress.note(fmt::format("at full resolution: {} {}{}", names.size() == 1 ? "run" : "runs",
-                            joined(names, ", "),
+  std::sort(made.begin(), made.end());
+  progress.note(fmt::format("at full resolution: {} {}{}", made.size() == 1 ? "run" : "runs",
+                            fmt::join(made, ", "),
                             seconds > 0 ? ", about " + duration_text(seconds / cores) : ""));
   sweep::plan::SweepOptions rest = options;
   if (rest.budget > 0) rest.budget = std::max(1.0, options.budget - coarse.seconds);
@@ -436,7 +425,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   note_repeated_points(plan, progress);
   choose_runs(options, plan, progress);
   if (options.is_dry_run) {
-    sweep::plan::print_sweep_plan(plan, cores, options.is_json);
+    sweep::plan::print_sweep_plan(plan, options.refine, cores, options.is_json);
     return exit_ok;
   }
   const output::MovieStyle movie = output::available_movie(options.movie, plan.base.fps);
@@ -458,7 +447,9 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   sweep::store::Redrawn redrawn;
   sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan, &redrawn);
   note_redrawn(redrawn, plan, progress);
-  note_left_out(plan.folder, manifest, progress);
+  const bool refines = options.refine > 0 || !options.refine_runs.empty();
+  // Those at full resolution are not chosen yet.
+  if (!refines) note_left_out(plan.folder, manifest, progress);
   const double foreseen_seconds = foresee_runs(options, plan, cores, manifest, progress);
   if (plan.source) sweep::jobs::take_beginning(plan, *manifest.beginning, cores, progress);
   if (!options.emit.empty()) {
@@ -467,8 +458,10 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   }
   sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
   const bool has_ended = !result.failure && !result.is_interrupted && result.elsewhere == 0;
-  if (has_ended && (options.refine > 0 || !options.refine_runs.empty()))
+  if (has_ended && refines) {
     result = refine(options, cores, result, plan, manifest, progress);
+    note_left_out(plan.folder, manifest, progress);
+  }
   if (result.failure) fail_by_machine(*result.failure, plan.folder);
   sweep::sheet::collect_sweep(plan.folder, movie, options.has_review, options.backend, cores,
                               progress);

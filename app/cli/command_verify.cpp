@@ -84,10 +84,13 @@ Findings verify_sweep_folder(const fs::path& folder) {
                                 fmt::format("ends before frame {}", item.frames.last)});
   }
   std::error_code error;
-  if (manifest.beginning && fs::exists(sweep::store::beginning_folder(folder), error))
-    for (const record::Flaw& flaw :
-         record::verify_run(sweep::store::beginning_folder(folder)).flaws)
-      findings.flaws.push_back({"beginning/" + flaw.file, flaw.what});
+  for (const sweep::Run& beginning :
+       manifest.beginning ? manifest.beginning->runs : std::vector<sweep::Run>{}) {
+    const fs::path place = sweep::store::beginning_folder("", beginning);
+    if (!fs::exists(folder / place, error)) continue;
+    for (const record::Flaw& flaw : record::verify_run(folder / place).flaws)
+      findings.flaws.push_back({(place / flaw.file).generic_string(), flaw.what});
+  }
   if (left > 0)
     findings.unfinished =
         fmt::format("{} of {} runs are not finished", left, manifest.last_index() + 1);

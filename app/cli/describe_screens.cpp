@@ -131,9 +131,9 @@ void describe_pick(Command& visit, PickCommand& o) {
   visit("--fast", runs.is_fast,
         "Take longer steps in all tiles for a quick look; the picked scene keeps its own");
   visit("--refine", o.pick.refines,
-        "With --coarsen N: at the end make the pick at full resolution as well, and show both "
-        "beside each other in "
-        "DIR/picked_pair.cdb/sheet.png");
+        "With --coarsen N: at the end make the pick at full resolution as well, with all --seeds, "
+        "and "
+        "show both beside each other in DIR/picked_pair.cdb/sheet.png");
   visit("--out", runs.out, options::folder("round.html"),
         "Output folder instead of out/<name of the scene>.pick");
   options::describe_threads(visit, runs.threads, "Number of cores; 0: all");

@@ -175,7 +175,6 @@ sweep::plan::SweepOptions Game::begin_refinement() const {
   runs.overrides.clear();
   runs.coarsening.reset();
   runs.is_fast = false;
-  runs.seeds = 0;
   runs.out = (folder_ / "picked_pair.cdb").string();
   runs.is_json = false;
   return runs;

@@ -17,13 +17,15 @@ const char* name(Verdict verdict);
 struct Estimate {
   Quantity quantity;
   double expected = 0, low = 0, high = 0;
+  double variance = 0;  ///< of runs that were made; 0 of a prediction
 };
 
 struct Prediction {
   std::vector<Copy> copies;
   std::vector<Estimate> estimates;  ///< none where copies cannot say
   int frame = 0;                    ///< number of the one that is predicted
-  bool is_run = false;              ///< no prediction: the run at full resolution was made
+  bool is_run = false;              ///< no prediction: runs at full resolution were made
+  int runs = 0, broken = 0;  ///< these, one for each seed; estimates are their mean and range
   Verdict verdict = Verdict::cannot_say;
   std::string reason;  ///< of the verdict, a sentence
 };

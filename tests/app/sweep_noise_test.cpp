@@ -222,6 +222,66 @@ TEST(Noise, ATileSaysWhatIsPredictedAndWhichIntervalsOverlap) {
             "at full resolution, by coarse copies of 3 points: breaks 2, cannot say 1");
 }
 
+/// A point whose seeds were made at full resolution.
+predict::Prediction full_runs(double spread, int runs, int broken) {
+  predict::Prediction prediction;
+  prediction.is_run = true;
+  prediction.runs = runs;
+  prediction.broken = broken;
+  prediction.verdict = broken == 0      ? predict::Verdict::holds
+                       : broken == runs ? predict::Verdict::breaks
+                                        : predict::Verdict::undecided;
+  prediction.reason = "4 runs at full resolution";
+  for (int q = 0; q < predict::quantity_count; ++q)
+    prediction.estimates.push_back({static_cast<predict::Quantity>(q), spread, 0.9 * spread,
+                                    1.1 * spread, 0.01 * spread * spread});
+  return prediction;
+}
+
+TEST(Noise, ATileHasTheWhiskerOfCoarseSeedsBesideThatOfFullResolution) {
+  const Study study = study_of_seeds();
+  const sheet::Seals seals =
+      sheet::seals_of(study.manifest, study.results,
+                      {full_runs(0.5, 4, 2), predict::silent(""), full_runs(1.5, 4, 4)});
+  ASSERT_EQ(seals.of_points.size(), 3u);
+  EXPECT_TRUE(seals.of_points[0].outcome.starts_with("full: breaks in 2 of 4; coarse: "))
+      << seals.of_points[0].outcome;
+  EXPECT_TRUE(seals.of_points[0].is_undecided);
+  EXPECT_EQ(seals.of_points[0].value, "0.5 m");
+  EXPECT_NE(seals.of_points[0].coarse.value, "");
+  EXPECT_LT(seals.of_points[0].coarse.min, seals.of_points[0].coarse.max);
+  EXPECT_EQ(seals.of_points[1].value, "") << "not made at full resolution";
+  EXPECT_NE(seals.of_points[1].coarse.value, "");
+  EXPECT_EQ(seals.of_points[2].max, 1) << "one scale for both";
+  EXPECT_LT(seals.of_points[2].coarse.max, 1);
+  EXPECT_NE(seals.of_points[0].groups, seals.of_points[2].groups) << "Welch's interval";
+}
+
+TEST(Noise, RunsAtFullResolutionAreComparedByTheirNoiseAndWithIntervalsByOverlap) {
+  const std::vector<Summary> runs =
+      summaries_of({full_runs(0.5, 4, 0), full_runs(0.55, 4, 0), full_runs(0.7, 4, 0)},
+                   predict::Quantity::spread);
+  EXPECT_FALSE(differ(runs[0], runs[1]));
+  EXPECT_TRUE(differ(runs[0], runs[2]));
+  Summary wide = runs[2];
+  wide.is_interval = true;
+  wide.min = 0.54;
+  EXPECT_FALSE(differ(runs[0], wide)) << "an interval reaches there";
+}
+
+TEST(Refine, HowWellCoarseRankedIsSaidOfMeans) {
+  const Study study = study_of_seeds();
+  std::vector<std::optional<RunResult>> full(study.results.begin(), study.results.end());
+  full[5].reset();  // one seed that has not ended
+  const std::string line = ranking_line(study.manifest, study.results, full);
+  EXPECT_TRUE(line.starts_with("3 points at full resolution: ")) << line;
+  EXPECT_NE(line.find("rank correlation of the means of coarse and full: spread 1.00"),
+            std::string::npos)
+      << line;
+  full.assign(full.size(), std::nullopt);
+  EXPECT_EQ(ranking_line(study.manifest, study.results, full), "");
+}
+
 TEST(Refine, OpenPointsComeFirstThenTheBestByAMetric) {
   const Study study =
       study_of_seeds();  // spreads of about 0.5, 0.5 and 0.9 m; one of four breaks in the second

@@ -69,6 +69,23 @@ TEST_F(PickCli, ThePickIsShownCoarseAndAtFullResolution) {
   EXPECT_EQ(pick("5\n", "b", {"--refine"}).exit_code, app::exit_usage);
 }
 
+TEST_F(PickCli, ThePickIsShownWithAllOfItsSeeds) {
+  const auto made = pick("5\n", "a", {"--coarsen", "1.5", "--refine", "--seeds", "2"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  const app::Json manifest = json_of("a/picked_pair.cdb/manifest.json");
+  EXPECT_EQ(manifest.at("seeds"), 2);
+  ASSERT_EQ(manifest.at("runs").size(), 4u);
+  EXPECT_EQ(manifest.at("runs")[2].at("label"), "full resolution");
+  neve({"render", "a/picked.toml", "--frames", "2", "--size", "64x36", "--out", "full", "--set",
+        "seed=2", "--no-movie"});
+  EXPECT_EQ(hashes("a/picked_pair.cdb/runs/0003"), hashes("full"));
+  EXPECT_TRUE(exists("a/picked_pair.cdb/points.csv"));
+  // The same command continues what was killed in between.
+  std::filesystem::remove_all(folder / "a/picked_pair.cdb/runs/0003");
+  ASSERT_EQ(pick("5\n", "a", {"--coarsen", "1.5", "--refine", "--seeds", "2"}).exit_code, 0);
+  EXPECT_EQ(hashes("a/picked_pair.cdb/runs/0003"), hashes("full"));
+}
+
 TEST_F(PickCli, ThePickIsTheTileThatWasClickedLast) {
   const auto result = pick("5\n", "a");
   ASSERT_EQ(result.exit_code, 0) << result.errors;

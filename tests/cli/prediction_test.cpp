@@ -3,12 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <set>
+#include <thread>
 
 #include "app/predict/predict.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "tests/cli/run_neve.h"
+#include "tests/support/child.h"
+#include "tests/support/cinema.h"
 
 namespace neve::test {
 namespace {
@@ -226,6 +231,93 @@ TEST_F(Prediction, ASweepMakesItsBestPointsAtFullResolutionInTheSameFolder) {
                                                .output);
   EXPECT_EQ(result.at("started"), 0) << "what has been made is kept";
   EXPECT_EQ(result.at("ok"), 6);
+}
+
+class RefinedSeeds : public Prediction {
+ protected:
+  static std::vector<std::string> words(const std::string& out) {
+    return {"sweep",     "scene.toml", "-p",      "body.ball.velocity=[0,-1,0],[0,-6,0]",
+            "--coarsen", "1.5",        "--seeds", "2",
+            "--refine",  "1",          "--best",  "max_speed",
+            "--size",    "96x54",      "--movie", "none",
+            "--out",     out};
+  }
+
+  /// Of the runs at full resolution, by the run that each is of.
+  std::map<int, std::map<int, std::string>> full_hashes(const std::string& out) {
+    std::map<int, std::map<int, std::string>> all;
+    const app::Json manifest = json_of(out + "/manifest.json");
+    for (const app::Json& variant : manifest.at("variants"))
+      all[variant.at("of").get<int>()] =
+          hashes(out + "/runs/" + variant.at("run").at("folder").get<std::string>());
+    return all;
+  }
+};
+
+TEST_F(RefinedSeeds, AllSeedsOfAPointAreMadeAtFullResolution) {
+  const auto made = neve(words("study"));
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_TRUE(contains(made.errors, "then 1 point at full resolution, 2 runs with their seeds"))
+      << made.errors;
+  EXPECT_TRUE(contains(made.errors, "at full resolution: runs 2, 3")) << made.errors;
+  const auto full = full_hashes("study");
+  ASSERT_EQ(full.size(), 2u);
+  for (const int seed : {1, 2}) {
+    neve({"render", "scene.toml", "--set", "body.ball.velocity=[0,-6,0]", "--set",
+          "seed=" + std::to_string(seed), "--size", "96x54", "--out", "alone", "--no-movie",
+          "--replace"});
+    EXPECT_EQ(full.at(seed + 1), hashes("alone")) << "seed " << seed;
+  }
+  const std::vector<CsvRow> points = parse_csv(read_text(folder / "study/points.csv"));
+  const auto cell = [&](std::size_t row, const std::string& name) {
+    const auto found = std::find(points[0].begin(), points[0].end(), name);
+    return found == points[0].end()
+               ? "no column"
+               : points[row][static_cast<std::size_t>(found - points[0].begin())];
+  };
+  EXPECT_EQ(cell(1, "full_runs"), "");
+  EXPECT_EQ(cell(2, "full_by"), "run");
+  EXPECT_EQ(cell(2, "full_runs"), "2");
+  EXPECT_LT(std::stod(cell(2, "full_spread_low")), std::stod(cell(2, "full_spread_high")));
+  EXPECT_GT(std::stod(cell(2, "full_spread")), std::stod(cell(2, "full_spread_low")));
+  EXPECT_EQ(cinema_problem(read_text(folder / "study/data.csv"), folder / "study"), "");
+  const std::string page = read_text(folder / "study/report.html");
+  const app::Json manifest = json_of("study/manifest.json");
+  for (const app::Json& variant : manifest.at("variants"))
+    EXPECT_TRUE(
+        contains(page, "runs/" + variant.at("run").at("folder").get<std::string>() + "/particles/"))
+        << "the page flips through the seeds at full resolution";
+  EXPECT_EQ(neve({"verify", "study"}).exit_code, 0);
+  const auto again = neve(words("study"));
+  EXPECT_TRUE(contains(again.errors, "at full resolution: runs 2, 3")) << again.errors;
+  EXPECT_FALSE(contains(again.errors, "out of the table")) << again.errors;
+}
+
+TEST_F(RefinedSeeds, AKilledRefinementContinuesBitForBit) {
+  ASSERT_EQ(neve(words("study")).exit_code, 0);
+  for (int k = 0; k < 5; ++k) {
+    std::vector<std::string> program = words((folder / "killed").string());
+    program.insert(program.begin(), NEVE_BINARY);
+    program[2] = (folder / "scene.toml").string();
+    const pid_t child = start_program(program);
+    std::this_thread::sleep_for(std::chrono::milliseconds(150 + 250 * k));
+    ::kill(child, SIGKILL);
+    wait_for(child);
+  }
+  const auto rest = neve(words("killed"));
+  ASSERT_EQ(rest.exit_code, 0) << rest.errors;
+  EXPECT_EQ(full_hashes("study").size(), 2u);
+  EXPECT_EQ(full_hashes("killed"), full_hashes("study"));
+  EXPECT_EQ(read_text(folder / "killed/points.csv").substr(0, 6), "point,");
+}
+
+TEST_F(RefinedSeeds, TheCostOfAllSeedsIsSaidBefore) {
+  std::vector<std::string> plan = words("study");
+  plan.push_back("--dry-run");
+  const auto said = neve(plan);
+  EXPECT_TRUE(contains(said.output, "then 1 point at full resolution, 2 runs with their seeds"))
+      << said.output << said.errors;
+  EXPECT_FALSE(exists("study"));
 }
 
 TEST_F(Prediction, TheFullRunBreaksAsItsCopiesDo) {

@@ -1,8 +1,13 @@
 /// Sweeps whose points have several seeds, from the command to the folder.
 
+#include <csignal>
+
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "tests/cli/run_neve.h"
+#include "tests/support/child.h"
 #include "tests/support/cinema.h"
 #include "tests/support/needs.h"
 
@@ -60,6 +65,109 @@ TEST_F(SweepSeeds, TheCostOfAllSeedsIsSaidBefore) {
   EXPECT_NE(plan.output.find("8 runs of scene.toml, 4 seeds of each point"), std::string::npos)
       << plan.output;
   EXPECT_NE(plan.output.find("seed = 4"), std::string::npos) << plan.output;
+}
+
+class ForkedSeeds : public SweepSeeds {
+ protected:
+  static std::vector<std::string> words(const std::string& out,
+                                        const std::vector<std::string>& more) {
+    std::vector<std::string> all{"sweep",  "scene.toml", "-p",       "material.snow.hardening=4,20",
+                                 "--fork", "0.125s",     "--frames", "6",
+                                 "--size", "96x54",      "--json",   "--out",
+                                 out};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  int started_in(const std::string& out, const std::vector<std::string>& more) {
+    const app::output::ProcessResult made = neve(words(out, more));
+    EXPECT_EQ(made.exit_code, 0) << made.errors;
+    return app::parse_json(made.output).at("started").get<int>();
+  }
+
+  std::vector<std::map<int, std::string>> all_hashes(const std::string& out) {
+    std::vector<std::map<int, std::string>> all;
+    for (const char* run : {"0000", "0001", "0002", "0003"})
+      all.push_back(hashes(out + "/runs/" + run));
+    return all;
+  }
+};
+
+TEST_F(ForkedSeeds, EachSeedForksFromABeginningOfItsOwn) {
+  ASSERT_EQ(started_in("f.cdb", {"--seeds", "2"}), 4);
+  const auto branches = all_hashes("f.cdb");
+  EXPECT_EQ(branches[0].begin()->first, 4) << "the frames after the fork";
+  for (const char* beginning : {"beginning", "beginning_2"})
+    EXPECT_EQ(json_of(std::string("f.cdb/") + beginning + "/status.json").at("attempts"), 1);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < k; ++j) EXPECT_NE(branches[k], branches[j]) << k << " and " << j;
+  // The second seed alone.
+  ASSERT_EQ(started_in("two.cdb", {"--set", "seed=2"}), 2);
+  EXPECT_EQ(hashes("two.cdb/runs/0000"), branches[1]);
+  EXPECT_EQ(hashes("two.cdb/runs/0001"), branches[3]);
+  // The picture of a branch makes the whole run again.
+  ASSERT_EQ(neve({"render", "f.cdb/runs/0003/particles/0006.png", "--frames", "0-6", "--out",
+                  "whole", "--no-movie"})
+                .exit_code,
+            0);
+  const auto whole = hashes("whole");
+  for (const auto& [frame, hash] : branches[3]) EXPECT_EQ(whole.at(frame), hash) << frame;
+  EXPECT_EQ(neve({"verify", "f.cdb"}).exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder / "f.cdb/report.html"), "render f.cdb/beginning_2 --set"));
+  EXPECT_EQ(parse_csv(read_text(folder / "f.cdb/points.csv")).size(), 3u);
+}
+
+TEST_F(ForkedSeeds, FurtherSeedsKeepTheBeginningsThatAreThere) {
+  ASSERT_EQ(started_in("f.cdb", {}), 2);
+  EXPECT_EQ(started_in("f.cdb", {"--seeds", "2"}), 2);
+  EXPECT_EQ(started_in("f.cdb", {"--seeds", "3"}), 2);
+  EXPECT_EQ(started_in("f.cdb", {"--seeds", "3"}), 0);
+  for (const char* beginning : {"beginning", "beginning_2", "beginning_3"})
+    EXPECT_EQ(json_of(std::string("f.cdb/") + beginning + "/status.json").at("attempts"), 1);
+  // Alone, as a job before an array is: all of them.
+  std::filesystem::remove_all(folder / "f.cdb/beginning_2/checkpoint");
+  EXPECT_EQ(neve({"sweep", "run", "f.cdb", "--beginning"}).exit_code, 0);
+  EXPECT_EQ(json_of("f.cdb/beginning/status.json").at("attempts"), 1);
+  EXPECT_EQ(json_of("f.cdb/beginning_2/status.json").at("attempts"), 2);
+}
+
+TEST_F(ForkedSeeds, AKilledSweepContinuesBitForBit) {
+  ASSERT_EQ(started_in("f.cdb", {"--seeds", "2"}), 4);
+  const auto whole = all_hashes("f.cdb");
+  for (int k = 0; k < 5; ++k) {
+    std::vector<std::string> program = words((folder / "k.cdb").string(), {"--seeds", "2"});
+    program.insert(program.begin(), NEVE_BINARY);
+    program[2] = (folder / "scene.toml").string();
+    const pid_t child = start_program(program);
+    std::this_thread::sleep_for(std::chrono::milliseconds(60 + 90 * k));
+    ::kill(child, SIGKILL);
+    wait_for(child);
+  }
+  started_in("k.cdb", {"--seeds", "2"});
+  EXPECT_EQ(all_hashes("k.cdb"), whole);
+}
+
+TEST_F(ForkedSeeds, TheBeginningOfEachSeedIsPartOfTheCost) {
+  const app::output::ProcessResult plan =
+      neve({"sweep", "scene.toml", "-p", "material.snow.hardening=4,20", "--fork", "0.125s",
+            "--frames", "6", "--seeds", "3", "--dry-run"});
+  EXPECT_EQ(plan.exit_code, 0) << plan.errors;
+  EXPECT_TRUE(
+      contains(plan.output, "the beginning, to 0.125 s, is computed once for each of the 3 seeds"))
+      << plan.output;
+  EXPECT_TRUE(contains(plan.output, "6 runs of scene.toml, 3 seeds of each point")) << plan.output;
+}
+
+TEST_F(ForkedSeeds, ARunThatIsLeftHasDrawnItsParticlesAlready) {
+  const app::output::ProcessResult refused = neve(
+      {"sweep", "a", "--from", "0.125s", "-p", "material.snow.hardening=4,20", "--seeds", "3"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.errors,
+                       "--seeds: cannot be combined with --from: the state of a at "
+                       "0.125s has drawn its particles already"))
+      << refused.errors;
+  EXPECT_TRUE(contains(refused.errors, "neve sweep SCENE --fork 0.125s --seeds 3"))
+      << refused.errors;
 }
 
 TEST_F(SweepSeeds, TheTilesOfAPickSayWhatOtherSeedsDo) {

@@ -7,6 +7,7 @@
 #include <deque>
 #include <list>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <thread>
 
@@ -48,7 +49,7 @@ class LocalJobs {
     skip_finished();
     put_failed_by_machine_last();
     for (const Run* run : queue_) work_left_ += run->work;
-    make_beginning();
+    make_beginnings();
     clock_.note(0);
     while (!active_.empty() || !queue_.empty()) {
       if (is_interrupted()) stop();
@@ -99,31 +100,30 @@ class LocalJobs {
     return work * manifest_.seconds_per_work / options_.cores;
   }
 
-  /// Once for all runs: by this process, or by another one that is waited for.
-  void make_beginning() {
+  /// Those of the seeds that wait, once for all runs of a seed: by this process, or by another one
+  /// that is waited for.
+  void make_beginnings() {
     if (!manifest_.beginning) return;
-    const fs::path folder = store::beginning_folder(folder_);
-    output::remove_abandoned_below(folder);
-    if (queue_.empty() && !options_.makes_beginning) return;
-    const Run& run = manifest_.beginning->run;
-    bool is_told = false;
-    if (!manifest_.beginning->source.empty()) return require_beginning(run, folder);
-    while (!has_beginning(run, folder) && !is_interrupted()) {
-      const auto lock = output::FolderLock::try_lock(
-          folder, "neve sweep", output::FolderLock::Kind::alone, store::run_lock);
-      if (lock) return run_beginning(run, folder);
-      if (!is_told)
-        progress_.note("waiting for the common beginning: " +
-                       output::FolderLock::holder_of(folder, store::run_lock));
-      is_told = true;
-      std::this_thread::sleep_for(wait_interval);
-    }
+    for (const Run& run : manifest_.beginning->runs)
+      output::remove_abandoned_below(beginning_of(run));
+    std::set<const Run*> needed;
+    for (const Run* run : queue_) needed.insert(&manifest_.beginning->run_of(*run));
+    std::deque<const Run*> waiting;
+    for (const Run& run : manifest_.beginning->runs)
+      if ((options_.makes_beginning || needed.contains(&run)) &&
+          !has_beginning(run, beginning_of(run)))
+        waiting.push_back(&run);
+    if (waiting.empty()) return;
+    if (!manifest_.beginning->source.empty()) fail_without_source();
+    run_beginnings(waiting);
     if (is_interrupted()) queue_.clear();
   }
 
-  /// A beginning that was taken from a run; that run may be deleted by now.
-  void require_beginning(const Run& run, const fs::path& folder) const {
-    if (has_beginning(run, folder)) return;
+  fs::path beginning_of(const Run& run) const { return store::beginning_folder(folder_, run); }
+
+  /// The state was taken from a run; that run may be deleted by now.
+  [[noreturn]] void fail_without_source() const {
+    const fs::path folder = beginning_of(manifest_.beginning->runs.front());
     throw IoError(folder.string() +
                       ": the state at the fork is missing; repeat the same neve sweep --from, "
                       "which takes it from " +
@@ -131,42 +131,103 @@ class LocalJobs {
                   folder.string());
   }
 
-  void run_beginning(const Run& run, const fs::path& folder) {
+  /// Side by side, as runs are.
+  void run_beginnings(std::deque<const Run*> waiting) {
+    bool is_told = false;
+    while (!waiting.empty() || !active_.empty()) {
+      const bool is_late = options_.budget > 0 && seconds_left() <= 0;
+      if (is_interrupted() || is_late)
+        for (Active& active : active_) active.child.stop();
+      if (is_interrupted() || is_late || result_.failure || failed_beginning_) {
+        if (!waiting.empty()) leave_for_later();
+        waiting.clear();
+      }
+      const Run* held = nullptr;  // by another process
+      if (!waiting.empty() && has_room(*waiting.front())) {
+        const Run* run = waiting.front();
+        waiting.pop_front();
+        if (!start_beginning(*run, static_cast<int>(waiting.size()) + 1))
+          waiting.push_back(held = run);
+      }
+      collect_beginnings();
+      if (!active_.empty()) {
+        std::this_thread::sleep_for(poll_interval);
+      } else if (held) {
+        if (!is_told)
+          progress_.note("waiting for the common beginning: " +
+                         output::FolderLock::holder_of(beginning_of(*held), store::run_lock));
+        is_told = true;
+        std::this_thread::sleep_for(wait_interval);
+      }
+    }
+    if (!failed_beginning_) return;
+    fail_by_beginning(*failed_beginning_, store::read_status(beginning_of(*failed_beginning_)));
+  }
+
+  /// @return false while another process makes it
+  bool start_beginning(const Run& run, int left) {
+    const fs::path folder = beginning_of(run);
+    if (has_beginning(run, folder)) return true;
+    std::optional<output::FolderLock> lock = output::FolderLock::try_lock(
+        folder, "neve sweep", output::FolderLock::Kind::alone, store::run_lock);
+    if (!lock) return false;
     store::RunStatus status = store::read_status(folder);
     // Another process may just have finished it.
-    if (has_beginning(run, folder)) return;
+    if (has_beginning(run, folder)) return true;
     const bool is_known = store::has_failed(status.state) && status.key == run.key &&
                           !options_.retry_failed.contains(status.state);
-    if (is_known) fail_by_beginning(status);
-    progress_.note(fmt::format("the common beginning of all runs, to frame {}", run.frames.last));
-    const int threads =
-        threads_for(run, {}, options_.cores, static_cast<double>(available_memory()));
-    Child child = start_child(run, folder, threads, status);
-    std::optional<ChildResult> ended;
-    while (!(ended = child.poll())) {
-      if (is_interrupted() || (options_.budget > 0 && seconds_left() <= 0)) child.stop();
-      std::this_thread::sleep_for(poll_interval);
+    if (is_known) {
+      failed_beginning_ = &run;
+      return true;
     }
-    result_.cpu_seconds += ended->cpu_seconds;
-    result_.core_seconds += ended->seconds * threads;
-    judge(*ended, manifest_, run, folder, status);
-    store::write_status(folder, status);
-    if (is_machine_failure(status))
-      return give_up({status.exit_code, run.label + ": " + status.reason});
-    if (store::has_failed(status.state)) fail_by_beginning(status);
-    if (status.state != store::RunState::interrupted) return;
+    const char* whose = manifest_.beginning->runs.size() > 1 ? "" : " of all runs";
+    progress_.note(fmt::format("{}{}, to frame {}", run.label, whose, run.frames.last));
+    const RunsLeft all{left + static_cast<int>(active_.size()), 0};
+    const int threads =
+        std::max(1, std::min(threads_for(run, all, options_.cores, free_memory()), free_cores()));
+    Child child = start_child(run, folder, threads, status);
+    active_.push_back(
+        {&run, folder, std::move(*lock), std::move(status), std::move(child), threads});
+    return true;
+  }
+
+  void collect_beginnings() {
+    for (auto active = active_.begin(); active != active_.end();) {
+      const std::optional<ChildResult> ended = active->child.poll();
+      if (!ended) {
+        ++active;
+        continue;
+      }
+      Active done = std::move(*active);
+      active = active_.erase(active);
+      result_.cpu_seconds += ended->cpu_seconds;
+      result_.core_seconds += ended->seconds * done.threads;
+      judge(*ended, manifest_, *done.run, done.folder, done.status);
+      store::write_status(done.folder, done.status);
+      if (is_machine_failure(done.status))
+        give_up({done.status.exit_code, done.run->label + ": " + done.status.reason});
+      else if (store::has_failed(done.status.state))
+        failed_beginning_ = done.run;
+      else if (done.status.state == store::RunState::interrupted)
+        leave_for_later();
+    }
+  }
+
+  /// A beginning was ended before its last frame: no run of its seed can start, and the others wait
+  /// with them.
+  void leave_for_later() {
     result_.is_interrupted = true;
     if (!is_interrupted()) result_.out_of_time += static_cast<int>(queue_.size());
     queue_.clear();
   }
 
-  [[noreturn]] void fail_by_beginning(const store::RunStatus& status) const {
-    const fs::path folder = store::beginning_folder(folder_);
+  [[noreturn]] void fail_by_beginning(const Run& run, const store::RunStatus& status) const {
     throw Error(
         exit_runs_failed,
-        fmt::format("no run can start: the common beginning ended as {}{}",
-                    store::name(status.state), status.reason.empty() ? "" : ": " + status.reason),
-        folder.string(), "correct the scene, or fork earlier; --retry-failed tries it again");
+        fmt::format("no run can start: {} ended as {}{}", run.label, store::name(status.state),
+                    status.reason.empty() ? "" : ": " + status.reason),
+        beginning_of(run).string(),
+        "correct the scene, or fork earlier; --retry-failed tries it again");
   }
 
   fs::path folder_of(const Run& run) const { return store::runs_folder(folder_) / run.folder; }
@@ -254,14 +315,15 @@ class LocalJobs {
     return memory;
   }
 
+  bool has_room(const Run& run) const {
+    return options_.jobs > 0 ? static_cast<int>(active_.size()) < options_.jobs
+                             : free_cores() > 0 && (active_.empty() || run.memory <= free_memory());
+  }
+
   void start_what_fits() {
     while (!queue_.empty()) {
       const RunsLeft left{static_cast<int>(queue_.size() + active_.size()), work_left_};
-      const bool is_full =
-          options_.jobs > 0
-              ? static_cast<int>(active_.size()) >= options_.jobs
-              : free_cores() <= 0 || (!active_.empty() && queue_.front()->memory > free_memory());
-      if (is_full) return;
+      if (!has_room(*queue_.front())) return;
       const Run* run = queue_.front();
       queue_.pop_front();
       const int threads =
@@ -339,7 +401,9 @@ class LocalJobs {
 
   std::vector<std::string> arguments_of(const Run& run, const fs::path& folder, int threads,
                                         bool resumes) const {
-    const bool is_branch = manifest_.beginning && &run != &manifest_.beginning->run;
+    const bool is_branch =
+        manifest_.beginning && std::ranges::none_of(manifest_.beginning->runs,
+                                                    [&](const Run& own) { return &own == &run; });
     run::RenderOptions options;
     options.scene = "scene.toml";
     if (is_branch) options = manifest_.beginning->fork_of(run, "../..");
@@ -427,6 +491,7 @@ class LocalJobs {
   double work_done_ = 0, work_left_ = 0;
   double work_timed_ = 0, seconds_timed_ = 0;  ///< of runs that ended now
   bool is_over_ = false;                       ///< the budget's time
+  const Run* failed_beginning_ = nullptr;
   Child::Clock::time_point start_;
   Child::Clock::time_point shown_at_;
 };

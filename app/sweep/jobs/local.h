@@ -17,7 +17,7 @@ struct LocalOptions {
   int jobs = 0;  ///< runs side by side; 0: as many as keep the cores busy and fit into memory
   std::string backend = "auto";
   double budget = 0;              ///< s for all of them; 0: as long as they take
-  bool makes_beginning = false;   ///< the common beginning, though no run needs it
+  bool makes_beginning = false;   ///< all common beginnings, though no run needs them
   store::Retry retry_failed;      ///< states of runs that are made once more
   double grace = 20;              ///< s that a run has to end when it is asked to
   std::filesystem::path program;  ///< whose `render` makes the runs
@@ -41,14 +41,14 @@ struct JobsResult {
   double core_seconds = 0;              ///< time of the children times their threads
 };
 
-/// Runs the common beginning of forked runs, unless it exists. Waits for another process that
-/// makes it. Then runs the unfinished runs of these indices; each ends as a state
-/// and a reason in its status.json and never ends the sweep. A run in progress elsewhere is left
-/// alone. A finished run with missing or damaged pictures is made again. A Ctrl-C asks all children
-/// to end and waits for them, and so does the end of the budget; a run that would not end before it
-/// is not started. When the machine fails, no further run is started: the next call continues,
-/// beginning with runs that have not met the failure. @throws Error when the common beginning
-/// fails
+/// Runs the common beginnings of forked runs, one for each seed, unless they exist. Waits for
+/// another process that makes one. Then runs the unfinished runs of these indices; each ends as a
+/// state and a reason in its status.json and never ends the sweep. A run in progress elsewhere is
+/// left alone. A finished run with missing or damaged pictures is made again. A Ctrl-C asks all
+/// children to end and waits for them, and so does the end of the budget; a run that would not end
+/// before it is not started. When the machine fails, no further run is started: the next call
+/// continues, beginning with runs that have not met the failure. @throws Error when the common
+/// beginning fails
 JobsResult run_local(const std::filesystem::path& folder, const store::Manifest& manifest,
                      const std::vector<int>& indices, const LocalOptions& options,
                      Progress& progress);

@@ -165,7 +165,7 @@ std::vector<int> Queue::without_job(const std::vector<int>& runs) const {
   return without;
 }
 
-/// The number of the job that makes the common beginning; submits it unless it is queued.
+/// The number of the job that makes the common beginnings; submits it unless it is queued.
 std::string Queue::beginning_job() {
   const auto queued = std::ranges::find_if(jobs_, &QueuedJob::is_beginning);
   if (queued != jobs_.end()) return queued->number;
@@ -179,9 +179,11 @@ std::string Queue::beginning_job() {
 void Queue::submit(const std::vector<int>& runs) {
   // Not afterok: runs whose beginning failed say so, instead of waiting for ever.
   std::string after;
-  if (manifest_.beginning &&
-      !has_beginning(manifest_.beginning->run, store::beginning_folder(folder_)))
-    after = "--dependency=afterany:" + beginning_job();
+  const bool lacks_beginning =
+      manifest_.beginning && !std::ranges::all_of(manifest_.beginning->runs, [&](const Run& run) {
+        return has_beginning(run, store::beginning_folder(folder_, run));
+      });
+  if (lacks_beginning) after = "--dependency=afterany:" + beginning_job();
   for (const SlurmArray& array : split_arrays(runs, max_array_size())) {
     std::vector<std::string> words = sbatch_options(manifest_, options_);
     words.push_back("--array=" + array.tasks +

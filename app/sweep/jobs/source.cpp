@@ -18,8 +18,9 @@ namespace neve::app::sweep::jobs {
 
 void take_beginning(const plan::SweepPlan& plan, const store::Beginning& beginning, int threads,
                     Progress& progress) {
-  const std::filesystem::path folder = store::beginning_folder(plan.folder);
-  if (has_beginning(beginning.run, folder)) return;
+  const Run& run = beginning.runs.front();
+  const std::filesystem::path folder = store::beginning_folder(plan.folder, run);
+  if (has_beginning(run, folder)) return;
   // Shards of a sweep work side by side: one takes it.
   std::optional<output::FolderLock> lock;
   while (!(lock = output::FolderLock::try_lock(folder, "neve sweep",
@@ -27,9 +28,9 @@ void take_beginning(const plan::SweepPlan& plan, const store::Beginning& beginni
     if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the first run");
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  if (has_beginning(beginning.run, folder)) return;
+  if (has_beginning(run, folder)) return;
   run::RenderJob job = *plan.source;
-  job.scene = plan.beginning->scene;
+  job.scene = plan.beginnings.front().scene;
   progress.note(
       fmt::format("the runs fork from {} at {} s", job.scene_file, rough_text(beginning.time)));
   timeline::Timeline timeline = timeline::open(job, threads, progress);

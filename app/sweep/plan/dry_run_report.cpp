@@ -50,8 +50,15 @@ double seconds_of_copies(const SweepPlan& plan, const StudyForecast& forecast) {
   return seconds;
 }
 
+/// s of one thread, of all runs.
+double seconds_of_runs(const StudyForecast& forecast) {
+  double seconds = 0;
+  for (std::size_t k = 0; k < forecast.work.size(); ++k) seconds += forecast.seconds(k).expected;
+  return seconds;
+}
+
 void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
-                const forecast::Cost& seconds_of_all) {
+                const forecast::Cost& seconds_of_all, int refined) {
   Json json;
   json["title"] = plan.title;
   json["scene"] = plan.sweep.scene_file;
@@ -73,14 +80,20 @@ void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
                             {"over_memory_limit", is_over_limit(plan, run)},
                             {"seconds", foreseen.seconds(k).expected}});
   }
-  if (plan.beginning)
+  if (!plan.beginnings.empty())
     json["beginning"] = {{"time", plan.fork},
-                         {"frame", plan.beginning->run.frames.last},
+                         {"frame", plan.beginnings.front().run.frames.last},
+                         {"seeds", plan.beginnings.size()},
                          {"seconds", foreseen.beginning.expected * foreseen.seconds_per_work}};
   if (plan.keeps_states) json["state_bytes"] = whole_bytes(bytes_of_states(plan));
   if (!plan.variants.empty())
     json["prediction"] = {{"copies", plan.variants.size()},
                           {"seconds", seconds_of_copies(plan, foreseen)}};
+  if (refined > 0)
+    json["refinement"] = {
+        {"points", refined},
+        {"runs", refined * plan.sweep.runs_per_point()},
+        {"seconds", seconds_of_refinement(plan, refined, seconds_of_runs(foreseen))}};
   json["memory_bytes"] = whole_bytes(totals_of(plan).largest);
   json["seconds"] = seconds_of_all.expected;
   json["seconds_range"] = {seconds_of_all.least, seconds_of_all.most};
@@ -135,21 +148,24 @@ std::string copies_text(const SweepPlan& plan, const StudyForecast& forecast, in
 
 }  // namespace
 
-void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
+void print_sweep_plan(const SweepPlan& plan, int refined, int cores, bool is_json) {
   std::vector<std::size_t> all(plan.runs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const StudyForecast forecast = foresee_study(plan, all, whole_effort(cores), cores);
   const Totals totals = totals_of(plan);
   const auto seconds = forecast.seconds_of_all(all, cores);
-  if (is_json) return print_json(plan, forecast, seconds);
+  if (is_json) return print_json(plan, forecast, seconds, refined);
   print_table(plan, forecast);
   const std::string longest = longest_text(plan, all, forecast);
   if (plan.source)
     std::cout << fmt::format("\nthe beginning, to {} s, is that of {}\n", rough_text(plan.fork),
                              plan.sweep.scene_file);
-  else if (plan.beginning)
+  else if (!plan.beginnings.empty())
     std::cout << fmt::format(
-        "\nthe beginning, to {} s, is computed once: {}\n", rough_text(plan.fork),
+        "\nthe beginning, to {} s, is computed once{}: {}\n", rough_text(plan.fork),
+        plan.beginnings.size() > 1
+            ? fmt::format(" for each of the {} seeds", plan.beginnings.size())
+            : "",
         duration_text(forecast.beginning.expected * forecast.seconds_per_work));
   std::cout << fmt::format("\n{} {} of {}{}, {}, view {} in tiles of {}x{}\n", plan.runs.size(),
                            plan.runs.size() == 1 ? "run" : "runs", plan.sweep.scene_file,
@@ -160,7 +176,11 @@ void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json) {
                    "a run\n",
                    duration_text(seconds.expected), cores, cores == 1 ? "core" : "cores",
                    bytes_text(whole_bytes(totals.largest)))
-            << copies_text(plan, forecast, cores) << (longest.empty() ? "" : longest + "\n")
+            << copies_text(plan, forecast, cores)
+            << (refined > 0
+                    ? refinement_text(plan, refined, seconds_of_runs(forecast), cores) + "\n"
+                    : "")
+            << (longest.empty() ? "" : longest + "\n")
             << (plan.keeps_states ? fmt::format("kept states take about {} on disk\n",
                                                 bytes_text(whole_bytes(bytes_of_states(plan))))
                                   : "")

@@ -6,6 +6,7 @@
 namespace neve::app::sweep::plan {
 
 /// On stdout; measures some steps of the costliest run to foresee seconds.
-void print_sweep_plan(const SweepPlan& plan, int cores, bool is_json);
+/// @param refined  points that are made at full resolution as well
+void print_sweep_plan(const SweepPlan& plan, int refined, int cores, bool is_json);
 
 }  // namespace neve::app::sweep::plan

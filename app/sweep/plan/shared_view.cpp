@@ -143,7 +143,7 @@ void share_camera_and_ranges(SweepPlan& plan, int cores) {
   for (PlannedRun& item : plan.runs) complete(item);
   for (PlannedVariant& variant : plan.variants)
     if (variant.failure.empty()) complete(variant.item);
-  if (plan.beginning) complete(*plan.beginning);
+  for (PlannedRun& item : plan.beginnings) complete(item);
 }
 
 }  // namespace neve::app::sweep::plan

@@ -134,16 +134,17 @@ double median_seconds(const std::vector<Copy>& copies) {
 /// Steps of a particle in the frames of a run that are its own.
 forecast::Cost own_work(const SweepPlan& plan, const PlannedRun& item,
                         const forecast::Forecast& foreseen) {
-  const int fork = plan.beginning ? plan.beginning->plan.frames.last : 0;
+  const int fork = plan.beginnings.empty() ? 0 : plan.beginnings.front().plan.frames.last;
   return item.plan.particles * foreseen.work(fork, item.plan.frames.last);
 }
 
 forecast::Cost beginning_work(const SweepPlan& plan, const ForecastEffort& effort) {
-  if (!plan.beginning || plan.source) return {};
-  const PlannedRun& item = *plan.beginning;
+  if (plan.beginnings.empty() || plan.source) return {};
+  // Those with other seeds cost as much.
+  const PlannedRun& item = plan.beginnings.front();
   const int last = item.plan.frames.last;
   forecast::ForecastBudget budget{longest_copy, effort.particle_steps, max_copied};
-  return item.plan.particles *
+  return static_cast<double>(plan.beginnings.size()) * item.plan.particles *
          forecast::foresee(item.scene, item.plan.particles, last, budget).work(0, last);
 }
 
@@ -277,6 +278,20 @@ std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>&
   text += budget_text(chosen, forecast, cores, budget);
   const std::string longest = longest_text(plan, chosen, forecast);
   return longest.empty() ? text : text + "\n" + longest;
+}
+
+double seconds_of_refinement(const SweepPlan& plan, int points, double seconds) {
+  const double runs = points * plan.sweep.runs_per_point();
+  const double share = std::min(1.0, runs / static_cast<double>(plan.runs.size()));
+  return seconds * work_ratio(plan, 1) * share;
+}
+
+std::string refinement_text(const SweepPlan& plan, int points, double seconds, int cores) {
+  const int seeds = plan.sweep.runs_per_point();
+  return fmt::format("then {} {} at full resolution{}, about {} if they cost as most", points,
+                     points == 1 ? "point" : "points",
+                     seeds > 1 ? fmt::format(", {} runs with their seeds", points * seeds) : "",
+                     duration_text(seconds_of_refinement(plan, points, seconds) / cores));
 }
 
 }  // namespace neve::app::sweep::plan

@@ -27,7 +27,7 @@ ForecastEffort small_effort(const SweepPlan& plan, const std::vector<std::size_t
 struct StudyForecast {
   std::vector<forecast::Cost> work;  ///< of every run of the plan, after the common beginning
   std::vector<double> drawing;       ///< s, of its tiles and of the start of its process
-  forecast::Cost beginning;          ///< of the common beginning, unless it exists already
+  forecast::Cost beginning;          ///< of all common beginnings, unless taken from a run
   double seconds_per_work = 0;       ///< s of one thread on this machine, now; 0: not known
   std::vector<std::size_t> own;      ///< runs with a copy of their own
 
@@ -54,6 +54,12 @@ std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& 
 /// The forecast in one or two lines, for a sweep that starts. @param budget  s; 0: none
 std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                           const StudyForecast& forecast, int cores, double budget);
+
+/// s of one thread, of this many points at full resolution with all of their seeds, if they cost as
+/// most do. @param seconds  of one thread, of all runs
+double seconds_of_refinement(const SweepPlan& plan, int points, double seconds);
+/// "then 2 points at full resolution, 8 runs with their seeds, about 3 min if they cost as most"
+std::string refinement_text(const SweepPlan& plan, int points, double seconds, int cores);
 
 /// True of a run that no limit of its scene refuses.
 bool is_possible(const PlannedRun& item);

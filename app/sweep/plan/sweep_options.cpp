@@ -86,18 +86,20 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
   visit("--from", o.from, options::time(),
         "Fork all runs from the run of FILE (the folder of a run, or a picture) at a time: they "
         "start with its state at that time, and -p and --set change parameters there");
-  visit("--seeds", o.seeds, seeds(),
-        "Make N runs of each point, with the scene's seed and those after it, so that tiles, table "
-        "and plots show which differences are larger than noise; N times the cost");
+  visit(
+      "--seeds", o.seeds, seeds(),
+      "Make N runs of each point, with the scene's seed and those after it, so that tiles, table "
+      "and plots show which differences are larger than noise; N times the cost; with --fork each "
+      "seed has a beginning of its own");
   visit(
       "--refine", o.refine,
       options::number<int>("K", 1, 10000, "a number of points from 1 to 10000, as in --refine 4"),
-      "With --coarsen N: when all runs have ended, make K points at full resolution as well, in "
-      "the same "
-      "folder: the undecided ones first, then the best of --best; tiles show these, and the report "
-      "says how well coarse ranked full");
+      "With --coarsen N: when all runs have ended, make K points at full resolution as well, with "
+      "all of their seeds, in the same folder: the undecided ones first, then the best of --best; "
+      "tiles show these, and the report says how well coarse ranked full");
   visit("--refine-runs", o.refine_runs, options::text("LIST", "3,7-9"),
-        "With --coarsen N: make these runs at full resolution as well, as in 3,7-9");
+        "With --coarsen N: make these runs at full resolution as well, as in 3,7-9; with --seeds "
+        "the points that they are of");
   visit("--best", o.best, options::text("METRIC", "height"),
         "Metric of data.csv by which --refine chooses, the greatest first; METRIC:least for the "
         "least, "
@@ -151,6 +153,20 @@ void check_places(const SweepOptions& o) {
   if (!o.sbatch.empty() && o.engine != "slurm")
     throw UsageError("--sbatch", "works only with --engine slurm",
                      "add --engine slurm, or remove --sbatch");
+}
+
+/// A seed draws particles at the start of a run; later there is nothing left to draw.
+void check_seeds(const SweepOptions& o) {
+  if (!o.from || o.seeds == 0) return;
+  const std::string time = scene::toml::number_text(*o.from) + "s";
+  throw UsageError(
+      "--seeds",
+      fmt::format("cannot be combined with --from: the state of {} at {} has drawn its "
+                  "particles already, and all seeds would give the same runs",
+                  o.file, time),
+      fmt::format("simulate the beginning with each seed: neve sweep SCENE --fork {} "
+                  "--seeds {}",
+                  time, o.seeds));
 }
 
 void check_prediction(const SweepOptions& o) {
@@ -244,6 +260,7 @@ void describe(options::Command& visit, SweepOptions& o) {
       throw UsageError("sweep", o.file + " is a folder, not a scene",
                        "to vary its run from a time on, add --from TIME");
     check_places(o);
+    check_seeds(o);
     check_prediction(o);
     check_refinement(o);
   });
@@ -254,7 +271,7 @@ void describe(options::Command& visit, SweepRunOptions& o) {
   visit("--index", o.index, options::number<int>("N", 0, 1e9, "the number of a run, from 0"),
         "Number of the run");
   visit("--beginning", o.is_beginning,
-        "Make the common beginning of a sweep with --fork, instead of a run")
+        "Make the common beginning of a sweep with --fork, one for each seed, instead of a run")
       .excludes({"--index"}, "give one of the two");
   describe_retry(visit, o.retry_failed,
                  "Repeat the run if it failed before, or ended in one of these states, as in "

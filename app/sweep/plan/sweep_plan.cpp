@@ -279,21 +279,38 @@ void plan_copies(const SceneMaker& maker, SweepPlan& plan) {
   }
 }
 
+/// The common beginning of the runs with the seed of this one.
+PlannedRun beginning_for(const PlannedRun& item, int number, const SweepPlan& plan) {
+  Run beginning;
+  beginning.index = static_cast<int>(plan.beginnings.size());
+  beginning.label = "the common beginning";
+  beginning.frames = {number, number};
+  if (plan.source) {
+    beginning.settings = plan.sweep.fixed;
+    return planned(std::move(beginning), plan.source->scene, plan.quality);
+  }
+  scene::Scene scene = plan.base;
+  if (plan.sweep.settings.seeds > 0) {
+    scene.seed = item.scene.seed;
+    beginning.label += fmt::format(" with seed {}", scene.seed);
+  }
+  return planned(std::move(beginning), std::move(scene), plan.quality);
+}
+
 /// Takes the common beginning off the runs. @throws UsageError where they cannot have one
 void share_beginning(double time, SweepPlan& plan) {
   const char* flag = plan.source ? "--from" : "--fork";
   const int frame = timeline::frame_at(time, plan.base.fps);
   run::require_whole_frame(plan.base, time, flag);
   plan.fork = time;
-  Run beginning;
-  beginning.label = "the common beginning";
   const int start = scene::number_of(plan.base, 0), number = start + frame;
-  beginning.frames = {number, number};
-  if (plan.source) beginning.settings = plan.sweep.fixed;
-  plan.beginning =
-      planned(std::move(beginning), plan.source ? plan.source->scene : plan.base, plan.quality);
+  const auto seeds = static_cast<std::size_t>(plan.sweep.runs_per_point());
+  for (std::size_t k = 0; k < std::min(seeds, plan.runs.size()); ++k)
+    plan.beginnings.push_back(beginning_for(plan.runs[k], number, plan));
   for (PlannedRun& item : plan.runs) {
-    timeline::require_live(plan.base, item.scene, flag);
+    scene::Scene before = plan.base;
+    before.seed = plan.source ? before.seed : plan.beginning_of(item.run).scene.seed;
+    timeline::require_live(before, item.scene, flag);
     setup::FrameRange& frames = item.run.frames;
     if (frames.last <= number)
       throw UsageError(flag,
@@ -352,18 +369,22 @@ double work_ratio(const SweepPlan& plan, double coarsening) {
 void add_full_runs(const SweepOptions& options, const std::vector<std::size_t>& points,
                    SweepPlan& plan) {
   const SceneMaker maker(options, plan.sweep, plan.source);
-  for (const std::size_t point : points) {
-    const Run& coarse = plan.runs[point].run;
-    scene::Scene scene = maker.make_full(coarse.settings);
-    maker.prepare(scene);
-    Run run;
-    run.label = fmt::format("run {} at full resolution", coarse.index);
-    run.settings = coarse.settings;
-    run.frames = coarse.frames;
-    PlannedVariant full{point, 1, planned(std::move(run), std::move(scene), plan.quality), ""};
-    full.item.run.index = static_cast<int>(plan.runs.size() + plan.variants.size());
-    plan.variants.push_back(std::move(full));
-  }
+  const auto seeds = static_cast<std::size_t>(plan.sweep.runs_per_point());
+  // First seeds first: then the sheet, which shows these, is soon complete.
+  for (std::size_t draw = 0; draw < seeds; ++draw)
+    for (const std::size_t point : points) {
+      const Run& coarse = plan.runs[point + draw].run;
+      scene::Scene scene = maker.make_full(coarse.settings);
+      maker.prepare(scene);
+      Run run;
+      run.label = fmt::format("run {} at full resolution", coarse.index);
+      run.settings = coarse.settings;
+      run.frames = coarse.frames;
+      PlannedVariant full{point + draw, 1, planned(std::move(run), std::move(scene), plan.quality),
+                          ""};
+      full.item.run.index = static_cast<int>(plan.runs.size() + plan.variants.size());
+      plan.variants.push_back(std::move(full));
+    }
 }
 
 std::vector<int> axis_sizes(const SweepPlan& plan) {

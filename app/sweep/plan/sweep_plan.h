@@ -30,7 +30,7 @@ struct PlannedRun {
 
 /// A point of the sweep once more, with cells of another size.
 struct PlannedVariant {
-  std::size_t of = 0;  ///< the first run of the point
+  std::size_t of = 0;  ///< the run that it is at full resolution; of a copy the first of the point
   double coarsening = 1;
   PlannedRun item;
   std::string failure;  ///< why there can be none, a sentence; the item is empty then
@@ -47,9 +47,13 @@ struct SweepPlan {
   /// runs.
   std::vector<PlannedVariant> variants{};
   double coarsening = 1;  ///< of the runs
-  /// Common start of forked runs, up to the last frame before the fork. The frames and the work of
-  /// the runs begin after it. Its settings are the changes that all runs make at the fork.
-  std::optional<PlannedRun> beginning;
+  /// Common starts of forked runs, one for each seed, up to the last frame before the fork; none
+  /// without a fork. The frames and the work of the runs begin after them. Their settings are the
+  /// changes that all runs make at the fork.
+  std::vector<PlannedRun> beginnings{};
+  const PlannedRun& beginning_of(const Run& run) const {
+    return beginnings[static_cast<std::size_t>(run.index) % beginnings.size()];
+  }
   /// The run or picture in which the beginning is found; without it is simulated from the start.
   std::optional<run::RenderJob> source;
   bool keeps_states = false;
@@ -64,8 +68,8 @@ struct SweepPlan {
 /// @throws SceneError, UsageError, LimitError, sim::ShapeError
 SweepPlan plan_sweep(const SweepOptions& options);
 
-/// Plans a run at full resolution for each of these points, among the variants, with the camera and
-/// ranges that all runs share.
+/// Plans a run at full resolution for each seed of these points, among the variants, with the
+/// camera and ranges that all runs share.
 /// @param points  their first runs
 void add_full_runs(const SweepOptions& options, const std::vector<std::size_t>& points,
                    SweepPlan& plan);

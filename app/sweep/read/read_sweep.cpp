@@ -252,9 +252,8 @@ void refuse_duplicates(const Sweep& sweep, bool is_forked) {
   }
 }
 
-/// Seeds are of whole runs, and of all of them.
-/// @param key  that gave the seeds
-void refuse_other_draws(const Sweep& sweep, bool is_forked, const std::string& key) {
+/// Seeds are of all runs.
+void refuse_other_draws(const Sweep& sweep) {
   const std::string number = std::to_string(sweep.settings.seeds);
   for (const scene::Override* setting : varied(sweep))
     if (setting->address == "seed")
@@ -267,9 +266,6 @@ void refuse_other_draws(const Sweep& sweep, bool is_forked, const std::string& k
                      "a run has a seed of its own, and seeds = " + number + " gives each run " +
                          number + " of them",
                      "remove seed from the run, or remove seeds");
-  if (is_forked)
-    sweep.fail(key, "runs that fork share their beginning, and with it one draw of the particles",
-               "remove the fork, so that each run has its seed from the start, or remove seeds");
 }
 
 }  // namespace
@@ -305,9 +301,7 @@ Sweep parse_sweep(const std::string& text, const std::string& file, const SweepC
     sweep.fixed.push_back(scene::parse_override(argument));
   if (changes.seeds > 0) sweep.settings.seeds = changes.seeds;
   refuse_duplicates(sweep, changes.is_forked || !sweep.settings.fork.empty());
-  if (sweep.settings.seeds > 0)
-    refuse_other_draws(sweep, changes.is_forked || !sweep.settings.fork.empty(),
-                       changes.seeds > 0 ? "--seeds" : "sweep.seeds");
+  if (sweep.settings.seeds > 0) refuse_other_draws(sweep);
   if (!is_sweep && sweep.axes.empty())
     throw UsageError("", file + " is a scene, and no parameter varies",
                      "add -p ADDRESS=LIST, as in -p material.snow.hardening=5,10,20, or give a "

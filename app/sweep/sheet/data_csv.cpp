@@ -139,8 +139,11 @@ void add_parameter_names(const store::Manifest& manifest, ColumnNames& names, Ro
 
 constexpr std::array interval_columns{"", "_low", "_high"};
 
-void add_prediction_names(ColumnNames& names, Rows& rows) {
-  for (const char* name : {"full_by", "full_verdict"}) rows.add(names.unique(name, "_done"));
+void add_prediction_names(bool has_seeds, ColumnNames& names, Rows& rows) {
+  rows.add(names.unique("full_by", "_done"));
+  if (has_seeds)
+    for (const char* name : {"full_runs", "full_broken"}) rows.add(names.unique(name, "_done"));
+  rows.add(names.unique("full_verdict", "_done"));
   for (int q = 0; q < predict::quantity_count; ++q)
     for (const char* column : interval_columns)
       rows.add(names.unique(
@@ -148,9 +151,12 @@ void add_prediction_names(ColumnNames& names, Rows& rows) {
           "_done"));
 }
 
-void add_prediction(const predict::Prediction& prediction, Rows& rows) {
+void add_prediction(const predict::Prediction& prediction, bool has_seeds, Rows& rows) {
   const bool is_known = !prediction.reason.empty();
   rows.add(!is_known ? "-" : prediction.is_run ? "run" : "copies");
+  if (has_seeds)
+    for (const int count : {prediction.runs, prediction.broken})
+      rows.add(prediction.is_run ? std::to_string(count) : "");
   rows.add(is_known ? predict::name(prediction.verdict) : "-");
   for (std::size_t q = 0; q < predict::quantity_count; ++q) {
     if (prediction.estimates.empty()) {
@@ -184,7 +190,7 @@ void add_header(const store::Manifest& manifest, bool has_predictions, const Lis
     rows.add(names.unique(name, "_done"));
   for (const std::size_t metric : listed)
     rows.add(names.unique(store::metric_infos()[metric].name, "_done"));
-  if (has_predictions) add_prediction_names(names, rows);
+  if (has_predictions) add_prediction_names(manifest.seeds > 1, names, rows);
   for (const char* name : {"FILE", "FILE_scene"}) rows.add(name);
   rows.end();
 }
@@ -223,7 +229,7 @@ void add_row(const store::Manifest& manifest, const Run& run, const store::RunRe
     const std::optional<double> value = is_told ? result.metrics[k] : std::nullopt;
     rows.add(!value ? "" : metric.is_whole ? whole_text(*value) : float_text(*value));
   }
-  if (prediction) add_prediction(*prediction, rows);
+  if (prediction) add_prediction(*prediction, manifest.seeds > 1, rows);
   const std::string folder = "runs/" + run.folder;
   rows.add(result.frames.empty()
                ? ""
@@ -264,7 +270,7 @@ void add_point_header(const store::Manifest& manifest, bool has_predictions, con
   for (const std::size_t metric : listed)
     for (const char* column : point_columns)
       rows.add(names.unique(std::string(store::metric_infos()[metric].name) + column, "_done"));
-  if (has_predictions) add_prediction_names(names, rows);
+  if (has_predictions) add_prediction_names(manifest.seeds > 1, names, rows);
   rows.end();
 }
 
@@ -302,7 +308,7 @@ std::string points_csv(const store::Manifest& manifest,
          {points[k].count, points[k].ended, points[k].judged, points[k].broken})
       rows.add(std::to_string(count));
     for (const PointColumns& column : columns) add_cells(column, k, rows);
-    if (!predictions.empty()) add_prediction(predictions[k], rows);
+    if (!predictions.empty()) add_prediction(predictions[k], true, rows);
     rows.end();
   }
   return rows.text();

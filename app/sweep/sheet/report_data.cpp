@@ -157,12 +157,14 @@ struct Known {
   const std::vector<std::size_t>& metrics;          ///< that are listed
   const predict::Prediction* prediction = nullptr;  ///< of its point; null without
   const Run* full = nullptr;  ///< at full resolution, whose pictures are shown; null without
+  std::optional<bool> full_broken{};  ///< what its snow did
 };
 
 Json row_of(const std::string& folder, const store::Manifest& manifest, const Run& run,
             const store::RunResult& result, const Known& known) {
   const predict::Prediction* prediction = known.prediction;
   const Run& shown = known.full ? *known.full : run;
+  const std::optional<bool> broken = known.full ? known.full_broken : result.has_broken;
   const std::string pictures = "runs/" + shown.folder + "/" + manifest.view + "/";
   return {{"run", run.index},
           {"label", run.label},
@@ -170,7 +172,7 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
           {"failed", store::has_failed(result.status.state)},
           {"reason", result.status.reason},
           {"warnings", result.warnings},
-          {"broken", result.has_broken ? Json(*result.has_broken) : Json()},
+          {"broken", broken ? Json(*broken) : Json()},
           {"levels", run.coordinates},
           {"frames", ranges_of(result.frames)},
           {"pictures", pictures},
@@ -270,13 +272,17 @@ Json report_data(const std::string& folder, const store::Manifest& manifest,
   data["columns"] = column_names(manifest, !predictions.empty(), metrics);
   add_noise(manifest, results, predictions, data);
   data["rows"] = Json::array();
+  const std::vector<std::optional<store::RunResult>> full = store::full_results(folder, manifest);
   const auto seeds = static_cast<std::size_t>(manifest.seeds);
   for (std::size_t k = 0; k < manifest.runs.size(); ++k) {
     Known known{metrics};
     if (!predictions.empty()) known.prediction = &predictions[k / seeds];
-    if (known.prediction && known.prediction->is_run)
-      for (const store::Variant& variant : manifest.variants)
-        if (variant.is_full() && variant.of == k) known.full = &variant.run;
+    // Each seed has its own.
+    for (const store::Variant& variant : manifest.variants) {
+      if (!variant.is_full() || variant.of != k || !full[k]) continue;
+      known.full = &variant.run;
+      known.full_broken = full[k]->has_broken;
+    }
     data["rows"].push_back(row_of(folder, manifest, manifest.runs[k], results[k], known));
   }
   return data;

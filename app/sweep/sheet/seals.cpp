@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> seal_ink{240, 244, 250}, seal_grey{190, 199, 212},
     seal_caution{255, 205, 96};
-constexpr std::array<std::uint8_t, 4> rail{96, 106, 122, 255}, whisker{240, 244, 250, 255},
-    grey_whisker{142, 150, 162, 255};
+constexpr std::array<std::uint8_t, 4> rail{96, 106, 122, 255}, white_whisker{240, 244, 250, 255},
+    grey_whisker{142, 150, 162, 255}, coarse_whisker{108, 172, 228, 255};
 
 struct Scale {
   double low = 0, high = 0;
@@ -34,6 +34,8 @@ std::string with_unit(double x, const std::string& unit) {
   return rough_text(x) + (unit.empty() ? "" : " " + unit);
 }
 
+constexpr float square_width = 1.5f;  // in sizes of the font
+
 /// A square for each group, or one for many. @return the left end, px
 float draw_letters(const std::vector<int>& groups, float right, float y, float size,
                    render::Frame& words) {
@@ -51,7 +53,7 @@ float draw_letters(const std::vector<int>& groups, float right, float y, float s
     return right;
   }
   for (auto group = groups.rbegin(); group != groups.rend(); ++group)
-    square(store::group_letters({*group}), *group, 1.5f * size);
+    square(store::group_letters({*group}), *group, square_width * size);
   return right;
 }
 
@@ -66,6 +68,10 @@ std::string outcome_at(const store::Point& point, const store::RunResult& run) {
 std::string predicted_outcome(const predict::Prediction& prediction, const store::Point& point) {
   const std::string coarse = point.count == 1 ? "" : "coarse: " + store::outcome_text(point);
   if (!prediction.is_run && prediction.reason.empty()) return coarse;
+  if (prediction.is_run && prediction.runs > 1)
+    return fmt::format("full: {} in {} of {}; {}", prediction.broken > 0 ? "breaks" : "holds",
+                       prediction.broken > 0 ? prediction.broken : prediction.runs, prediction.runs,
+                       coarse);
   return std::string(prediction.is_run ? "full resolution: " : "expected at full resolution: ") +
          predict::name(prediction.verdict) + (coarse.empty() ? "" : "; " + coarse);
 }
@@ -76,13 +82,22 @@ namespace {
 struct Whiskers {
   std::string title, unit;
   std::vector<store::Summary> points;
+  std::vector<store::Summary> coarse{};  ///< beside those at full resolution; none without seeds
 };
 
 /// Fills in the values, groups and whiskers. @return the scale; low > high where nothing has a
 /// value
 Scale place_whiskers(const Whiskers& shown, Seals& seals) {
   const std::vector<std::vector<int>> groups = store::close_groups(shown.points);
-  const Scale scale = scale_of(shown.points);
+  std::vector<store::Summary> all = shown.points;
+  all.insert(all.end(), shown.coarse.begin(), shown.coarse.end());
+  const Scale scale = scale_of(all);
+  for (std::size_t k = 0; k < shown.coarse.size(); ++k) {
+    const store::Summary& s = shown.coarse[k];
+    if (s.count > 0)
+      seals.of_points[k].coarse = {with_unit(s.mean, shown.unit), scale.place(s.min),
+                                   scale.place(s.mean), scale.place(s.max)};
+  }
   for (std::size_t k = 0; k < shown.points.size(); ++k) {
     Seal& seal = seals.of_points[k];
     const store::Summary& s = shown.points[k];
@@ -155,20 +170,58 @@ Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResu
                                {}});
   const predict::Quantity quantity = telling.value_or(predict::Quantity::spread);
   const predict::QuantityInfo& info = predict::info_of(quantity);
-  const Scale scale =
-      place_whiskers({info.title, info.unit, store::summaries_of(predictions, quantity)}, seals);
+  Whiskers shown{info.title, info.unit, store::summaries_of(predictions, quantity)};
+  if (manifest.seeds > 1) shown.coarse = store::summaries_of(points, store::metric_of(quantity));
+  const Scale scale = place_whiskers(shown, seals);
   if (scale.low > scale.high) return seals;
   if (known > 1) seals.key.push_back(letters_key(seals));
+  if (manifest.seeds > 1) {
+    const bool has_runs = std::any_of(predictions.begin(), predictions.end(),
+                                      [](const predict::Prediction& p) { return p.is_run; });
+    seals.key.push_back(
+        fmt::format("whiskers: {}, min to max and mean, {}; blue: {} coarse seeds, white: {}",
+                    info.title, scale_text(scale, info.unit), manifest.seeds,
+                    has_runs ? "full resolution" : "expected at full resolution"));
+    return seals;
+  }
   seals.key.push_back(fmt::format("whisker: {}{}, {}", info.title, whisker_words(predictions),
                                   scale_text(scale, info.unit)));
   return seals;
 }
 
+namespace {
+
+/// A rail from left to right with the whisker on it, and the value at its end.
+struct WhiskerPlace {
+  float left, right, y, room, size;  ///< px; room is that of the value
+};
+
+void draw_whisker(const Whisker& shown, const WhiskerPlace& place,
+                  const std::array<std::uint8_t, 4>& color, const std::array<std::uint8_t, 3>& ink,
+                  render::Frame& words) {
+  const float size = place.size, edge = 0.6f * size,
+              length = place.right - 2 * edge - place.room - place.left,
+              middle = place.y + 0.55f * size;
+  const auto at = [&](double share) { return place.left + static_cast<float>(share) * length; };
+  const float thin = std::max(1.0f, 0.1f * size), thick = std::max(2.0f, 0.22f * size),
+              dot = 0.6f * size;
+  words.patches.push_back({place.left, middle - 0.5f * thin, length, thin, rail});
+  words.patches.push_back({at(shown.min) - 0.5f * thick, middle - 0.5f * thick,
+                           at(shown.max) - at(shown.min) + thick, thick, color});
+  words.patches.push_back({at(shown.mean) - 0.5f * dot, middle - 0.5f * dot, dot, dot, color});
+  words.notes.push_back({place.right - 0.5f * edge, place.y, shown.value,
+                         render::Note::Anchor::right, place.room, false, ink});
+}
+
+}  // namespace
+
 void draw_seal(const Seal& seal, bool is_noise, const SealPlace& tile, render::Frame& words) {
   const float size = tile.font_size, line = 1.3f * size, edge = 0.6f * size;
-  const bool has_value = !seal.value.empty(), has_outcome = !seal.outcome.empty();
-  if (!has_value && !has_outcome) return;
-  const float height = line * static_cast<float>(has_value + has_outcome) + 0.5f * size;
+  const bool has_value = !seal.value.empty(), has_outcome = !seal.outcome.empty(),
+             has_coarse = !seal.coarse.value.empty();
+  if (!has_value && !has_outcome && !has_coarse) return;
+  const float height =
+      line * static_cast<float>(has_value + has_outcome + has_coarse) + 0.5f * size;
   const float top = tile.y + tile.height - height;
   words.patches.push_back({tile.x, top, tile.width, height, {8, 10, 16, 190}});
   float y = top + 0.25f * size;
@@ -178,20 +231,26 @@ void draw_seal(const Seal& seal, bool is_noise, const SealPlace& tile, render::F
                            seal.is_undecided ? seal_caution : seal_ink});
     y += line;
   }
+  const float label = has_coarse ? 5 * size : 0;
+  const float last = y + (has_coarse ? line : 0);
+  const float end = tile.x + tile.width - edge;
+  float right = has_value ? draw_letters(seal.groups, end, last, size, words) : end;
+  // Room for a letter in any case: rails of one scale are equally long.
+  if (has_coarse) right = std::min(right, end - square_width * size);
+  WhiskerPlace place{tile.x + edge + label, right, y, 0.26f * tile.width, size};
+  const auto name = [&](const char* text) {
+    words.notes.push_back(
+        {tile.x + edge, place.y, text, render::Note::Anchor::left, label, false, seal_ink});
+  };
+  if (has_coarse) {
+    name("coarse");
+    draw_whisker(seal.coarse, place, coarse_whisker, seal_ink, words);
+    place.y = last;
+  }
   if (!has_value) return;
-  const float right = draw_letters(seal.groups, tile.x + tile.width - edge, y, size, words);
-  const float room = 0.26f * tile.width, left = tile.x + edge,
-              length = right - 2 * edge - room - left, middle = y + 0.55f * size;
-  const auto at = [&](double place) { return left + static_cast<float>(place) * length; };
-  const float thin = std::max(1.0f, 0.1f * size), thick = std::max(2.0f, 0.22f * size),
-              dot = 0.6f * size;
-  const auto& color = is_noise ? grey_whisker : whisker;
-  words.patches.push_back({left, middle - 0.5f * thin, length, thin, rail});
-  words.patches.push_back({at(seal.min) - 0.5f * thick, middle - 0.5f * thick,
-                           at(seal.max) - at(seal.min) + thick, thick, color});
-  words.patches.push_back({at(seal.mean) - 0.5f * dot, middle - 0.5f * dot, dot, dot, color});
-  words.notes.push_back({right - 0.5f * edge, y, seal.value, render::Note::Anchor::right, room,
-                         false, is_noise ? seal_grey : seal_ink});
+  if (has_coarse) name(seal.is_run ? "full" : "expected");
+  draw_whisker({seal.value, seal.min, seal.mean, seal.max}, place,
+               is_noise ? grey_whisker : white_whisker, is_noise ? seal_grey : seal_ink, words);
 }
 
 }  // namespace neve::app::sweep::sheet

@@ -17,6 +17,12 @@ namespace neve::app::sweep::sheet {
 inline constexpr std::array<std::array<std::uint8_t, 3>, 6> group_colours{
     {{46, 117, 182}, {178, 92, 32}, {58, 132, 80}, {148, 84, 158}, {128, 116, 40}, {170, 70, 96}}};
 
+/// Places on a scale that all tiles share, 0 to 1.
+struct Whisker {
+  std::string value;  ///< "0.42 m"; "" where no run tells
+  double min = 0, mean = 0, max = 0;
+};
+
 struct Seal {
   std::string outcome;        ///< "breaks in 1 of 4: not here"
   bool is_undecided = false;  ///< some runs break
@@ -24,6 +30,8 @@ struct Seal {
   std::string value;          ///< "0.42 m"; "" where no run tells
   std::vector<int> groups;    ///< tiles that share one are too close to call; none where all are
   double min = 0, mean = 0, max = 0;  ///< places on a scale that all tiles share, 0 to 1
+  /// Of the coarse runs, beside that of full resolution; only with seeds.
+  Whisker coarse{};
 };
 
 /// Of a sweep with seeds or predictions; without, there are none.
@@ -34,11 +42,13 @@ struct Seals {
 };
 
 /// The metric of the whiskers is the first that is not noise, of those that measure the snow. With
-/// predictions they show these, of the first quantity that tells points apart.
+/// predictions they show these, of the first quantity that tells points apart, and with seeds the
+/// coarse runs beside them.
 Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResult>& results,
                const std::vector<predict::Prediction>& predictions);
 
-/// "expected at full resolution: undecided; coarse: breaks in 1 of 4", "full resolution: breaks";
+/// "expected at full resolution: undecided; coarse: breaks in 1 of 4", "full resolution: breaks",
+/// "full: breaks in 2 of 4; coarse: breaks in 1 of 4";
 /// "" of a point of which nothing is known.
 std::string predicted_outcome(const predict::Prediction& prediction, const store::Point& point);
 

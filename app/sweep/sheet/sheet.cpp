@@ -144,11 +144,12 @@ SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& mani
 
 void SheetMaker::show_full_runs(const store::Manifest& manifest) {
   const std::vector<std::optional<store::RunResult>> full = store::full_results(folder_, manifest);
+  const auto seeds = static_cast<std::size_t>(manifest.seeds);
   for (const store::Variant& variant : manifest.variants) {
-    const std::size_t place = variant.of / static_cast<std::size_t>(manifest.seeds);
-    if (!variant.is_full() || !full[place]) continue;
-    manifest_.runs[place].folder = variant.run.folder;
-    results_[place] = *full[place];
+    // A tile shows the first seed.
+    if (!variant.is_full() || !full[variant.of] || variant.of % seeds != 0) continue;
+    manifest_.runs[variant.of / seeds].folder = variant.run.folder;
+    results_[variant.of / seeds] = *full[variant.of];
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -117,6 +118,24 @@ Run run_of(const Json& json) {
                                          [](char c) { return c >= '0' && c <= '9'; });
   if (!is_plain) throw std::runtime_error("the folder of a run is not a number");
   return run;
+}
+
+/// Of the first seed, then of the further ones, which sweeps without seeds do not have.
+Json beginning_json(const Beginning& beginning) {
+  Json json = {{"time", beginning.time},
+               {"run", run_json(beginning.runs.front())},
+               {"source", beginning.source}};
+  for (std::size_t k = 1; k < beginning.runs.size(); ++k)
+    json["further"].push_back(run_json(beginning.runs[k]));
+  return json;
+}
+
+Beginning beginning_of(const Json& json) {
+  Beginning beginning{
+      json.at("time").get<double>(), {run_of(json.at("run"))}, json.value("source", "")};
+  for (const Json& run : json.value("further", Json::array()))
+    beginning.runs.push_back(run_of(run));
+  return beginning;
 }
 
 Json variant_json(const Variant& variant) {
@@ -238,7 +257,9 @@ void check_values(const Manifest& m) {
   check(places >= 1 && places <= 10.0 * max_runs, "its axes have no or too many values");
   if (m.beginning) {
     check(is_amount(m.beginning->time), "its fork time is invalid");
-    check_run(m, m.beginning->run);
+    check(m.beginning->runs.size() <= static_cast<std::size_t>(m.seeds),
+          "it has more beginnings than seeds");
+    for (const Run& run : m.beginning->runs) check_run(m, run);
   }
   for (std::size_t k = 0; k < m.runs.size(); ++k) {
     const Run& run = m.runs[k];
@@ -248,7 +269,8 @@ void check_values(const Manifest& m) {
   check(m.variants.size() <= max_runs, "it has too many variants");
   for (std::size_t k = 0; k < m.variants.size(); ++k) {
     const Variant& variant = m.variants[k];
-    check(variant.of < m.runs.size() && variant.of % static_cast<std::size_t>(m.seeds) == 0,
+    check(variant.of < m.runs.size() &&
+              (variant.is_full() || variant.of % static_cast<std::size_t>(m.seeds) == 0),
           "a variant is of no point");
     check(variant.coarsening >= 1 && variant.coarsening <= 1e6, "the cells of a variant are wrong");
     if (!variant.failure.empty()) continue;
@@ -267,11 +289,15 @@ std::string run_text(const Run& run) {
 }
 
 run::RenderOptions Beginning::fork_of(const Run& branch, const std::string& folder) const {
+  const Run& beginning = run_of(branch);
   run::RenderOptions options;
-  options.scene = folder + "/beginning";
+  options.scene = beginning_folder(folder, beginning).string();
   options.from = time;
-  for (const std::vector<scene::Override>* settings : {&run.settings, &branch.settings})
-    for (const std::string& text : scene::texts_of(*settings)) options.overrides.push_back(text);
+  std::vector<scene::Override> changes = beginning.settings;
+  // The seed is that of the beginning, whose particles it has drawn.
+  std::copy_if(branch.settings.begin(), branch.settings.end(), std::back_inserter(changes),
+               [](const scene::Override& setting) { return setting.address != "seed"; });
+  options.overrides = scene::texts_of(changes);
   return options;
 }
 
@@ -361,10 +387,13 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   std::error_code error;
   if (!plan.source && std::filesystem::is_regular_file(m.scene_file, error))
     m.scene_hash = record::hash_of(scene::read_toml_file(m.scene_file));
-  if (!plan.beginning) return m;
-  m.beginning = {plan.fork, plan.beginning->run, plan.source ? plan.source->scene_file : ""};
-  m.beginning->run.key = key_of_beginning(plan);
-  m.beginning->run.folder = run_folder_name(0);
+  if (plan.beginnings.empty()) return m;
+  m.beginning = {plan.fork, {}, plan.source ? plan.source->scene_file : ""};
+  for (const plan::PlannedRun& item : plan.beginnings) {
+    Run& run = m.beginning->runs.emplace_back(item.run);
+    run.key = key_of_beginning(plan, item);
+    run.folder = run_folder_name(run.index);
+  }
   return m;
 }
 
@@ -419,10 +448,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   for (const AxisLabels& axis : m.screened)
     json["screened"].push_back({{"name", axis.name}, {"addresses", axis.addresses}});
   if (m.varied) json["varied"] = *m.varied;
-  if (m.beginning)
-    json["beginning"] = {{"time", m.beginning->time},
-                         {"run", run_json(m.beginning->run)},
-                         {"source", m.beginning->source}};
+  if (m.beginning) json["beginning"] = beginning_json(*m.beginning);
   json["keeps_states"] = m.keeps_states;
   json["quality"] = setup::name(m.quality);
   json["seconds_per_work"] = m.seconds_per_work;
@@ -483,10 +509,7 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     m.scene_hash = json.value("scene_hash", "");
     if (json.contains("varied")) m.varied = json.at("varied").get<std::vector<std::string>>();
     for (const Json& run : json.at("runs")) m.runs.push_back(run_of(run));
-    if (json.contains("beginning"))
-      m.beginning = {json.at("beginning").at("time").get<double>(),
-                     run_of(json.at("beginning").at("run")),
-                     json.at("beginning").value("source", "")};
+    if (json.contains("beginning")) m.beginning = beginning_of(json.at("beginning"));
     for (const Json& variant : json.value("variants", Json::array()))
       m.variants.push_back(variant_of(variant));
     m.coarsened = json.value("coarsened", "");

@@ -26,12 +26,18 @@ struct AxisLabels {
   std::vector<std::string> addresses{};  ///< of the parameters that it sets
 };
 
-/// The common beginning of runs that fork later than at the start, in DIR/beginning.
+/// The common beginning of runs that fork later than at the start, one for each seed.
 struct Beginning {
   double time = 0;  ///< s, where the runs fork
-  Run run;          ///< its frame is the last one before; its settings are made by all runs there
+  /// Their frame is the last one before; their settings are made by all runs there. See
+  /// beginning_folder() for where they are.
+  std::vector<Run> runs{};
   std::string source{};  ///< run or picture that it was taken from; "": simulated from the start
 
+  /// Of the seed of a run.
+  const Run& run_of(const Run& branch) const {
+    return runs[static_cast<std::size_t>(branch.index) % runs.size()];
+  }
   /// The command that forks a run from it. @param folder  of the sweep, as the command sees it
   run::RenderOptions fork_of(const Run& branch, const std::string& folder) const;
 };
@@ -40,7 +46,7 @@ struct Beginning {
 /// run at full resolution.
 struct Variant {
   Run run;  ///< its number follows those of the sweep's runs; its folder is one of theirs
-  std::size_t of = 0;  ///< the first run of the point
+  std::size_t of = 0;  ///< the run that it is at full resolution; of a copy the first of the point
   double coarsening = 1;
   std::string failure;  ///< why there can be none, a sentence; the run is empty then
 

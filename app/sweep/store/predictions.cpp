@@ -37,17 +37,27 @@ predict::Copy copy_of(const std::filesystem::path& folder, const Manifest& manif
   return copy;
 }
 
-/// The run itself, as an interval without width.
-predict::Prediction prediction_of(const RunResult& full) {
+/// The runs themselves, one for each seed: mean and range of their values.
+predict::Prediction prediction_of(const std::vector<const RunResult*>& full) {
   predict::Prediction known = predict::silent("it has no snow at the start");
   known.is_run = true;
-  if (!full.has_broken) return known;
-  known.verdict = *full.has_broken ? predict::Verdict::breaks : predict::Verdict::holds;
-  known.reason = "the run at full resolution";
+  for (const RunResult* result : full) {
+    known.runs += result->has_broken.has_value();
+    known.broken += result->has_broken.value_or(false);
+  }
+  if (known.runs == 0) return known;
+  known.verdict = known.broken == known.runs ? predict::Verdict::breaks
+                  : known.broken == 0        ? predict::Verdict::holds
+                                             : predict::Verdict::undecided;
+  known.reason = known.runs == 1 ? "the run at full resolution"
+                                 : fmt::format("{} runs at full resolution", known.runs);
   for (int q = 0; q < predict::quantity_count; ++q) {
     const auto quantity = static_cast<predict::Quantity>(q);
-    const double value = full.metrics[metric_of(quantity)].value_or(0);
-    known.estimates.push_back({quantity, value, value, value});
+    std::vector<double> values;
+    for (const RunResult* result : full)
+      if (result->has_broken) values.push_back(result->metrics[metric_of(quantity)].value_or(0));
+    const Summary s = summary_of(values);
+    known.estimates.push_back({quantity, s.mean, s.min, s.max, s.variance});
   }
   return known;
 }
@@ -79,12 +89,20 @@ std::vector<std::optional<RunResult>> full_results(const std::filesystem::path& 
   std::vector<std::optional<RunResult>> full;
   for (const Variant& variant : manifest.variants) {
     if (!variant.is_full()) continue;
-    full.resize(manifest.runs.size() / static_cast<std::size_t>(manifest.seeds));
+    full.resize(manifest.runs.size());
     RunResult result = read_result(folder, variant.run, manifest.view);
-    if (is_whole(variant.run, result))
-      full[variant.of / static_cast<std::size_t>(manifest.seeds)] = std::move(result);
+    if (is_whole(variant.run, result)) full[variant.of] = std::move(result);
   }
   return full;
+}
+
+std::vector<const RunResult*> full_results_of(const std::vector<std::optional<RunResult>>& full,
+                                              std::size_t first, int seeds) {
+  std::vector<const RunResult*> of_point;
+  const std::size_t end = std::min(full.size(), first + static_cast<std::size_t>(seeds));
+  for (std::size_t run = first; run < end; ++run)
+    if (full[run]) of_point.push_back(&*full[run]);
+  return of_point;
 }
 
 std::vector<predict::Prediction> predictions_of(const std::filesystem::path& folder,
@@ -93,9 +111,10 @@ std::vector<predict::Prediction> predictions_of(const std::filesystem::path& fol
   if (manifest.variants.empty()) return predictions;
   const std::vector<std::optional<RunResult>> full = full_results(folder, manifest);
   const auto seeds = static_cast<std::size_t>(manifest.seeds);
-  for (std::size_t k = 0; k < manifest.runs.size() / seeds; ++k)
-    predictions.push_back(!full.empty() && full[k] ? prediction_of(*full[k])
-                                                   : judge_copies(folder, manifest, k * seeds));
+  for (std::size_t first = 0; first < manifest.runs.size(); first += seeds) {
+    const std::vector<const RunResult*> own = full_results_of(full, first, manifest.seeds);
+    predictions.push_back(own.empty() ? judge_copies(folder, manifest, first) : prediction_of(own));
+  }
   return predictions;
 }
 
@@ -106,11 +125,16 @@ std::vector<Summary> summaries_of(const std::vector<predict::Prediction>& predic
     Summary& summary = summaries.emplace_back();
     if (prediction.estimates.empty()) continue;
     const predict::Estimate& e = prediction.estimates[static_cast<std::size_t>(quantity)];
-    summary = {.count = std::max<std::size_t>(1, prediction.copies.size()),
+    // Runs of several seeds are compared by their noise, all else by its interval.
+    const bool has_noise = prediction.is_run && prediction.runs > 1;
+    const std::size_t count =
+        prediction.is_run ? static_cast<std::size_t>(prediction.runs) : prediction.copies.size();
+    summary = {.count = std::max<std::size_t>(1, count),
                .mean = e.expected,
                .min = e.low,
                .max = e.high,
-               .is_interval = true};
+               .variance = e.variance,
+               .is_interval = !has_noise};
   }
   return summaries;
 }

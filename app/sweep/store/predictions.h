@@ -12,13 +12,18 @@
 
 namespace neve::app::sweep::store {
 
-/// The results of the runs at full resolution that have ended, one place for each point; empty for
-/// a sweep without --refine.
+/// The results of the runs at full resolution that have ended, one place for each run of the sweep;
+/// empty for a sweep without --refine.
 std::vector<std::optional<RunResult>> full_results(const std::filesystem::path& folder,
                                                    const Manifest& manifest);
 
-/// One for each point: its run at full resolution where it has one, otherwise what its copies say;
-/// none of a sweep without --predict and --refine.
+/// Of the seeds of a point, those that ended at full resolution.
+/// @param full  see full_results() @param first  run of the point
+std::vector<const RunResult*> full_results_of(const std::vector<std::optional<RunResult>>& full,
+                                              std::size_t first, int seeds);
+
+/// One for each point: its runs at full resolution where it has some, otherwise what its copies
+/// say; none of a sweep without --predict and --refine.
 std::vector<predict::Prediction> predictions_of(const std::filesystem::path& folder,
                                                 const Manifest& manifest);
 

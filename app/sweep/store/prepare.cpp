@@ -92,12 +92,13 @@ bool has_text(const fs::path& file, const std::string& text) {
 
 /// The scene of a branch is that of the beginning; its own values are changes on the way.
 std::string text_of_run(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
-  if (!plan.beginning) return scene::write_scene(item.scene);
+  if (plan.beginnings.empty()) return scene::write_scene(item.scene);
+  const plan::PlannedRun& beginning = plan.beginning_of(item.run);
   const run::RenderOptions options =
-      Beginning{plan.fork, plan.beginning->run}.fork_of(item.run, "../..");
+      Beginning{plan.fork, {beginning.run}}.fork_of(item.run, "../..");
   return "# A run that forks from the common beginning. In this folder:\n# " +
          options::shell_line(options::words_of(options)) + "\n" +
-         scene::write_scene(plan.beginning->scene);
+         scene::write_scene(beginning.scene);
 }
 
 /// The keys of a run, and its scene as text.
@@ -134,8 +135,8 @@ std::string key_of(const plan::PlannedRun& item) {
                          std::to_string(item.run.frames.last));
 }
 
-std::string key_of_beginning(const plan::SweepPlan& plan) {
-  const std::string key = key_of(*plan.beginning);
+std::string key_of_beginning(const plan::SweepPlan& plan, const plan::PlannedRun& beginning) {
+  const std::string key = key_of(beginning);
   return plan.source ? record::hash_of(fmt::format("{} at {} after {}", key, plan.fork,
                                                    changes_of_source(plan)))
                      : key;
@@ -146,15 +147,18 @@ std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
   std::string more;
   if (plan.quality != setup::Quality::preview)
     more += fmt::format("\nquality {}", setup::name(plan.quality));
-  if (plan.beginning) more += fmt::format("\nfrom {} of {}", plan.fork, key_of_beginning(plan));
+  if (!plan.beginnings.empty())
+    more += fmt::format("\nfrom {} of {}", plan.fork,
+                        key_of_beginning(plan, plan.beginning_of(item.run)));
   return more.empty() ? own : record::hash_of(own + more);
 }
 
 std::string simulation_key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
   std::string text = run::simulation_text(item.scene) + run::surroundings_of(item.scene);
-  if (plan.beginning)
+  if (!plan.beginnings.empty())
     text += fmt::format("\nfrom {} of {} after {}", plan.fork,
-                        run::simulation_text(plan.beginning->scene), changes_of_source(plan));
+                        run::simulation_text(plan.beginning_of(item.run).scene),
+                        changes_of_source(plan));
   return record::hash_of(text);
 }
 
@@ -169,10 +173,10 @@ Manifest prepare_sweep(const plan::SweepPlan& plan, Redrawn* redrawn) {
     if (items[k])
       write_run(runs_folder(plan.folder) / folders[k],
                 {text_of_run(plan, *items[k]), keys[k], simulation_key_of(plan, *items[k])});
-  if (plan.beginning)
-    write_run(beginning_folder(plan.folder),
-              {scene::write_scene(plan.beginning->scene), key_of_beginning(plan),
-               simulation_key_of(plan, *plan.beginning)});
+  for (const plan::PlannedRun& item : plan.beginnings)
+    write_run(beginning_folder(plan.folder, item.run),
+              {scene::write_scene(item.scene), key_of_beginning(plan, item),
+               simulation_key_of(plan, item)});
   if (!plan.sweep.file.empty())
     output::write_file(plan.folder / "sweep.toml", scene::read_toml_file(plan.sweep.file));
   write_manifest(plan.folder, manifest);

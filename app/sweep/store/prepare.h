@@ -26,8 +26,8 @@ std::string key_of(const plan::PlannedRun& item);
 /// The same for a run of a sweep: with its beginning, where it has one in common with others.
 std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item);
 
-/// Key of the common beginning, with the changes of the run that it was taken from.
-std::string key_of_beginning(const plan::SweepPlan& plan);
+/// Key of a common beginning, with the changes of the run that it was taken from.
+std::string key_of_beginning(const plan::SweepPlan& plan, const plan::PlannedRun& beginning);
 
 /// Hash of all that the states of a run depend on.
 std::string simulation_key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item);

@@ -101,37 +101,68 @@ std::optional<double> rank_correlation(const std::vector<double>& a, const std::
   return xy / std::sqrt(xx * yy);
 }
 
+namespace {
+
+/// Where the snow breaks in all of the runs, in none or in some; nothing where none tells.
+struct Outcome {
+  std::size_t judged = 0, broken = 0;
+
+  bool is_told() const { return judged > 0; }
+  bool is_like(const Outcome& other) const {
+    return (broken == 0) == (other.broken == 0) &&
+           (broken == judged) == (other.broken == other.judged);
+  }
+};
+
+Outcome outcome_of(const std::vector<const RunResult*>& runs) {
+  Outcome outcome;
+  for (const RunResult* run : runs) {
+    outcome.judged += run->has_broken.has_value();
+    outcome.broken += run->has_broken.value_or(false);
+  }
+  return outcome;
+}
+
+}  // namespace
+
 std::string ranking_line(const Manifest& manifest, const std::vector<RunResult>& results,
                          const std::vector<std::optional<RunResult>>& full) {
   const std::vector<Point> points = points_of(manifest, results);
+  std::vector<std::vector<const RunResult*>> of_points;
   std::vector<std::string> found;
   std::size_t made = 0, same = 0, judged = 0;
-  for (std::size_t k = 0; k < full.size(); ++k) {
-    if (!full[k]) continue;
+  for (const Point& point : points) {
+    of_points.push_back(full_results_of(full, point.first, manifest.seeds));
+    if (of_points.back().empty()) continue;
     ++made;
-    const std::optional<bool> coarse = results[points[k].first].has_broken;
-    if (!coarse || !full[k]->has_broken) continue;
+    const Outcome coarse{point.judged, point.broken}, fine = outcome_of(of_points.back());
+    if (!coarse.is_told() || !fine.is_told()) continue;
     ++judged;
-    same += *coarse == *full[k]->has_broken;
+    same += coarse.is_like(fine);
   }
   for (int q = 0; q < predict::quantity_count; ++q) {
     const auto quantity = static_cast<predict::Quantity>(q);
     const std::size_t metric = metric_of(quantity);
     std::vector<double> coarse, fine;
-    for (std::size_t k = 0; k < full.size(); ++k) {
-      if (!full[k] || !full[k]->metrics[metric] || points[k].metrics[metric].count == 0) continue;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      std::vector<double> values;
+      for (const RunResult* run : of_points[k])
+        if (run->metrics[metric]) values.push_back(*run->metrics[metric]);
+      if (values.empty() || points[k].metrics[metric].count == 0) continue;
       coarse.push_back(points[k].metrics[metric].mean);
-      fine.push_back(*full[k]->metrics[metric]);
+      fine.push_back(summary_of(values).mean);
     }
     if (const std::optional<double> rho = rank_correlation(coarse, fine))
       found.push_back(fmt::format("{} {}", predict::info_of(quantity).title, fixed_text(*rho, 2)));
   }
   if (found.empty()) return "";
+  const bool has_seeds = manifest.seeds > 1;
   return fmt::format(
-      "{} points at full resolution: {} of {} break or hold as the coarse run did; rank "
-      "correlation "
-      "of coarse and full: {}",
-      made, same, judged, joined(found, ", "));
+      "{} points at full resolution: {} of {} {} as the coarse {} did; rank correlation of "
+      "{}coarse "
+      "and full: {}",
+      made, same, judged, has_seeds ? "break in all, some or none of their seeds" : "break or hold",
+      has_seeds ? "runs" : "run", has_seeds ? "the means of " : "", joined(found, ", "));
 }
 
 }  // namespace neve::app::sweep::store

@@ -142,7 +142,8 @@ double f_tail(double f, double between, double within) {
 }
 
 bool differ(const Summary& a, const Summary& b) {
-  if (a.is_interval && b.is_interval) return a.min > b.max || b.min > a.max;
+  if (a.count == 0 || b.count == 0) return false;
+  if (a.is_interval || b.is_interval) return a.min > b.max || b.min > a.max;
   if (a.count < 2 || b.count < 2) return false;
   const double difference = a.mean - b.mean;
   if (difference * difference <= std::max(rounding_square(a), rounding_square(b))) return false;

@@ -30,8 +30,8 @@ double t_tail(double t, double freedom);
 double f_tail(double f, double between, double within);
 
 /// True if the means differ by more than noise: Welch's interval of their difference, at a
-/// confidence of 1 - doubt, does not hold 0; of two intervals, if they do not overlap. False of
-/// points with less than two values.
+/// confidence of 1 - doubt, does not hold 0; where one of them is an interval, if min to max do not
+/// overlap. False of points with less than two values.
 /// Source: B. L. Welch 1947, The generalization of "Student's" problem.
 bool differ(const Summary& a, const Summary& b);
 

@@ -67,8 +67,9 @@ int frames_made(const fs::path& run_folder, const std::string& view,
   return known;
 }
 
-std::filesystem::path beginning_folder(const std::filesystem::path& sweep) {
-  return sweep / "beginning";
+std::filesystem::path beginning_folder(const std::filesystem::path& sweep, const Run& beginning) {
+  return sweep /
+         (beginning.index == 0 ? "beginning" : fmt::format("beginning_{}", beginning.index + 1));
 }
 
 RunStatus read_status(const fs::path& run_folder) {

@@ -45,8 +45,8 @@ struct RunStatus {
 std::string run_folder_name(int number);
 std::filesystem::path runs_folder(const std::filesystem::path& sweep);
 
-/// Of the common beginning of forked runs.
-std::filesystem::path beginning_folder(const std::filesystem::path& sweep);
+/// Of a common beginning of forked runs: beginning for the first seed, beginning_2 for the second.
+std::filesystem::path beginning_folder(const std::filesystem::path& sweep, const Run& beginning);
 
 /// Pending where there is no file or a broken one.
 RunStatus read_status(const std::filesystem::path& run_folder);

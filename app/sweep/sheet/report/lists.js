@@ -70,8 +70,15 @@ function sealTile(tile, row) {
   const column = columns[state.colour], outcome = outcomeText(row.at);
   const seal = make('span', {className: 'seal'}, make('em', {textContent: outcome,
     className: study.outcomes[pointOf(row.at)].undecided ? 'undecided' : ''}));
-  const s = column && summaryOf(column, row.at);
-  if (s) {
+  const s = column && summaryOf(column, row.at), twins = column && twinsOf(column);
+  if (twins) {
+    for (const [label, own] of [['coarse', twins.coarse], [row.full ? 'full' : 'expected', twins.full]]) {
+      const summary = summaryOf(own, row.at);
+      if (!summary) continue;
+      seal.append(make('span', {className: own === twins.coarse ? 'coarse' : ''},
+        make('small', {textContent: label}), whiskerOf(own, row.at, twins.place), ...lettersOf(own, summary)));
+    }
+  } else if (s) {
     seal.append(make('span', {}, whiskerOf(column, row.at), ...lettersOf(column, s)));
   }
   tile.classList.add('sealed');
@@ -84,7 +91,11 @@ function sealTile(tile, row) {
 function sealHint() {
   const column = columns[state.colour];
   if (!column || !column.points) return '';
-  const start = isPredicted(column)
+  const twins = twinsOf(column);
+  const start = twins
+    ? `Whiskers: ${twins.coarse.title}, blue: the coarse runs over ${seeds} seeds, from min to max, with the mean; white: the ` +
+      'runs at full resolution, or what is expected there with the interval that holds four times in five. '
+    : isPredicted(column)
     ? `Whisker: ${column.title}, expected at full resolution, with the interval that holds four times in five. `
     : `Whisker: ${column.title} over ${seeds} seeds, from min to max, with the mean. `;
   return start + (column.isNoise ? 'It is noise here: all tiles are too close to call.'
@@ -96,7 +107,7 @@ function tileLayout(width) {
   const fits = across > 1 && across <= most + 2 && width / across >= 120;
   const count = fits ? across : Math.min(most, Math.max(rows.length / seeds, 2));
   const side = Math.min(320, Math.floor(width / count));
-  return {count, side, height: Math.round(side * study.tile[1] / study.tile[0]) + (hasSeals ? 82 : 40)};
+  return {count, side, height: Math.round(side * study.tile[1] / study.tile[0]) + (hasSeals ? (hasTwins ? 100 : 82) : 40)};
 }
 
 function startTiles() {
@@ -105,6 +116,7 @@ function startTiles() {
     if (hasSeals && parts.has('colour')) {
       for (const tile of tiles.values()) tile.remove();
       tiles.clear();
+      element.classList.toggle('twins', hasTwins);
       by('seal-hint').textContent = sealHint();
     }
     const {count, side, height} = tileLayout(box.width);

@@ -3,6 +3,7 @@
 const seeds = study.seeds, hasSeeds = seeds > 1;
 /** Tiles say how often the snow breaks, or what is predicted for full resolution. */
 const hasSeals = hasSeeds || study.predicts;
+const hasTwins = hasSeeds && study.predicts;  // coarse whiskers beside those of full resolution
 const isPredicted = column => Boolean(column) && column.help.startsWith('full_');
 const pointOf = at => Math.floor(at / seeds);
 const drawOf = at => at % seeds;
@@ -48,12 +49,24 @@ function colourPlace(column, at) {
   return s && column.isDrawn && !column.isNoise ? column.scale.at(s.shared) : NaN;
 }
 
-/** A line from min to max on the scale of a column, with a dot at the mean. */
-function whiskerOf(column, at) {
+/** A metric of coarse runs and of full resolution, on one scale; null where seeds give only one of them. */
+function twinsOf(column) {
+  if (!hasSeeds || !study.predicts || !column.points) return null;
+  const name = isPredicted(column) ? column.help.slice('full_'.length) : 'full_' + column.help;
+  const other = columns.find(c => c.points && c.help === name);
+  if (!other) return null;
+  const [coarse, full] = isPredicted(column) ? [other, column] : [column, other];
+  const told = [...coarse.points, ...full.points].filter(point => point);
+  const low = Math.min(...told.map(point => point.min)), high = Math.max(...told.map(point => point.max));
+  return {coarse, full, place: x => high > low ? (x - low) / (high - low) : 0.5};
+}
+
+/** A line from min to max on a scale, that of its column without another, with a dot at the mean. */
+function whiskerOf(column, at, scale) {
   const s = summaryOf(column, at), box = make('i', {className: 'whisker'});
-  if (!s || !column.scale) return box;
-  const [low, mean, high] = [s.min, s.mean, s.max].map(
-    x => 100 * Math.max(0, Math.min(1, column.scale.at(x))));
+  const place = scale || (column.scale && column.scale.at);
+  if (!s || !place) return box;
+  const [low, mean, high] = [s.min, s.mean, s.max].map(x => 100 * Math.max(0, Math.min(1, place(x))));
   const line = make('i'), dot = make('b');
   line.style.left = low + '%';
   line.style.width = high - low + '%';
