@@ -357,12 +357,21 @@ class LocalJobs {
         {&run, folder, std::move(*lock), std::move(status), std::move(child), threads});
   }
 
+  /// The process of a run is killed with its sweep, a moment later.
+  static void wait_for_orphan(const fs::path& folder) {
+    constexpr auto longest = std::chrono::seconds(5);
+    const auto start = Child::Clock::now();
+    while (output::FolderLock::is_held(folder) && Child::Clock::now() - start < longest)
+      std::this_thread::sleep_for(poll_interval);
+  }
+
   /// A process that makes a run, or continues one. @param status  of the run, written
   Child start_child(const Run& run, const fs::path& folder, int threads,
                     store::RunStatus& status) const {
     const bool resumes = status.state == store::RunState::running ||
                          status.state == store::RunState::interrupted ||
                          status.state == store::RunState::timeout;
+    wait_for_orphan(folder);
     if (!resumes) clean(folder);
     Child child({options_.program, arguments_of(run, folder, threads, resumes), folder},
                 folder / "log",
