@@ -97,8 +97,13 @@ std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& chan
 std::string strength_line(const sim::Material& m) {
   const sim::laws::Law& law = sim::laws::of(m);
   std::vector<double> numbers;
-  for (const sim::laws::Parameter& p : law.parameters) numbers.push_back(p.of(m));
-  return filled(law.caption, numbers);
+  std::string names;  // those that are not the usual ones
+  for (const sim::laws::Parameter& p : law.parameters)
+    if (p.names.empty())
+      numbers.push_back(p.of(m));
+    else if (p.of(m) != p.own_default)
+      names += std::string(", ") + p.name_of(m).name() + " " + p.key;
+  return filled(law.caption, numbers) + names;
 }
 
 }  // namespace

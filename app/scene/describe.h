@@ -203,6 +203,17 @@ constexpr const char* unit_of(sim::laws::Unit u) {
 }
 
 template <class V>
+void describe(V& visit, sim::Material& m, const sim::laws::Parameter& p) {
+  if (p.names.empty()) {
+    visit(p.key, p.of(m), unit_of(p.unit), valid_of(p.bounds), Change::live, p.help);
+    return;
+  }
+  sim::laws::OneOf name = p.name_of(m);
+  visit(p.key, name, unit::none, anything, Change::live, p.help);
+  p.of(m) = static_cast<double>(name.place);
+}
+
+template <class V>
 void describe(V& visit, sim::Material& m) {
   visit.shorthand(
       "preset", preset_of(m), [&m](Preset preset) { use_preset(m, preset); },
@@ -217,8 +228,7 @@ void describe(V& visit, sim::Material& m) {
   visit("dust", m.dust, unit::none, between(0, 10), Change::live,
         "Dust that it sheds where it breaks fast, as a share of its mass per strain; it keeps its "
         "mass.");
-  for (const sim::laws::Parameter& p : sim::laws::all_parameters())
-    visit(p.key, p.of(m), unit_of(p.unit), valid_of(p.bounds), Change::live, p.help);
+  for (const sim::laws::Parameter& p : sim::laws::all_parameters()) describe(visit, m, p);
   visit("min_J_P", m.min_J_P, unit::none, above(0).at_most(1), Change::live,
         "Smallest plastic volume ratio: snow packed further keeps yielding but hardens no more.");
   visit("max_J_P", m.max_J_P, unit::none, between(1, 1e6), Change::live,

@@ -275,6 +275,26 @@ std::string type_of(const std::optional<Range>&) {
   return "range";
 }
 
+void read_leaf(const Leaf& leaf, sim::laws::OneOf& member) {
+  const auto* text = std::get_if<std::string>(&leaf.value.data);
+  const std::vector<std::string> allowed = choices(member);
+  const auto found = text ? std::find(allowed.begin(), allowed.end(), *text) : allowed.end();
+  if (found == allowed.end()) fail_choice(leaf, allowed);
+  member.place = static_cast<std::size_t>(found - allowed.begin());
+}
+
+toml::Value to_value(const sim::laws::OneOf& member) {
+  return {std::string(member.name())};
+}
+
+std::string type_of(const sim::laws::OneOf&) {
+  return "choice";
+}
+
+std::vector<std::string> choices(const sim::laws::OneOf& member) {
+  return {member.names.begin(), member.names.end()};
+}
+
 std::string list_of(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -289,6 +309,7 @@ namespace {
 /// What a choice is called in the table of words.
 std::string context_of(const std::string& address) {
   if (address.ends_with("colormap")) return "colormap";
+  if (address.starts_with("material.")) return "material.NAME" + address.substr(address.rfind('.'));
   if (!address.starts_with("export.")) return address;
   return address.ends_with(".format")                        ? "format of an export"
          : address.find(".attributes[") != std::string::npos ? "attribute"

@@ -11,6 +11,7 @@
 #include "app/scene/scene.h"
 #include "app/scene/toml/value.h"
 #include "app/scene/valid.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::scene {
 
@@ -53,6 +54,7 @@ void read_leaf(const Leaf& leaf, std::vector<std::string>& member);
 void read_leaf(const Leaf& leaf, std::optional<sim::Vec3d>& member);
 void read_leaf(const Leaf& leaf, PictureSize& member);
 void read_leaf(const Leaf& leaf, std::optional<Range>& member);
+void read_leaf(const Leaf& leaf, sim::laws::OneOf& member);
 
 toml::Value to_value(bool member);
 toml::Value to_value(double member);
@@ -63,6 +65,7 @@ toml::Value to_value(const sim::Vec3d& member);
 toml::Value to_value(const std::vector<std::string>& member);
 toml::Value to_value(const PictureSize& member);
 toml::Value to_value(const std::optional<Range>& member);
+toml::Value to_value(const sim::laws::OneOf& member);
 
 std::string type_of(const bool&);
 std::string type_of(const double&);
@@ -73,6 +76,10 @@ std::string type_of(const sim::Vec3d&);
 std::string type_of(const std::vector<std::string>&);
 std::string type_of(const PictureSize&);
 std::string type_of(const std::optional<Range>&);
+std::string type_of(const sim::laws::OneOf&);
+
+/// Names of the values of a parameter that a law describes.
+std::vector<std::string> choices(const sim::laws::OneOf& member);
 
 /// "a, b or c", quoted as in TOML.
 std::string list_of(const std::vector<std::string>& names);

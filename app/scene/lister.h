@@ -14,6 +14,9 @@ template <class T>
 std::vector<std::string> choices_of(const T&) {
   return {};
 }
+inline std::vector<std::string> choices_of(const sim::laws::OneOf& member) {
+  return choices(member);
+}
 template <Choice E>
 std::vector<std::string> choices_of(const E&) {
   return choices<E>();

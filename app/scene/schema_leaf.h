@@ -38,6 +38,9 @@ Json schema_of_numbers(const Json& number, std::size_t least, std::size_t most);
 /// A value that fits one of some schemas.
 Json schema_of_any(std::vector<Json> schemas);
 
+inline Json schema_of(const sim::laws::OneOf& member, const Valid&, const char*) {
+  return {{"enum", choices(member)}};
+}
 template <Choice E>
 Json schema_of(const E&, const Valid&, const char*) {
   return {{"enum", choices<E>()}};

@@ -188,7 +188,8 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
     s.min_J_P = q == begin ? J_P : std::min(s.min_J_P, J_P);
     s.max_J_P = q == begin ? J_P : std::max(s.max_J_P, J_P);
     if (J_P <= health::packed_J_P) s.packed += m;
-    const bool packs = laws::of(static_cast<Model>(p.model())).is_snow;
+    const Material& material = method.materials[static_cast<std::size_t>(p.material())];
+    const bool packs = laws::of(material).is_snow && laws::counts_volume(material);
     if (packs && m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
   }
   return s;

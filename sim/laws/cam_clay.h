@@ -6,12 +6,16 @@
 ///   tau = mu dev b' + K/2 (J^2 - 1) I,   p = K/2 (1 - J^2),   q = sqrt(3/2) mu |dev b'|
 ///   y = (1 + 2 beta) q^2 + M^2 (p + beta p0)(p - p0) <= 0
 ///   p0 = K (1e-5 + sinh(xi max(-alpha, 0))),   alpha = alpha0 + ln J_P
-/// An ellipse from -beta p0 to p0. Beyond its tips the state goes to the tip; else along the line
-/// to its centre, so that snow packs (and hardens) right of the centre and opens (and softens) left
-/// of it. p0 is that from before the step. Sources: Gaume et al. 2018, Dynamic anticrack
-/// propagation in snow, Nature Communications 9; Wolper et al. 2019, CD-MPM, ACM Transactions on
-/// Graphics 38 (surface, hardening). They keep p where the deviator yields; here p goes with it, so
-/// that ln J_P is the whole history, and sheared snow packs.
+/// An ellipse from -beta p0 to p0. Beyond its tips the state goes to the tip; else, by the rule of
+/// flow,
+///   radial     along the line to its centre, so that snow packs (and hardens) right of the centre
+///              and opens (and softens) left of it: ln J_P is the whole history
+///   isochoric  at the same p, and det F_E stays; it hardens or softens as if it had gone along
+///              that line. J_P is this history, no longer det F_P
+/// p0 is that from before the step. Sources: Gaume et al. 2018, Dynamic anticrack propagation in
+/// snow, Nature Communications 9; Wolper et al. 2019, CD-MPM, ACM Transactions on Graphics 38
+/// (surface, hardening, the isochoric rule). They keep tr b in the place of det F_E: then p drifts
+/// in shear that keeps the volume.
 ///
 /// The step needs b and no singular values: the return scales dev b', and the mean of b' follows
 /// from det b' = 1. F_E is any F with F F^T = b.
@@ -33,7 +37,7 @@
 namespace neve::sim::laws::cam_clay {
 
 /// Where the numbers of this law are in MaterialConstants::own.
-enum Constant { constant_M, constant_beta, constant_xi, constant_alpha0 };
+enum Constant { constant_M, constant_beta, constant_xi, constant_alpha0, constant_is_isochoric };
 
 /// p0/K of snow without strength, so that the ellipse never shrinks to a point.
 inline constexpr double min_strength = 1e-5;
@@ -51,6 +55,7 @@ struct ClayLanes {
   V p0;     ///< Pa, before the step
   V M, beta;
   V min_J_P, max_J_P;
+  V is_isochoric;  ///< 1, or 0: radial
 };
 
 /// sinh x for 0 <= x <= 20.
@@ -92,7 +97,7 @@ template <class V, class I>
 NEVE_INLINE ClayLanes<V> take_clay(const Record<V, I>& p,
                                    const MaterialConstants<ElementOf<V>>* table) {
   using Real = ElementOf<V>;
-  constexpr int constants = 8;
+  constexpr int constants = 9;
   V k[constants];
   const I material = p.material();
   const auto numbers = [](const MaterialConstants<Real>& row, Real* out) NEVE_INLINE_BODY {
@@ -100,6 +105,7 @@ NEVE_INLINE ClayLanes<V> take_clay(const Record<V, I>& p,
     out[3] = row.own[constant_alpha0], out[4] = row.own[constant_M];
     out[5] = row.own[constant_beta];
     out[6] = row.min_J_P, out[7] = row.max_J_P;
+    out[8] = row.own[constant_is_isochoric];
   };
   Real number[constants];
   if (!any_lane(material != all<I>(material[0]))) {
@@ -119,15 +125,18 @@ NEVE_INLINE ClayLanes<V> take_clay(const Record<V, I>& p,
   m.p0 = p.threshold * m.K * (hyperbolic_sine(x) + Real(min_strength));
   m.M = k[4], m.beta = k[5];
   m.min_J_P = k[6], m.max_J_P = k[7];
+  m.is_isochoric = k[8];
   return m;
 }
 
 /// What the surface makes of a trial state.
 template <class V>
 struct ClayReturn {
-  V k;          ///< factor on the deviator
-  V J_squared;  ///< after the step
+  V k;                     ///< factor on the deviator
+  V J_squared;             ///< after the step
+  V J_squared_of_history;  ///< what J_P takes it for
   MaskOf<V> yields;
+  MaskOf<V> keeps_volume;  ///< of those
 };
 /// @param J_squared, size  of the trial state: det b and |dev b'|^2
 template <class V>
@@ -151,7 +160,16 @@ NEVE_INLINE ClayReturn<V> return_to_surface(const ClayLanes<V>& m, const V& J_sq
   J = is_packed ? one - Real(2) * p0 : J;
   J = is_open ? one - Real(2) * tip : J;
   out.J_squared = out.yields ? J : J_squared;
+  out.J_squared_of_history = out.J_squared;
   out.k = is_packed | is_open ? V{} : out.k;
+  out.keeps_volume = (m.is_isochoric > V{}) & out.yields & ~is_packed & ~is_open;
+  if (any_lane(out.keeps_volume)) {
+    const V below = larger_lanes((p - tip) * (p0 - p), V{});
+    const V weighed = fused(m.beta, Real(2) * q_squared, q_squared);
+    const V k = m.M * square_root_lanes(below / (weighed > V{} ? weighed : one));
+    out.k = out.keeps_volume ? smaller_lanes(k, one) : out.k;
+    out.J_squared = out.keeps_volume ? J_squared : out.J_squared;
+  }
   return out;
 }
 
@@ -201,6 +219,15 @@ NEVE_INLINE void take_stretch(V* F, const Sym3<V>& b_old, const Sym3<V>& b_new, 
   }
 }
 
+/// Scales F to the determinant J, which it nearly has. Roots are rounded to one side: where nothing
+/// else sets the volume, it would shrink by 8e-8 a step in float.
+template <class V>
+NEVE_INLINE void set_volume(V* F, const V& J, const MaskOf<V>& where) {
+  using Real = ElementOf<V>;
+  const V rest = (J - determinant(F)) / (Real(3) * J);
+  for (int q = 0; q < 9; ++q) F[q] = where ? fused(rest, F[q], F[q]) : F[q];
+}
+
 /// Step 7 and stress of a batch.
 /// @param is_projected  false leaves F_E and J_P as they are
 /// @param wave_modulus  out: rho0 c^2 of the fastest wave, K (1 + J^2)/2 + mu (5/9 tr b' -
@@ -220,7 +247,7 @@ NEVE_INLINE unsigned take_step(Record<V, I>& p, const MaterialConstants<ElementO
   const Sym3<V> d = add_identity(b, -t);
   const V size = fused(d.xx, d.xx, fused(d.yy, d.yy, d.zz * d.zz)) +
                  Real(2) * fused(d.xy, d.xy, fused(d.xz, d.xz, d.yz * d.yz));
-  ClayReturn<V> found{one, J_squared, MaskOf<V>{}};
+  ClayReturn<V> found{one, J_squared, J_squared, MaskOf<V>{}, MaskOf<V>{}};
   if (is_projected) found = return_to_surface(m, J_squared, size);
   const MaskOf<V> is_positive = signed_J > V{};
   const MaskOf<V> is_changed = found.yields | ~is_positive;
@@ -228,9 +255,10 @@ NEVE_INLINE unsigned take_step(Record<V, I>& p, const MaterialConstants<ElementO
     const V det_d = fused(d.xx, fused_negative(d.yz, d.yz, d.yy * d.zz),
                           fused(d.xy, fused_negative(d.xy, d.zz, d.xz * d.yz),
                                 d.xz * fused_negative(d.yy, d.xz, d.xy * d.yz)));
-    const V mean = unit_determinant_mean(found.k, t, size, det_d);
     // A body turned inside out is mirrored back; one without directions gets new ones.
     const MaskOf<V> is_crushed = J < all<V>(Real(crushed_J));
+    found.k = is_crushed & is_changed ? V{} : found.k;
+    const V mean = unit_determinant_mean(found.k, t, size, det_d);
     V F[9];
     for (int q = 0; q < 9; ++q) {
       const V mirrored = q % 3 == 2 ? (is_positive ? p.F_E[q] : -p.F_E[q]) : p.F_E[q];
@@ -241,7 +269,8 @@ NEVE_INLINE unsigned take_step(Record<V, I>& p, const MaterialConstants<ElementO
     const V growth = found.J_squared / (is_crushed ? one : J_squared);
     take_stretch(F, old, add_identity(found.k * d, mean),
                  inverse_square_root(inverse_cube_root(growth)));
-    V J_P = p.J_P * (J * inverse_square_root(found.J_squared));
+    if (any_lane(found.keeps_volume)) set_volume(F, J, found.keeps_volume);
+    V J_P = p.J_P * (J * inverse_square_root(found.J_squared_of_history));
     J_P = J_P < m.min_J_P ? m.min_J_P : J_P;
     J_P = J_P > m.max_J_P ? m.max_J_P : J_P;
     p.J_P = found.yields ? J_P : p.J_P;
@@ -297,7 +326,18 @@ struct InLanes {
 
 #ifndef NEVE_LANES_ALONE
 /// Places in Material::own.
-enum Own { cohesion, consolidation_hardening };
+enum Own { cohesion, consolidation_hardening, flow };
+
+/// Values of `flow`, and their names.
+inline constexpr double radial = 0, isochoric = 1;
+inline constexpr const char* names_of_flow[] = {"radial", "isochoric"};
+
+inline bool is_isochoric(const Material& m) {
+  return m.own[flow] == isochoric;
+}
+inline bool counts_volume(const Material& m) {
+  return !is_isochoric(m);
+}
 
 /// det F_E, of an inverted one that of its mirror image, and the isochoric b.
 struct Strain {
@@ -374,6 +414,7 @@ inline void constants(const Material& m, double (&own)[own_constants]) {
   own[constant_beta] = m.own[cohesion];
   own[constant_xi] = m.own[consolidation_hardening];
   own[constant_alpha0] = alpha0(m);
+  own[constant_is_isochoric] = is_isochoric(m) ? 1 : 0;
 }
 
 inline void refine(Material& m, double factor) {
@@ -389,9 +430,9 @@ inline double largest_pressure(const Material& m) {
   return 0.5 * bulk_modulus(m);
 }
 
-/// The slope M from which plastic flow never makes energy. Left of the centre c of the surface,
+/// The slope M from which radial flow never makes energy. Left of the centre c of the surface,
 /// shear that yields raises the pressure: it costs p (c - p)/K and pays q^2/(3 mu), for small
-/// strains.
+/// strains. Isochoric flow only shrinks the deviator.
 inline double min_slope(const Material& m) {
   const double beta = m.own[cohesion], c = 0.5 * (1 - beta);
   constexpr int places = 64;
@@ -404,7 +445,7 @@ inline double min_slope(const Material& m) {
 }
 
 inline void concerns(const Material& m, std::vector<Concern>& found) {
-  const double K = bulk_modulus(m), least = friction_angle(min_slope(m));
+  const double K = bulk_modulus(m), least = is_isochoric(m) ? 0 : friction_angle(min_slope(m));
   if (m.friction_angle < least)
     found.push_back({"friction_angle",
                      "at {} degrees shear packs this snow by more energy than it has: flow makes "
@@ -421,6 +462,26 @@ inline void concerns(const Material& m, std::vector<Concern>& found) {
                    10 * m.youngs_modulus * m.consolidation_pressure / K});
 }
 
+/// J_P after isochoric flow of a state between the tips, which is outside of the surface: det F_E
+/// over that of the state on the line to the centre.
+inline double history_after(const Material& m, const YieldStep& step) {
+  const double K = bulk_modulus(m), J = Strain(step.F_E).J, top = p0(m, step.J_P);
+  const double centre = 0.5 * (1 - m.own[cohesion]) * top, p = 0.5 * K * (1 - J * J);
+  const double pulled = centre + (p - centre) / nearness_to_yield(m, step.F_E, step.J_P);
+  return step.J_P * J / std::sqrt(1 - 2 * pulled / K);
+}
+
+/// Isochoric flow keeps det F_E, and J_P alone hardens or softens.
+inline void test_isochoric_flow(const Material& m, const YieldStep& step,
+                                std::vector<Claim>& claims) {
+  const Surface held = surface(m, step.J_P);
+  const double J = Strain(step.F_E).J;
+  if (J < held.min_J || J > held.max_J) return;
+  claims.push_back({"det F_E in isochoric flow", Strain(step.F_E_after).J / J - 1, rounding});
+  claims.push_back(
+      {"J_P of isochoric flow", step.J_P_after / history_after(m, step) - 1, on_surfaces});
+}
+
 /// A trial state inside of the surface stays; one outside ends on it, and keeps its volume and the
 /// directions of its strain.
 inline void test_yield(const Material& m, const YieldStep& step, std::vector<Claim>& claims) {
@@ -432,9 +493,11 @@ inline void test_yield(const Material& m, const YieldStep& step, std::vector<Cla
   const double near = nearness_to_yield(m, F, step.J_P);
   if (F.determinant() > 0 && near < 0.99)
     claims.push_back({"F_E within the surface", (found - F).cwiseAbs().maxCoeff(), rounding});
-  else if (near > 1.01)
+  else if (near > 1.01) {
     claims.push_back(
         {"distance to the surface", nearness_to_yield(m, found, step.J_P) - 1, on_surfaces});
+    if (is_isochoric(m)) test_isochoric_flow(m, step, claims);
+  }
 }
 inline constexpr SelfTest self_test{"ends on its surface, keeps volume and directions", 0.95,
                                     test_yield};
@@ -455,7 +518,13 @@ inline constexpr Parameter parameters[] = {
      .own = consolidation_hardening,
      .own_default = 1,
      .bounds = {1e-3, 1e3},
-     .help = "cam_clay: rate at which snow that packs gains consolidation pressure."}};
+     .help = "cam_clay: rate at which snow that packs gains consolidation pressure."},
+    {.key = "flow",
+     .own = flow,
+     .own_default = radial,
+     .names = names_of_flow,
+     .help = "cam_clay: radial: snow that is sheared packs or opens; isochoric, as published: it "
+             "keeps its volume, and J_P is its history of hardening, not its volume."}};
 
 inline constexpr Law law{.kind = "snow as soil",
                          .is_snow = true,
@@ -475,6 +544,7 @@ inline constexpr Law law{.kind = "snow as soil",
                          .surface = surface,
                          .largest_pressure = largest_pressure,
                          .concerns = concerns,
+                         .counts_volume = counts_volume,
                          .self_test = &self_test};
 #endif
 

@@ -21,6 +21,14 @@ struct Bounds {
   bool is_min_open = false, is_max_open = false;
 };
 
+/// A value of a parameter that is one of some names.
+struct OneOf {
+  std::size_t place;
+  std::span<const char* const> names;
+
+  const char* name() const { return names[place]; }
+};
+
 /// A number of a law, as scenes, sweeps and sliders have it. One that several laws or reports read
 /// is a member of Material; one that its law alone reads has a place in Material::own that no other
 /// law's has.
@@ -30,7 +38,8 @@ struct Parameter {
   int own = -1;
   double own_default = 0;
   Unit unit = Unit::none;
-  Bounds bounds;
+  Bounds bounds = {};
+  std::span<const char* const> names = {};  ///< of its values 0, 1, ...: it has no other then
   const char* help;
 
   double& of(Material& m) const {
@@ -39,6 +48,7 @@ struct Parameter {
   double of(const Material& m) const {
     return member ? m.*member : m.own[static_cast<std::size_t>(own)];
   }
+  OneOf name_of(const Material& m) const { return {static_cast<std::size_t>(of(m)), names}; }
 };
 
 /// Both at once, for the price of one decomposition.
@@ -102,7 +112,8 @@ struct SelfTest {
   void (*run)(const Material&, const YieldStep&, std::vector<Claim>&);
 };
 
-/// A state is F_E and J_P = det F_P. Functions that may be null say so.
+/// A state is F_E and J_P = det F_P; of a law that needs another history J_P is that. Functions
+/// that may be null say so.
 struct Law {
   Model model{};  ///< from the list, as the name is
   const char* name = "";
@@ -138,6 +149,7 @@ struct Law {
   Surface (*surface)(const Material&, double J_P) = nullptr;  ///< may be null
   double (*largest_pressure)(const Material&) = nullptr;      ///< that F_E can bear; null: any
   void (*concerns)(const Material&, std::vector<Concern>&) = nullptr;
+  bool (*counts_volume)(const Material&) = nullptr;  ///< J_P is det F_P; null: it is
   const SelfTest* self_test = nullptr;
 
   bool reads(double Material::*member) const;
@@ -148,6 +160,12 @@ std::span<const Law> every();
 const Law& of(Model model);
 inline const Law& of(const Material& material) {
   return of(material.model);
+}
+
+/// Whether J_P of its particles is their plastic volume.
+inline bool counts_volume(const Material& material) {
+  const auto counts = of(material).counts_volume;
+  return !counts || counts(material);
 }
 
 /// Extends the limits to a material, if its law hardens. @param stiffest  factor on its moduli

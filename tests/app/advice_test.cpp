@@ -61,6 +61,8 @@ std::set<std::string> choices_of() {
 TEST(Advice, NamesInTheTableExist) {
   expect_names("key", parts_of_addresses());
   expect_names("solver.transfer", choices_of<sim::Transfer>());
+  expect_names("material.NAME.model", choices_of<sim::Model>());
+  expect_names("material.NAME.flow", {"radial", "isochoric"});
   expect_names("solver.precision", choices_of<sim::Precision>());
   expect_names("stage", {sim::stage_names.begin(), sim::stage_names.end()});
   expect_names("quality", {"draft", "preview", "final"});

@@ -134,6 +134,9 @@ class Perturb : public Walker<Perturb> {
   void change(std::optional<T>& member, const app::scene::Valid& valid, const std::string& at) {
     change(member.emplace(), valid, at);
   }
+  void change(sim::laws::OneOf& name, const app::scene::Valid&, const std::string&) {
+    name.place = name.names.size() - 1 - name.place;
+  }
   template <scene::Choice E>
   void change(E& e, const app::scene::Valid&, const std::string& at) {
     const E before = e, last = app::scene::names(E{}).back().value;
@@ -187,6 +190,7 @@ class Flatten : public Walker<Flatten> {
   static void add(Bits& bits, const std::optional<T>& member) {
     if (member) add(bits, *member);
   }
+  static void add(Bits& bits, const sim::laws::OneOf& name) { bits.push_back(name.place); }
   template <scene::Choice E>
   static void add(Bits& bits, const E& e) {
     bits.push_back(static_cast<std::uint64_t>(e));

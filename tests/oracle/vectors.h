@@ -89,7 +89,9 @@ inline neve::sim::shapes::Collider collider(const Json& j) {
 inline bool is_known(const Json& material) {
   if (!material.contains("model")) return true;
   const std::string model = material["model"];
-  if (model == "cam_clay") return material["flow"] == "radial" && material["plastic"].get<bool>();
+  if (model == "cam_clay")
+    return (material["flow"] == "radial" || material["flow"] == "isochoric") &&
+           material["plastic"].get<bool>();
   if (model == "sand")
     return material["volume_correction"].get<bool>() && material["plastic"].get<bool>();
   return model == "corotated" || model == "neo_hookean";
@@ -103,6 +105,7 @@ inline neve::sim::Material cam_clay_material(const Json& j) {
   m.youngs_modulus = j["E"].get<double>();
   m.poisson_ratio = j["nu"].get<double>();
   m.friction_angle = neve::sim::laws::friction_angle(j["M"].get<double>());
+  m.own[cam_clay::flow] = j["flow"] == "isochoric" ? cam_clay::isochoric : cam_clay::radial;
   m.own[cam_clay::cohesion] = j["beta"].get<double>();
   m.own[cam_clay::consolidation_hardening] = j["xi"].get<double>();
   m.consolidation_pressure =

@@ -7,12 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "sim/health/diagnostics.h"
-#include "sim/laws/cam_clay.h"
-#include "sim/laws/list.h"
-#include "sim/state/method.h"
-#include "sim/state/records.h"
-#include "tests/support/one_particle.h"
+#include "tests/support/clay_sample.h"
 #include "tests/support/simd_levels.h"
 
 namespace {
@@ -21,55 +16,6 @@ using namespace neve;
 using namespace neve::sim;
 using namespace neve::test;
 namespace cam_clay = laws::cam_clay;
-
-Material clay() {
-  Material m;
-  m.model = laws::model::cam_clay;
-  return m;
-}
-
-/// One particle of a material, strained step by step.
-template <class Real>
-class Sample {
- public:
-  explicit Sample(const Material& m, double J_P = 1) : material_(m) {
-    engine::store_matrix(Mat3d(Mat3d::Identity()), p_.F_E);
-    p_.J_P = static_cast<Real>(J_P);
-    p_.m = p_.V0 = p_.stiffness = p_.threshold = 1;
-    p_.kind = kernels::kind_of<Real>(0, laws::model::cam_clay, 0);
-  }
-  void set_F(const Mat3d& F_E) { engine::store_matrix(F_E, p_.F_E); }
-  /// F_E = (I + L) F_E, and the return.
-  void strain(const Mat3d& L) {
-    set_F((Mat3d::Identity() + L) * F());
-    settle();
-  }
-  void settle() { update_material(p_, engine::constants_of<Real>(material_)); }
-
-  Mat3d F() const { return engine::matrix(p_.F_E); }
-  Mat3d b() const { return F() * F().transpose(); }
-  double J_P() const { return static_cast<double>(p_.J_P); }
-  double J_E() const { return F().determinant(); }
-  double p0() const { return cam_clay::p0(material_, J_P()); }
-  Mat3d tau() const {
-    const Vec3d on = engine::vector(p_.tau), off = engine::vector(p_.tau + 3);
-    Mat3d tau;
-    tau << on[0], off[0], off[1], off[0], on[1], off[2], off[1], off[2], on[2];
-    return tau;
-  }
-  double p() const { return -tau().trace() / 3; }
-  double q() const { return std::sqrt(1.5) * (tau() + p() * Mat3d::Identity()).norm(); }
-  kernels::Particle<Real>& record() { return p_; }
-
- private:
-  Material material_;
-  kernels::Particle<Real> p_{};
-};
-
-Mat3d random_entries(std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(-1, 1);
-  return Mat3d::NullaryExpr([&] { return unit(random); });
-}
 
 /// States far out, on all sides of the surface.
 template <class Real>

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <set>
 
+#include "sim/laws/cam_clay.h"
 #include "sim/laws/list.h"
 #include "tests/support/combinations.h"
 #include "tests/support/simd_levels.h"
@@ -17,7 +18,7 @@ using namespace neve::sim;
 using namespace neve::test;
 
 std::vector<Material> all_materials() {
-  std::vector<Material> m(5);
+  std::vector<Material> m(6);
   m[1].model = laws::model::corotated;
   m[1].youngs_modulus = 3e4;
   m[2].model = laws::model::neo_hookean;
@@ -25,13 +26,15 @@ std::vector<Material> all_materials() {
   m[2].hardening = 0;
   m[3].model = laws::model::cam_clay;
   m[4].model = laws::model::sand;
+  m[5].model = laws::model::cam_clay;
+  m[5].own[laws::cam_clay::flow] = laws::cam_clay::isochoric;
   return m;
 }
 
 /// Materials that change from particle to particle.
 void mix_materials(ParticleArrays& p) {
   std::mt19937 random(5);
-  for (std::size_t q = 0; q < p.x.size(); ++q) p.material.push_back(static_cast<int>(random() % 5));
+  for (std::size_t q = 0; q < p.x.size(); ++q) p.material.push_back(static_cast<int>(random() % 6));
 }
 
 /// A ball of 7000 particles, enough for seven threads, in the middle of hitting everything.

@@ -41,6 +41,13 @@ bool edit_choice(const Knob& knob, const std::vector<std::string>& choices, int&
 bool edit_choices(const Knob& knob, const std::vector<std::string>& choices,
                   std::vector<bool>& chosen);
 
+inline bool edit_value(const Knob& knob, sim::laws::OneOf& value) {
+  int index = static_cast<int>(value.place);
+  if (!edit_choice(knob, scene::choices(value), index)) return false;
+  value.place = static_cast<std::size_t>(index);
+  return true;
+}
+
 template <scene::Choice E>
 bool edit_value(const Knob& knob, E& value) {
   const auto all = scene::names(E{});
