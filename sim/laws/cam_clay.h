@@ -523,8 +523,9 @@ inline constexpr Parameter parameters[] = {
      .own = flow,
      .own_default = radial,
      .names = names_of_flow,
-     .help = "cam_clay: radial: snow that is sheared packs or opens; isochoric, as published: it "
-             "keeps its volume, and J_P is its history of hardening, not its volume."}};
+     .help =
+         "cam_clay: sheared snow packs or opens (radial), or keeps its volume (isochoric: J_P is "
+         "its hardening alone)."}};
 
 inline constexpr Law law{.kind = "snow as soil",
                          .is_snow = true,
