@@ -55,7 +55,7 @@ struct ClayLanes {
   V p0;     ///< Pa, before the step
   V M, beta;
   V min_J_P, max_J_P;
-  V is_isochoric;  ///< 1, or 0: radial
+  V is_isochoric{};  ///< 1, or 0: radial
 };
 
 /// sinh x for 0 <= x <= 20.
@@ -97,7 +97,7 @@ template <class V, class I>
 NEVE_INLINE ClayLanes<V> take_clay(const Record<V, I>& p,
                                    const MaterialConstants<ElementOf<V>>* table) {
   using Real = ElementOf<V>;
-  constexpr int constants = 9;
+  constexpr int constants = 8;
   V k[constants];
   const I material = p.material();
   const auto numbers = [](const MaterialConstants<Real>& row, Real* out) NEVE_INLINE_BODY {
@@ -105,7 +105,6 @@ NEVE_INLINE ClayLanes<V> take_clay(const Record<V, I>& p,
     out[3] = row.own[constant_alpha0], out[4] = row.own[constant_M];
     out[5] = row.own[constant_beta];
     out[6] = row.min_J_P, out[7] = row.max_J_P;
-    out[8] = row.own[constant_is_isochoric];
   };
   Real number[constants];
   if (!any_lane(material != all<I>(material[0]))) {
@@ -125,8 +124,18 @@ NEVE_INLINE ClayLanes<V> take_clay(const Record<V, I>& p,
   m.p0 = p.threshold * m.K * (hyperbolic_sine(x) + Real(min_strength));
   m.M = k[4], m.beta = k[5];
   m.min_J_P = k[6], m.max_J_P = k[7];
-  m.is_isochoric = k[8];
   return m;
+}
+
+/// 1 where the material of a lane flows at constant volume, else 0.
+template <class V, class I>
+NEVE_INLINE V isochoric_lanes(const Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table) {
+  const I material = p.material();
+  const V first = all<V>(table[material[0]].own[constant_is_isochoric]);
+  if (!any_lane(material != all<I>(material[0]))) return first;
+  V out;
+  for (int l = 0; l < lane_count<V>; ++l) out[l] = table[material[l]].own[constant_is_isochoric];
+  return out;
 }
 
 /// What the surface makes of a trial state.
@@ -136,10 +145,10 @@ struct ClayReturn {
   V J_squared;             ///< after the step
   V J_squared_of_history;  ///< what J_P takes it for
   MaskOf<V> yields;
-  MaskOf<V> keeps_volume;  ///< of those
+  MaskOf<V> keeps_volume{};  ///< of those
 };
 /// @param J_squared, size  of the trial state: det b and |dev b'|^2
-template <class V>
+template <bool some_are_isochoric, class V>
 NEVE_INLINE ClayReturn<V> return_to_surface(const ClayLanes<V>& m, const V& J_squared,
                                             const V& size) {
   using Real = ElementOf<V>;
@@ -162,6 +171,7 @@ NEVE_INLINE ClayReturn<V> return_to_surface(const ClayLanes<V>& m, const V& J_sq
   out.J_squared = out.yields ? J : J_squared;
   out.J_squared_of_history = out.J_squared;
   out.k = is_packed | is_open ? V{} : out.k;
+  if constexpr (!some_are_isochoric) return out;
   out.keeps_volume = (m.is_isochoric > V{}) & out.yields & ~is_packed & ~is_open;
   if (any_lane(out.keeps_volume)) {
     const V below = larger_lanes((p - tip) * (p0 - p), V{});
@@ -233,13 +243,15 @@ NEVE_INLINE void set_volume(V* F, const V& J, const MaskOf<V>& where) {
 /// @param wave_modulus  out: rho0 c^2 of the fastest wave, K (1 + J^2)/2 + mu (5/9 tr b' -
 /// b'_min/3),
 ///                      with b'_min from below
+/// @tparam some_are_isochoric  false: all flow radially, which is the faster step
 /// @return lanes with det F_E <= 0 before
-template <class V, class I>
+template <bool some_are_isochoric, class V, class I>
 NEVE_INLINE unsigned take_step(Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
                                bool is_projected, V& wave_modulus) {
   using Real = ElementOf<V>;
   constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-12);
-  const ClayLanes<V> m = take_clay(p, table);
+  ClayLanes<V> m = take_clay(p, table);
+  if constexpr (some_are_isochoric) m.is_isochoric = isochoric_lanes(p, table);
   const V one = all<V>(1), signed_J = determinant(p.F_E);
   const V J = larger_lanes(absolute_lanes(signed_J), all<V>(tiny)), J_squared = J * J;
   const Sym3<V> b = inverse_cube_root(J_squared) * left_cauchy_green(p.F_E);
@@ -248,7 +260,7 @@ NEVE_INLINE unsigned take_step(Record<V, I>& p, const MaterialConstants<ElementO
   const V size = fused(d.xx, d.xx, fused(d.yy, d.yy, d.zz * d.zz)) +
                  Real(2) * fused(d.xy, d.xy, fused(d.xz, d.xz, d.yz * d.yz));
   ClayReturn<V> found{one, J_squared, J_squared, MaskOf<V>{}, MaskOf<V>{}};
-  if (is_projected) found = return_to_surface(m, J_squared, size);
+  if (is_projected) found = return_to_surface<some_are_isochoric>(m, J_squared, size);
   const MaskOf<V> is_positive = signed_J > V{};
   const MaskOf<V> is_changed = found.yields | ~is_positive;
   if (is_projected && any_lane(is_changed)) {
@@ -269,7 +281,8 @@ NEVE_INLINE unsigned take_step(Record<V, I>& p, const MaterialConstants<ElementO
     const V growth = found.J_squared / (is_crushed ? one : J_squared);
     take_stretch(F, old, add_identity(found.k * d, mean),
                  inverse_square_root(inverse_cube_root(growth)));
-    if (any_lane(found.keeps_volume)) set_volume(F, J, found.keeps_volume);
+    if constexpr (some_are_isochoric)
+      if (any_lane(found.keeps_volume)) set_volume(F, J, found.keeps_volume);
     V J_P = p.J_P * (J * inverse_square_root(found.J_squared_of_history));
     J_P = J_P < m.min_J_P ? m.min_J_P : J_P;
     J_P = J_P > m.max_J_P ? m.max_J_P : J_P;
@@ -294,7 +307,9 @@ struct InLanes {
   template <class V, class I>
   NEVE_INLINE static unsigned step(Record<V, I>& p, const MaterialConstants<ElementOf<V>>* table,
                                    bool is_projected, V& wave_modulus) {
-    return take_step(p, table, is_projected, wave_modulus);
+    if (any_lane(isochoric_lanes(p, table) > V{}))
+      return take_step<true>(p, table, is_projected, wave_modulus);
+    return take_step<false>(p, table, is_projected, wave_modulus);
   }
 
   /// V0_lambda is that of K.
