@@ -99,7 +99,7 @@ function sealHint() {
     ? `Whisker: ${column.title}, expected at full resolution, with the interval that holds four times in five. `
     : `Whisker: ${column.title} over ${seeds} seeds, from min to max, with the mean. `;
   return start + (column.isNoise ? 'It is noise here: all tiles are too close to call.'
-    : 'Tiles that share a letter are too close to call; they share a colour where they share a rank.');
+    : `Tiles that share a letter${twins ? ' in the same line' : ''} are too close to call; they share a colour where they share a rank.`);
 }
 
 function tileLayout(width) {
@@ -252,8 +252,9 @@ function startTable() {
       'points that share one are too close to call, and sorting by ranks keeps their order.';
   }
   if (study.predicts)
-    by('table-hint').textContent += ' Columns called full have what coarse copies forecast for full resolution, or what the run there gave, ' +
-      'with intervals that hold four times in five; those that share a letter are too close to call.';
+    by('table-hint').textContent += ' Columns called full have what coarse copies forecast for full resolution, with intervals that hold ' +
+      `four times in five, or what the ${hasSeeds ? 'seeds there gave, from min to max' : 'run there gave'}; those that share a letter ` +
+      'are too close to call.';
   const body = make('tbody'), box = watchBox(element);
   const above = make('tr', {className: 'room'}, make('td', {colSpan: columns.length + 1}));
   const below = above.cloneNode(true);
