@@ -409,6 +409,22 @@ Hypothesis rounding(const Case& c) {
       "solver.precision = \"double\", or softer snow", "solver.precision"};
 }
 
+/// Weights reach two cells. Of what is thinner forces and transfers are coarse, and where there is
+/// nothing else, they make notable energy.
+Hypothesis thin(const Case& c) {
+  constexpr double reach = 2, resolved = 6;  // cells
+  if (c.d.rule != "energy" || c.scene.bodies.empty()) return std::nullopt;
+  const auto thickness_of = [](const sim::seeding::Body& body) { return thickness(body.shape); };
+  const sim::seeding::Body& body = *std::ranges::min_element(c.scene.bodies, {}, thickness_of);
+  const double size = thickness(body.shape);
+  if (!(size > 0 && size < reach * c.h)) return std::nullopt;
+  return Diagnosis{
+      Cause::thin,
+      fmt::format("{} is {} cells thick: weights reach {} cells and do not resolve it",
+                  display_name("body", body.name), rough_text(size / c.h), rough_text(reach)),
+      scene::setting_text("solver.cell_size", size / resolved, c.coarsening), "solver.cell_size"};
+}
+
 Hypothesis far_flight(const Case& c) {
   if (c.d.rule != "overflow") return std::nullopt;
   return Diagnosis{
@@ -440,7 +456,7 @@ Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence,
   for (const auto hypothesis :
        {bypass, initial_state, units, raised_limits, too_long_at_rest, collider_speed,
         colliders_closing, incompressible, hardened_beyond_fixed_step, shock, too_soft, hardening,
-        far_flight, raised_acoustic_limit, doubts_of_the_law, rounding})
+        far_flight, raised_acoustic_limit, doubts_of_the_law, rounding, thin})
     if (Hypothesis found = hypothesis(c)) {
       found->coarsening = coarsening;
       return *found;

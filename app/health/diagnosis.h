@@ -26,6 +26,7 @@ enum class Cause {
   too_soft,           ///< snow crushed by its own impact
   law,                ///< numbers that the law of the material itself doubts
   rounding,           ///< snow so stiff that single precision does not resolve its strain
+  thin,               ///< bodies that the grid does not resolve
   far_flight,         ///< out of the lattice, in good health
   unexplained
 };
@@ -47,6 +48,7 @@ constexpr auto names(Cause) {
                     scene::Name{too_soft, "too_soft"},
                     scene::Name{law, "law"},
                     scene::Name{rounding, "rounding"},
+                    scene::Name{thin, "thin"},
                     scene::Name{far_flight, "far_flight"},
                     scene::Name{unexplained, "unexplained"}};
 }

@@ -259,6 +259,24 @@ TEST(Diagnosis, AnyMaterialMayMakeEnergy) {
   EXPECT_EQ(diagnosis.address, "material.gel.poisson_ratio");
 }
 
+/// Where no other cause shows, the body that the grid resolves least is named.
+TEST(Diagnosis, ABodyOfACellMakesEnergy) {
+  const auto diagnosis_of = [](const std::string& radius) {
+    const app::scene::Scene scene = app::scene::read_scene_text(
+        std::string(base) +
+            "[[body]]\nname = \"pea\"\nshape = { sphere = { center = [1, 1, 0], radius = " +
+            radius + " } }\n",
+        "pea.toml");
+    sim::Divergence d;
+    d.rule = "energy";
+    return app::health::diagnose(scene, d, 1.5);
+  };
+  const app::health::Diagnosis thin = diagnosis_of("0.03");
+  EXPECT_EQ(thin.cause, app::health::Cause::thin) << thin.evidence;
+  EXPECT_NE(thin.evidence.find("pea is 1.5 cells thick"), std::string::npos) << thin.evidence;
+  EXPECT_EQ(diagnosis_of("0.09").cause, app::health::Cause::unexplained);
+}
+
 /// Adaptive steps shrink with hardening for hours before a rule breaks; the end is made up here.
 TEST(Diagnosis, DiagnosisNamesHardeningOfAdaptiveSteps) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");

@@ -364,8 +364,6 @@ TEST_F(SweepFileTest, SeedsThatSayNothingOrSaySomethingTwiceAreRefused) {
   EXPECT_NE(complaint(head + "seeds = 4\nmethod = \"list\"\n[[run]]\nseed = 3\n")
                 .find("a run has a seed of its own"),
             std::string::npos);
-  EXPECT_NE(complaint(head + "seeds = 4\nfork = \"0.1s\"\n" + axis).find("one draw"),
-            std::string::npos);
   const std::string many = "[axis]\n\"solver.cfl\" = { linspace = [0.1, 0.4], num = 300 }\n";
   try {
     runs(head + "seeds = 4\n" + many);

@@ -1,6 +1,6 @@
 /// A robot with hidden wishes, on an emulator of real runs: rounds until a clicked tile has every
 /// metric within 5 % of those wanted, against random tiles and a grid. docs/pick.md has the table;
-/// NEVE_ROBOT_TARGETS=50 measures it again.
+/// NEVE_ROBOT_TARGETS says how many.
 
 #include "tests/support/robot.h"
 
@@ -106,7 +106,7 @@ class RobotPicks : public testing::Test {
     return score;
   }
 
-  int targets_ = 20;
+  int targets_ = 50;
   RunTable table_ = read_run_table(NEVE_SOURCE_DIR "/docs/pick/runs.csv");
   Emulator emulator_{table_};
 };
