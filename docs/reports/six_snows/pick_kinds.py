@@ -12,7 +12,7 @@ import pathlib
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "pick"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pick"))
 import real_targets
 
 KINDS = ["paper", "lower_hardening", "lower_youngs_modulus", "lower_critical_compression", "lower_critical_stretch",
