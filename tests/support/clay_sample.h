@@ -1,6 +1,8 @@
 #pragma once
 /// Single particles of cam clay that are strained, for tests of its rules.
 
+#include <gtest/gtest.h>
+
 #include <Eigen/LU>
 #include <cmath>
 #include <random>
@@ -64,6 +66,23 @@ class Sample {
 inline Mat3d random_entries(std::mt19937& random) {
   std::uniform_real_distribution<double> unit(-1, 1);
   return Mat3d::NullaryExpr([&] { return unit(random); });
+}
+
+/// Returned once more to the surface that it was returned to, a state stays.
+inline void expect_idempotent_return(const Material& m) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 200; ++trial) {
+    Sample<double> sample(m);
+    sample.set_F(Mat3d::Identity() + 0.1 * random_entries(random));
+    sample.settle();
+    const Mat3d b = sample.b();
+    const double J_P = sample.J_P();
+    sample.record().J_P = 1;  // its surface, as before the return
+    sample.settle();
+    EXPECT_LE((sample.b() - b).norm(), 1e-12);
+    EXPECT_NEAR(sample.J_P(), 1, 1e-12);
+    EXPECT_GT(J_P, 0);
+  }
 }
 
 }  // namespace neve::test

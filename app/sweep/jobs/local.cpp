@@ -192,17 +192,9 @@ class LocalJobs {
   }
 
   void collect_beginnings() {
-    for (auto active = active_.begin(); active != active_.end();) {
-      const std::optional<ChildResult> ended = active->child.poll();
-      if (!ended) {
-        ++active;
-        continue;
-      }
-      Active done = std::move(*active);
-      active = active_.erase(active);
-      result_.cpu_seconds += ended->cpu_seconds;
-      result_.core_seconds += ended->seconds * done.threads;
-      judge(*ended, manifest_, *done.run, done.folder, done.status);
+    while (std::optional<Ended> ended = take_ended()) {
+      Active& done = ended->run;
+      judge(ended->result, manifest_, *done.run, done.folder, done.status);
       store::write_status(done.folder, done.status);
       if (is_machine_failure(done.status))
         give_up({done.status.exit_code, done.run->label + ": " + done.status.reason});
@@ -431,22 +423,32 @@ class LocalJobs {
     return options::words_of(options);
   }
 
+  struct Ended {
+    Active run;
+    ChildResult result;
+  };
+  /// Takes one that has ended off the list, before its status is written: that may find no room on
+  /// the disk.
+  std::optional<Ended> take_ended() {
+    for (auto active = active_.begin(); active != active_.end(); ++active) {
+      const std::optional<ChildResult> result = active->child.poll();
+      if (!result) continue;
+      result_.cpu_seconds += result->cpu_seconds;
+      result_.core_seconds += result->seconds * active->threads;
+      Ended ended{std::move(*active), *result};
+      active_.erase(active);
+      return ended;
+    }
+    return std::nullopt;
+  }
+
   void collect_ended() {
-    for (auto active = active_.begin(); active != active_.end();) {
-      const std::optional<ChildResult> ended = active->child.poll();
-      if (!ended) {
-        ++active;
-        continue;
-      }
-      result_.cpu_seconds += ended->cpu_seconds;
-      result_.core_seconds += ended->seconds * active->threads;
-      // Off the list first: its status may find no room on the disk.
-      Active done = std::move(*active);
-      active = active_.erase(active);
+    while (std::optional<Ended> ended = take_ended()) {
+      Active& done = ended->run;
       // At the threads that it had.
       work_timed_ += done.run->work;
-      seconds_timed_ += ended->seconds;
-      judge(*ended, manifest_, *done.run, done.folder, done.status);
+      seconds_timed_ += ended->result.seconds;
+      judge(ended->result, manifest_, *done.run, done.folder, done.status);
       finish(*done.run, done.folder, done.status);
       if (done.status.state == store::RunState::ok) output::remove_checkpoints(done.folder);
     }
