@@ -45,8 +45,8 @@ Json surface_json(const scene::Scene& scene, const scene::Export& spec) {
 
 /// Whether all are where the scene alone says: not where they move by themselves, came later,
 /// waited in steps that skip colliders, or were changed while they moved.
-bool are_as_in(const scene::Scene& scene, const Sample& sample) {
-  return std::ranges::equal(sample.colliders, placed_at(scene.colliders, sample.time),
+bool are_as_in(const scene::Scene& scene, const State& state) {
+  return std::ranges::equal(state.colliders, placed_at(scene.colliders, state.time),
                             [](const PlacedShape& a, const PlacedShape& b) {
                               return a.collider == b.collider && a.time == b.time &&
                                      a.pose.point == b.pose.point &&
@@ -143,7 +143,8 @@ Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int 
   const scene::Export& spec = job.record.spec;
   // A frame that is made again keeps its place.
   put(job.record.files, {number, state->time, state->hash});
-  put(job.samples, {number, state->time, state->colliders});
+  const bool is_stage = spec.format == scene::ExportFormat::usda;
+  put(job.samples, {number, state->time, state->colliders, is_stage && !are_as_in(scene_, *state)});
   const bool has_pvd = series_name(spec).ends_with(".pvd");
   std::string series = has_pvd ? encode_pvd(spec, job.samples) : std::string();
   return [this, &spec, state = std::move(state), number, series = std::move(series)] {
@@ -194,7 +195,8 @@ void Exporter::resume(const Json& file, Job& job) const {
   job.record.files.push_back(
       {number, time, std::stoull(file.at("state_hash").get<std::string>(), nullptr, 16)});
   Sample sample{number, time, placed_at(scene_.colliders, time)};
-  if (file.contains("colliders")) {
+  sample.is_elsewhere = file.contains("colliders");
+  if (sample.is_elsewhere) {
     sample.colliders.clear();
     for (const Json& placed : file.at("colliders"))
       sample.colliders.push_back(placed_shape(placed));
@@ -224,8 +226,7 @@ Json Exporter::to_json(const std::string& below) const {
                                {"number", file.number},
                                {"time", number_or_null(file.time)},
                                {"state_hash", hash_digits(file.hash)}});
-      // The stage tells where colliders are.
-      if (spec.format == scene::ExportFormat::usda && !are_as_in(scene_, job.samples[k]))
+      if (job.samples[k].is_elsewhere)
         json["files"].back()["colliders"] = places_json(job.samples[k]);
     }
     list.push_back(std::move(json));

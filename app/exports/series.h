@@ -18,6 +18,7 @@ struct Sample {
 
   /// Null where there was no such collider.
   const PlacedShape* find(const std::string& collider) const;
+  bool is_elsewhere = false;  ///< the scene alone does not say where colliders are
 };
 
 /// "0024.ply"
