@@ -220,9 +220,13 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
     result.frames.push_back(frame_forecast);
   }
   result.withheld = withheld_by(*coarse, simulation);
+  const std::string copy = "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) + " m";
   if (simulation.divergence())
-    result.divergence = "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) +
-                        " m diverges: " + simulation.divergence()->what;
+    result.divergence = copy + " diverges: " + simulation.divergence()->what;
+  else if (const sim::Warnings& warnings = simulation.warnings(); warnings.rules_ignored > 0)
+    result.ignored =
+        fmt::format("{} breaks the rule {} in step {} and goes on", copy,
+                    sim::stop_rules.at(warnings.first_ignored_rule), warnings.first_ignored);
   if (run.particle_steps > 0) result.seconds_per_particle_step = seconds / run.particle_steps;
   return run;
 }

@@ -102,6 +102,10 @@ void check_copy(const scene::Scene& scene, const forecast::Forecast& foreseen,
                      rough_text(100 * withheld.share), rough_text(withheld.time)),
          fmt::format("use {}; run.json counts this snow as withheld",
                      remedy_for_clogging(scene, withheld.emitter))});
+  if (!foreseen.ignored.empty())
+    findings.push_back({Severity::warning, "solver.on_divergence",
+                        foreseen.ignored + ": snow that bursts takes many short steps",
+                        "solver.on_divergence = \"stop\" ends the run there and names the cause"});
   if (!foreseen.divergence.empty())
     findings.push_back({Severity::warning, "", foreseen.divergence,
                         "run the scene itself to see if it diverges too"});

@@ -181,6 +181,21 @@ void check_fixed_steps(const sim::SolverSettings& s, const Check& check,
   report(Law::speed_cfl, check.impact_speed * s.dt / h, "snow at impact");
 }
 
+/// Adaptive steps are as long as acoustic_cfl says, also where nothing can hold them.
+void check_adaptive_steps(const sim::SolverSettings& s, const Check& check,
+                          std::vector<Finding>& findings) {
+  if (s.is_implicit() || !(s.acoustic_cfl > sim::SolverSettings{}.acoustic_cfl)) return;
+  const double cells = check.start.max_sound_speed * check.dt_start / s.cell_size;
+  if (!(cells > limits_of(Law::acoustic_cfl).check_error)) return;
+  findings.push_back(
+      {Severity::error, "solver.acoustic_cfl",
+       fmt::format("{} allows steps of {} s, in which sound crosses {} cells: the run will diverge",
+                   rough_text(s.acoustic_cfl), rough_text(check.dt_start), rough_text(cells)),
+       scene::setting_text("solver.acoustic_cfl", sim::SolverSettings{}.acoustic_cfl,
+                           check.coarsening) +
+           " holds"});
+}
+
 /// Reports the damping of semi-implicit steps: a wave loses beta w^2 dt of its energy per second.
 void check_implicit_steps(const sim::SolverSettings& s, const Check& check,
                           std::vector<Finding>& findings) {
@@ -393,6 +408,8 @@ double reachable_speed(const scene::Scene& scene) {
 void check_steps(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
   if (scene.solver.time_step == sim::TimeStep::fixed)
     check_fixed_steps(scene.solver, check, findings);
+  else
+    check_adaptive_steps(scene.solver, check, findings);
   check_implicit_steps(scene.solver, check, findings);
   check_transfer(scene, check, findings);
   const double c = check.start.max_sound_speed;

@@ -17,6 +17,10 @@ std::string vector_text(const sim::Vec3d& v);
 /// "ball", or "body 1" of a body that has a number for a name.
 std::string display_name(const std::string& kind, const std::string& name);
 
+/// Key of the parameter that moves a collider most, ".velocity"; "" of a body that falls.
+/// @param speed  m/s, its largest
+const char* fastest_part(const sim::shapes::Collider& collider, double speed);
+
 /// Particles: the grid cannot tell more of them apart in a cell.
 inline constexpr double max_useful_per_cell = 40;
 

@@ -68,7 +68,8 @@ void check_emitter_overlaps(const scene::Scene& scene, std::vector<Finding>& fin
   }
 }
 
-/// Key of the parameter that moves a collider most.
+}  // namespace
+
 const char* fastest_part(const sim::shapes::Collider& collider, double speed) {
   const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form);
   if (sequence && sim::shapes::deforming_mesh(*sequence)->fastest() >= 0.5 * speed)
@@ -77,8 +78,6 @@ const char* fastest_part(const sim::shapes::Collider& collider, double speed) {
   if (collider.body.moves() && sim::shapes::largest_speed(collider) < speed) return "";  // it falls
   return collider.velocity.norm() < 0.5 * speed ? ".angular_velocity" : ".velocity";
 }
-
-}  // namespace
 
 void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
                              std::vector<Finding>& findings) {

@@ -71,10 +71,12 @@ void check_spin(const scene::Scene& scene, const Check& check, std::vector<Findi
     if (!(half_life < longest)) continue;
     findings.push_back(
         {Severity::note, piece.address + ".angular_velocity",
-         fmt::format("{} has the volume of a ball of {} cells in radius: FLIP halves its spin "
-                     "every {} s",
+         fmt::format("{} has the volume of a ball of {} cells in radius: FLIP {}",
                      display_name("body", piece.address.substr(std::string(body).size())),
-                     rough_text(radius), rough_text(half_life)),
+                     rough_text(radius),
+                     half_life < check.dt_start
+                         ? "takes its spin in the first steps"
+                         : fmt::format("halves its spin every {} s", rough_text(half_life))),
          "solver.transfer = \"asflip\" or \"aflip\" keeps it"});
   }
 }

@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
 #include "app/setup/seed_scene.h"
+#include "app/setup/snow_pieces.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/health/diagnostics.h"
 #include "sim/laws/law.h"
+#include "sim/shapes/collider.h"
+#include "sim/types/time_step.h"
 
 namespace neve::app::health {
 
@@ -20,6 +24,10 @@ namespace {
 
 /// Particle-steps: some seconds on one core, and half an hour.
 constexpr double worth_a_word = 1e8, very_long = 2e10;
+/// A step of few particles takes as long as one of so many: 7 to 25 us, measured with 29 to 301.
+constexpr double min_work_of_step = 500;
+/// Steps of a run that is long whatever it has in it.
+constexpr double many_steps = 5e5;
 /// Times the work of what is usual.
 constexpr double stands_out = 4;
 
@@ -102,6 +110,43 @@ sim::DtLimit ruling_limit(const Check& check) {
   return *most > 0 ? static_cast<sim::DtLimit>(most - steps.begin()) : check.limit_start;
 }
 
+/// Seconds of a run that its forecast covers.
+double duration_of(const scene::Scene& scene, const Check& check) {
+  return static_cast<double>(check.foreseen.frames.size()) / scene.fps;
+}
+
+/// What moves so fast that its speed sets the steps, not sound. Snow that bursts moves without
+/// anything that throws it: nothing is named then.
+void add_of_motion(const scene::Scene& scene, const Check& check, std::vector<Slow>& slow) {
+  const double of_sound = check.start.dt[static_cast<std::size_t>(sim::DtLimit::acoustic)];
+  const double mean = duration_of(scene, check) / check.foreseen.steps().expected;
+  const double times = of_sound / mean;
+  if (!(times < 1e300)) return;
+  // Where it is slower than that the steps have another reason.
+  const double telling = 0.25 * scene.solver.cfl * scene.solver.cell_size / mean;
+  const auto add = [&](const std::string& address, double speed) {
+    if (speed < telling) return;
+    slow.push_back({address, times,
+                    fmt::format("at {} m/s it crosses a cell in {} s: {} times the steps that "
+                                "sound asks for",
+                                rough_text(speed), rough_text(scene.solver.cell_size / speed),
+                                times_text(times)),
+                    fmt::format("at {} m/s sound sets the steps", rough_text(speed / times))});
+  };
+  for (const setup::SnowPiece& piece : setup::snow_places(scene)) {
+    const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
+    add(piece.address + ".velocity", piece.velocity.norm());
+    add(piece.address + ".angular_velocity",
+        piece.angular_velocity.norm() * 0.5 * (box.max - box.min).norm());
+  }
+  for (const sim::shapes::Collider& collider : scene.colliders) {
+    const double speed = sim::shapes::largest_speed(collider);
+    add("collider." + collider.name + fastest_part(collider, speed), speed);
+  }
+  // Its own speed counts before what gravity adds: of equal ones the first is named.
+  add("solver.gravity", check.impact_speed);
+}
+
 void add_of_steps(const scene::Scene& scene, const Check& check, std::vector<Slow>& slow) {
   const sim::SolverSettings &s = scene.solver, usual;
   using enum sim::DtLimit;
@@ -114,9 +159,11 @@ void add_of_steps(const scene::Scene& scene, const Check& check, std::vector<Slo
       return add_of_sound(scene, slow);
     case cfl:
     case collider:
-      return compare("solver.cfl", s.cfl, usual.cfl);
+      compare("solver.cfl", s.cfl, usual.cfl);
+      return add_of_motion(scene, check, slow);
     case strain:
-      return compare("solver.strain_limit", s.strain_limit, usual.strain_limit);
+      compare("solver.strain_limit", s.strain_limit, usual.strain_limit);
+      return add_of_motion(scene, check, slow);
     case max_dt:
       return compare("solver.max_dt", s.max_dt, usual.max_dt * check.coarsening, check.coarsening);
     case fixed: {
@@ -161,7 +208,10 @@ void add_of_cost(const scene::Scene& scene, const Check& check, std::vector<Slow
 }  // namespace
 
 void check_slowness(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
-  const double steps = check.foreseen.steps().expected, work = steps * check.plan.particles;
+  const double steps = check.foreseen.steps().expected,
+               explicit_steps =
+                   check.foreseen.work(0, static_cast<int>(check.foreseen.frames.size())).expected,
+               work = explicit_steps * std::max(min_work_of_step, check.plan.particles);
   if (!(work >= worth_a_word)) return;
   std::vector<Slow> slow;
   add_of_steps(scene, check, slow);
@@ -172,15 +222,27 @@ void check_slowness(const scene::Scene& scene, const Check& check, std::vector<F
     return std::any_of(findings.begin(), findings.end(),
                        [&](const Finding& finding) { return finding.address == address; });
   };
+  const auto note = [&](const std::string& address, std::string what, std::string hint) {
+    if (!is_named(address))
+      findings.push_back({Severity::note, address, std::move(what), std::move(hint)});
+  };
   if (worst != slow.end() && worst->times >= stands_out) {
-    if (!is_named(worst->address))
-      findings.push_back({Severity::note, worst->address, worst->what, worst->hint});
-  } else if (work >= very_long && !is_too_large(scene)) {
-    findings.push_back(
-        {Severity::note, "solver.cell_size",
-         fmt::format("about {} steps of {} particles are a long run", about_count_text(steps),
-                     about_count_text(check.plan.particles)),
-         "--coarsen 2 takes about a sixteenth of the work, and is a first look"});
+    note(worst->address, worst->what, worst->hint);
+  } else if (!check.foreseen.ignored.empty()) {
+    // A finding of its own says so: snow that bursts has no usual steps.
+  } else if (work >= very_long && check.plan.particles >= min_work_of_step) {
+    if (!is_too_large(scene))
+      note("solver.cell_size",
+           fmt::format("about {} steps of {} particles are a long run", about_count_text(steps),
+                       about_count_text(check.plan.particles)),
+           "--coarsen 2 takes about a sixteenth of the work, and is a first look");
+  } else if (steps >= many_steps) {
+    note("fps",
+         fmt::format("about {} steps, because {} s are long for cells of {} m",
+                     about_count_text(steps), rough_text(duration_of(scene, check)),
+                     rough_text(scene.solver.cell_size)),
+         fmt::format("fps = {} shows as many frames of slower motion, in a tenth of the time",
+                     rough_text(10 * scene.fps)));
   }
 }
 

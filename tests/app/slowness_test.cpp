@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "app/forecast/step_cost.h"
 #include "app/scene/read.h"
+#include "app/setup/seed_scene.h"
 #include "app/support/clock.h"
 
 namespace neve::app {
@@ -13,10 +17,9 @@ namespace {
 constexpr const char* slow_ball =
     "[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\n";
 
-/// The note on a ball of 10 000 particles whose run takes so many steps, all of one limit.
-std::string note_on(const std::string& more, sim::DtLimit limit, double steps = 1e5,
-                    std::vector<health::Finding> findings = {}) {
-  const scene::Scene scene = scene::read_scene_text(slow_ball + more, "slow.toml");
+/// What is known of a ball of 10 000 particles whose first frame takes so many steps, all of one
+/// limit, where sound asks for 417 of 1e-4 s.
+health::Check check_of(sim::DtLimit limit, double steps) {
   health::Check check;
   check.plan.particles = 1e4;
   check.start.dt.fill(1e-4);
@@ -24,11 +27,21 @@ std::string note_on(const std::string& more, sim::DtLimit limit, double steps = 
   frame.steps = frame.min_steps = frame.max_steps = steps;
   frame.frame = 1;
   frame.limit = limit;
-  frame.iterations = 400;
   check.foreseen.frames = {frame};
+  return check;
+}
+
+std::string note_on(const std::string& more, const health::Check& check,
+                    std::vector<health::Finding> findings = {}) {
+  const scene::Scene scene = scene::read_scene_text(slow_ball + more, "slow.toml");
   const std::size_t before = findings.size();
   health::check_slowness(scene, check, findings);
   return findings.size() > before ? sentence(findings.back()) : "";
+}
+
+std::string note_on(const std::string& more, sim::DtLimit limit, double steps = 1e5,
+                    std::vector<health::Finding> findings = {}) {
+  return note_on(more, check_of(limit, steps), std::move(findings));
 }
 
 TEST(Slowness, TheParameterThatShortensTheStepsIsNamedWithAValueThatDoesNot) {
@@ -52,7 +65,9 @@ TEST(Slowness, TheParameterThatShortensTheStepsIsNamedWithAValueThatDoesNot) {
       note_on("J_P = 0.5\n", acoustic),
       "body.ball.J_P: snow packed to 0.5 makes sound 12.2 times as fast as 1 would, and steps "
       "as much shorter; body.ball.J_P = 1");
-  EXPECT_EQ(note_on("[solver]\nbeta = 1\nsolve_tolerance = 1e-9\n", max_dt),
+  health::Check solved = check_of(max_dt, 1e5);
+  solved.foreseen.frames[0].iterations = 400;
+  EXPECT_EQ(note_on("[solver]\nbeta = 1\nsolve_tolerance = 1e-9\n", solved),
             "solver.solve_tolerance: solves take 400 iterations to 1e-09; solver.solve_tolerance = "
             "0.01");
   EXPECT_EQ(note_on("particles_per_cell = 80\n", max_dt),
@@ -78,6 +93,57 @@ TEST(Slowness, AVeryLongRunWithoutSuchAParameterIsTold) {
             "takes about a sixteenth of the work, and is a first look");
 }
 
+/// A step of a few particles takes as long as one of some hundred.
+TEST(Slowness, ARunOfFewParticlesIsLongByItsSteps) {
+  health::Check few = check_of(sim::DtLimit::acoustic, 3e5);
+  few.plan.particles = 29;
+  EXPECT_EQ(note_on("[solver]\nacoustic_cfl = 0.002\n", few),
+            "solver.acoustic_cfl: 0.002 makes 250 times the steps of 0.5; solver.acoustic_cfl = "
+            "0.5");
+  EXPECT_EQ(note_on("", few), "") << "no reason, and some seconds";
+  few.foreseen.frames[0].steps = 2e6;
+  EXPECT_EQ(note_on("", few),
+            "fps: about 2000000 steps, because 0.0417 s are long for cells of 0.02 m; fps = 240 "
+            "shows as many frames of slower motion, in a tenth of the time");
+}
+
+TEST(Slowness, WhatMovesSoFastThatItSetsTheStepsIsNamed) {
+  using enum sim::DtLimit;
+  // 1e5 steps in a 24th of a second are 240 times those of sound; 0.4 of 0.02 m in each is 2e4 m/s.
+  const std::string end = " times the steps that sound asks for; at ";
+  EXPECT_EQ(note_on("velocity = [0, -20000, 0]\n", cfl),
+            "body.ball.velocity: at 2e+04 m/s it crosses a cell in 1e-06 s: 240" + end +
+                "83.3 m/s sound sets the steps");
+  EXPECT_EQ(note_on("angular_velocity = [0, 200000, 0]\n", strain).substr(0, 21),
+            "body.ball.angular_vel");
+  const std::string plate =
+      "[[collider]]\nname = \"plate\"\nvelocity = [20000, 0, 0]\n"
+      "shape = { box = { size = [1, 0.1, 1] } }\n";
+  EXPECT_EQ(note_on(plate, collider),
+            "collider.plate.velocity: at 2e+04 m/s it crosses a cell in 1e-06 s: 240" + end +
+                "83.3 m/s sound sets the steps");
+  EXPECT_EQ(note_on("", cfl), "") << "nothing in the scene is as fast";
+  EXPECT_EQ(note_on("velocity = [0, -20000, 0]\n", acoustic), "") << "sound sets the steps";
+}
+
+/// Snow that bursts, and is not stopped, moves at any speed: what breaks it is the reason.
+TEST(Slowness, ACopyThatBreaksARuleAndGoesOnIsNoneOfTheScenesSpeed) {
+  health::Check check = check_of(sim::DtLimit::strain, 4e6);
+  check.foreseen.ignored = "a copy breaks a rule";
+  EXPECT_EQ(note_on("", check), "");
+}
+
+/// A copy of a scene that ignores its rules tells which it broke.
+TEST(Slowness, ARuleThatACopyIgnoresIsTold) {
+  const scene::Scene scene = scene::read_scene_text(
+      std::string(slow_ball) +
+          "[solver]\nacoustic_cfl = 200\nmax_dt = 0.004\non_divergence = \"ignore\"\n",
+      "");
+  const forecast::Forecast forecast = forecast::foresee(scene, 500, 1, {5, 1e5, 500});
+  EXPECT_EQ(forecast.divergence, "");
+  EXPECT_NE(forecast.ignored.find(" m breaks the rule "), std::string::npos) << forecast.ignored;
+}
+
 /// A single frame may have more steps than there is time for: its beginning tells them.
 TEST(Slowness, AFrameOfManyStepsIsForetoldInTheSecondsThatThereAre) {
   const scene::Scene scene = scene::read_scene_text(
@@ -87,6 +153,24 @@ TEST(Slowness, AFrameOfManyStepsIsForetoldInTheSecondsThatThereAre) {
   EXPECT_LT(seconds_since(start), 10) << "of some hours, on a machine that does other work";
   // Sound crosses half a cell of 2 cm in 2e-7 s at 5e4 m/s.
   EXPECT_GT(forecast.steps().expected, 1e5);
+}
+
+/// A solve that is given up is followed by up to a thousand explicit steps, and the forecast counts
+/// each of them.
+TEST(Slowness, AStepOfManyPartsTakesTheTimeOfOnePartEach) {
+  const scene::Scene scene = scene::read_scene_text(
+      std::string(slow_ball) +
+          "velocity = [3, 0, 0]\nangular_velocity = [50, 0, 0]\n[solver]\nbeta = 1\ncell_size = "
+          "0.05\n"
+          "solve_iterations = 1\nsolve_tolerance = 1e-12\n[material.snow]\nyoungs_modulus = 1e12\n",
+      "");
+  sim::Simulation simulation = setup::make_simulation(scene, setup::seed_scene(scene).particles, 1);
+  const auto start = Clock::now();
+  const forecast::StepTime time = forecast::measure_steps(simulation, 1 / scene.fps, {4, 20});
+  const double all = seconds_since(start), asked = time.steps;
+  ASSERT_GT(static_cast<double>(simulation.steps()), 10 * asked) << "the solves hold";
+  // Generous for a noisy clock: without it a step would take ten to a thousand times as long.
+  EXPECT_LT(time.seconds * static_cast<double>(simulation.steps()), 3 * all);
 }
 
 }  // namespace

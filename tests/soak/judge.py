@@ -7,7 +7,8 @@ from ways import Ways
 
 # The parameters that `neve check` names where they make a run slow.
 REASONS = ("youngs_modulus", "density", "poisson_ratio", "hardening", "J_P", "acoustic_cfl", "cfl", "strain_limit",
-           "max_dt", "dt", "particles_per_cell", "solve_tolerance", "cell_size", "spacing", "beta")
+           "max_dt", "dt", "particles_per_cell", "solve_tolerance", "cell_size", "spacing", "beta", "velocity",
+           "angular_velocity", "keyframes", "rate", "gravity", "on_divergence", "fps", "friction_angle")
 
 
 def forecast(neve):
