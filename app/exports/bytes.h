@@ -55,10 +55,6 @@ void for_row(const Column& column, std::size_t row, const Use& use) {
       column.numbers);
 }
 
-inline std::size_t number_count(const Column& column) {
-  return std::visit([](const auto& numbers) { return numbers.size(); }, column.numbers);
-}
-
 inline std::size_t row_size(const Table& table) {
   std::size_t bytes = 0;
   for (const Column& column : table.columns)

@@ -13,7 +13,7 @@
 
 namespace neve::app::exports {
 
-inline constexpr int leaf_side = 8, leaf_voxels = 512;
+inline constexpr int leaf_voxels = 8 * 8 * 8;
 
 /// Voxel (x, y, z) of a leaf is number 64 x + 8 y + z.
 struct VdbLeaf {

@@ -50,7 +50,6 @@ class Drawing {
  private:
   picture::Snapshot take(const timeline::Timeline& timeline, const std::vector<scene::View>& views,
                          int frame, std::uint64_t state_hash);
-  std::vector<scene::View> views_to_read() const;
   bool is_alone(const scene::View& view) const;
   /// Frames while the shutter is open; none without motion blur.
   std::vector<render::Frame> shutter_frames(const scene::View& view, const render::Frame& frame,

@@ -14,7 +14,6 @@ inline constexpr std::uint32_t no_block = 0xffffffffu;
 
 /// A place with coordinates of 21 bits; keys are in the order of z, then y, then x.
 using BlockKey = std::uint64_t;
-inline constexpr int max_coordinate = (1 << 20) - 1;
 
 constexpr BlockKey block_key(Vec3i b) {
   const auto bits = [](int c) { return static_cast<BlockKey>(c + (1 << 20)); };

@@ -28,9 +28,6 @@ class FramePacing {
   /// JPEG quality for a picture of many.
   int quality() const { return int(quality_); }
 
-  /// s from sending to showing, smoothed over a few pictures; 0 before the first.
-  double round_trip() const { return round_trip_; }
-
  private:
   struct Picture {
     std::uint32_t number = 0;
@@ -38,7 +35,8 @@ class FramePacing {
   };
   std::vector<Picture> in_flight_;
   std::uint32_t next_number_ = 1;  ///< continues with the next viewer: no number is used twice
-  double quality_ = 80, round_trip_ = 0;
+  double quality_ = 80;
+  double round_trip_ = 0;  ///< s from sending to showing, smoothed; 0 before the first
 };
 
 }  // namespace neve::app::view::web

@@ -54,7 +54,6 @@ void Connection::receive(double now) {
 
 void Connection::open(std::size_t head_size, double now) {
   stage_ = Stage::open;
-  is_web_socket_ = true;
   heard_ = pinged_ = moved_ = now;
   reader_.feed(std::string_view(head_).substr(head_size));
   head_.clear();

@@ -77,7 +77,6 @@ class Connection {
   Stage stage() const { return stage_; }
   int socket() const { return socket_; }
   std::uint64_t id() const { return id_; }
-  bool is_web_socket() const { return is_web_socket_; }
 
  private:
   void note_progress(double now);
@@ -90,7 +89,6 @@ class Connection {
   int socket_;
   std::uint64_t id_;
   Stage stage_ = Stage::head;
-  bool is_web_socket_ = false;
   std::string head_;
   FrameReader reader_;
   std::optional<WebMessage> held_;
