@@ -7,9 +7,6 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// They begin where the last step ended: loads that stay are carried whole, and an impact, a press
-/// and a rebound come out as with a hundred passes, within a percent.
-constexpr int passes = 2;
 /// After a solve: springs gave way, at each particle by another share.
 constexpr int passes_after_solve = 4;
 /// With bodies that move by themselves, which answer after each, at most: until they are settled.
@@ -181,6 +178,7 @@ void ParticleContact<Real>::act(State<Real>& state, const kernels::SweepArgs<Rea
   list_near_bodies(partition);
   follow_bodies(state);
   if (is_before_solve) return over(blocks_, sweeps.rows, state);
+  const int passes = state.method.settings.contact_passes;
   for (int k = 1; !a.is_last; ++k) {
     a.is_last = is_enough(k, passes);
     // What was remembered has been read.
@@ -194,7 +192,7 @@ void ParticleContact<Real>::act(State<Real>& state, const kernels::SweepArgs<Rea
 template <class Real>
 bool ParticleContact<Real>::is_enough(int pass, int wanted) const {
   if (pass < wanted) return false;
-  return bodies_.empty() || bodies_.are_settled() || pass == passes_with_bodies;
+  return bodies_.empty() || bodies_.are_settled() || pass >= passes_with_bodies;
 }
 
 /// Bodies answer the impulses that there are.

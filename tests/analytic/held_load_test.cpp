@@ -9,24 +9,6 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-std::string in_words(const SolverSettings& s) {
-  return name(s.transfer) + " " + name(s.kernel) +
-         (s.transfer == Transfer::flip && s.advect == Advect::pic ? ", moved by the grid" : "") +
-         (s.beta > 0 ? ", beta = " + in_digits(s.beta) : "");
-}
-
-/// In the semi-implicit one, sound crosses three cells in a step.
-std::vector<Mould> moulds() {
-  std::vector<Mould> list{mould_of(Transfer::apic, Kernel::cubic, Advect::particle),
-                          mould_of(Transfer::asflip, Kernel::cubic, Advect::particle),
-                          mould_of(Transfer::mls, Kernel::quadratic, Advect::particle),
-                          mould_of(Transfer::flip, Kernel::cubic, Advect::pic)};
-  list.push_back(list.front());
-  list.back().settings.beta = 1;
-  list.back().settings.max_dt = 5e-4;
-  return list;
-}
-
 /// Snow of four cells, pressed to 0.6 of its height. Without walls that hold what they are given,
 /// it is packed less, or loses its stress while the plate rests.
 TEST(Mould, SnowCarriesTheStressOfItsStrainAndKeepsIt) {

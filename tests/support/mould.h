@@ -11,6 +11,7 @@
 #include "tests/support/compression.h"
 #include "tests/support/elastic.h"
 #include "tests/support/snow.h"
+#include "tests/support/verification.h"
 
 namespace neve::test {
 
@@ -33,6 +34,25 @@ inline Mould mould_of(sim::Transfer transfer, sim::Kernel kernel, sim::Advect ad
   mould.settings.advect = advect;
   mould.settings.gravity.setZero();
   return mould;
+}
+
+inline std::string in_words(const sim::SolverSettings& s) {
+  return name(s.transfer) + " " + name(s.kernel) +
+         (s.transfer == Transfer::flip && s.advect == sim::Advect::pic ? ", moved by the grid"
+                                                                       : "") +
+         (s.beta > 0 ? ", beta = " + in_digits(s.beta) : "");
+}
+
+/// In the semi-implicit one, sound crosses three cells in a step.
+inline std::vector<Mould> moulds() {
+  std::vector<Mould> list{mould_of(Transfer::apic, Kernel::cubic, sim::Advect::particle),
+                          mould_of(Transfer::asflip, Kernel::cubic, sim::Advect::particle),
+                          mould_of(Transfer::mls, Kernel::quadratic, sim::Advect::particle),
+                          mould_of(Transfer::flip, Kernel::cubic, sim::Advect::pic)};
+  list.push_back(list.front());
+  list.back().settings.beta = 1;
+  list.back().settings.max_dt = 5e-4;
+  return list;
 }
 
 /// Floor, four walls and a plate that comes down. All of them just touch the snow at the start, so
