@@ -59,36 +59,61 @@ TEST(SlippingBallLong, SlippingBallAcceleratesByGravityLessFriction) {
 /// Way and spin of a ball that rolls down a slope for 0.8 s, of a rigid one.
 struct Rolling {
   double way, spin_over_speed;
+  double slipping_spin;  ///< of that which friction gives a ball that slips
 };
-Rolling roll(double cells) {
+Rolling roll(double cells, double friction, unsigned seed) {
   const double t = 20 * std::numbers::pi / 180, h = 0.02, R = cells * h, seconds = 0.8;
   SolverSettings s;
   s.cell_size = h;
   s.gravity = 9.81 * Vec3d(std::sin(t), -std::cos(t), 0);
   const double x = 0.003;
-  Simulation simulation(s, {elastic(1e6, 0.2, 400)}, {plane({0, 0, 0}, {0, 1, 0}, 0.3)},
-                        ball_of_snow({x, R + 0.375 * h / 2, 0.004}, R, h / 2, Vec3d::Zero()), 2);
+  Simulation simulation(s, {elastic(1e6, 0.2, 400)}, {plane({0, 0, 0}, {0, 1, 0}, friction)},
+                        ball_of_snow({x, R + 0.375 * h / 2, 0.004}, R, h / 2, Vec3d::Zero(), seed),
+                        2);
   const double begin = simulation.summary().centre_of_mass[0];
   simulation.advance_to(seconds);
   const Summary now = simulation.summary();
   const Vec3d own = now.angular_momentum - now.centre_of_mass.cross(now.momentum);
-  const double exact = 0.5 * 9.81 * std::sin(t) / 1.4 * seconds * seconds;
-  return {(now.centre_of_mass[0] - begin) / exact, -own[2] / (0.4 * R) / now.momentum[0]};
+  const double down = std::sin(t), held = friction * std::cos(t);
+  const bool slips = friction < 2.0 / 7 * std::tan(t);
+  const double exact = 0.5 * 9.81 * (slips ? down - held : down / 1.4) * seconds * seconds;
+  return {(now.centre_of_mass[0] - begin) / exact, -own[2] / (0.4 * R) / now.momentum[0],
+          -own[2] / (now.mass * R * 9.81 * held * seconds)};
 }
 
 /// Particles that come to touch in front are stopped, those that leave behind are not: rolling has
-/// a resistance of a fifth of a cell over the radius, which shrinks with the cells. (At friction
-/// 0.05 that is as much as friction has, and a ball of six cells gets from nothing to half of its
-/// spin.)
+/// a resistance of a fifth of a cell over the radius, which shrinks with the cells.
 TEST(RollingBallLong, ABallRollsTheBetterTheFinerItsCells) {
   for (const double cells : {6.0, 12.0}) {
-    const Rolling found = roll(cells);
+    const Rolling found = roll(cells, 0.3, 1);
     const std::string line = "ball rolling down 20°, radius of " + in_digits(cells) + " cells";
     verify_ratio({"incline", line, "way in 0.8 s / that of a rigid ball"}, 1, found.way,
                  0.8 / cells);
     // It rocks on its particles while it rolls.
     verify_near({"incline", line, "spin times radius / speed"}, 1, found.spin_over_speed, 0.1);
   }
+}
+
+/// At friction 0.05 that resistance takes a large part of what friction gives: how much, of a ball
+/// of six cells, is by how its particles lie. It slips as it should.
+TEST(RollingBallLong, ABallAtLowFrictionSpinsUpTheBetterTheFinerItsCells) {
+  const auto line = [](double cells, unsigned seed) {
+    return "ball slipping down 20°, mu = 0.05, radius of " + in_digits(cells) + " cells, seed " +
+           in_digits(seed);
+  };
+  const std::string way = "way in 0.8 s / that of a rigid ball",
+                    spin = "spin after 0.8 s / that of a rigid ball";
+  double coarse = 0;
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const Rolling found = roll(6, 0.05, seed);
+    verify_ratio({"incline", line(6, seed), way}, 1, found.way, 0.02);
+    keep_number({"incline", line(6, seed), spin}, found.slipping_spin);
+    coarse += found.slipping_spin / 3;
+  }
+  const Rolling fine = roll(12, 0.05, 1);
+  verify_ratio({"incline", line(12, 1), way}, 1, fine.way, 0.02);
+  verify_near({"incline", line(12, 1), spin}, 0.46, fine.slipping_spin, 0.1);
+  EXPECT_GT(fine.slipping_spin, coarse + 0.1);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 /// Contact that holds a load: for most of a second, and as many passes would.
 
+#include "tests/support/beam.h"
 #include "tests/support/mould.h"
 #include "tests/support/verification.h"
 
@@ -20,6 +21,22 @@ TEST(MouldLong, SnowKeepsItsStressForMostOfASecond) {
     verify_near({"mould_long", line, "force on the plate, of that when it stopped"}, 1,
                 found[3].force / found[1].force, 0.1);
   }
+}
+
+/// Glued by its end alone, a beam hangs on the particles of the outermost layer, a quarter of a
+/// cell from the wall. Those that are pulled stay there, those that are pressed come nearer until
+/// they touch, by a sixteenth of a cell: its end turns by that, which is half as much in cells of
+/// half the size. (It still swings: a twentieth.)
+TEST(CantileverLong, ABeamGluedFaceToFaceApproachesTheExactSag) {
+  Beam coarse, fine;
+  coarse.root = fine.root = 0;
+  fine.cell_size = coarse.cell_size / 2;
+  const auto excess = [](const Beam& beam) { return sags(beam, {1.2})[0] / beam.sag() - 1; };
+  const double before = excess(coarse), after = excess(fine);
+  const std::string line = "glued to the wall, cells of a twentieth of its length";
+  verify_at_most({"cantilever", line, "sag of the tip, of the exact one"}, 1.4, 1 + after);
+  verify_near({"cantilever", line, "what is too much, of that in cells of a tenth"}, 0.5,
+              after / before, 0.1);
 }
 
 /// N, the largest mean over a frame of what the boot of scenes/boot_print.toml feels from below.
