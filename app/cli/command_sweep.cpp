@@ -29,6 +29,7 @@
 #include "app/sweep/jobs/start_order.h"
 #include "app/sweep/plan/dry_run_report.h"
 #include "app/sweep/plan/labels.h"
+#include "app/sweep/plan/refinement.h"
 #include "app/sweep/plan/shared_view.h"
 #include "app/sweep/plan/study_forecast.h"
 #include "app/sweep/plan/sweep_plan.h"
@@ -254,6 +255,18 @@ void note_redrawn(const sweep::store::Redrawn& redrawn, const sweep::plan::Sweep
           : fmt::format("; --keep-states keeps them, in about {}", bytes_text(bytes))));
 }
 
+/// Of a plan that has lost some of its runs: the copies of the points that are left.
+void keep_copies_of_runs(sweep::plan::SweepPlan& plan) {
+  const auto seeds = static_cast<std::size_t>(plan.sweep.runs_per_point());
+  std::map<std::size_t, std::size_t> places;  // of the first run that is left, by the point
+  for (std::size_t k = 0; k < plan.runs.size(); ++k)
+    places.emplace(static_cast<std::size_t>(plan.runs[k].run.index) / seeds, k);
+  std::erase_if(plan.variants, [&](const sweep::plan::PlannedVariant& copy) {
+    return !places.contains(copy.of / seeds);
+  });
+  for (sweep::plan::PlannedVariant& copy : plan.variants) copy.of = places.at(copy.of / seeds);
+}
+
 /// Keeps the runs of --only and --shard in a plan that is only printed. @throws UsageError
 void choose_runs(const sweep::plan::SweepOptions& options, sweep::plan::SweepPlan& plan,
                  Progress& progress) {
@@ -265,6 +278,7 @@ void choose_runs(const sweep::plan::SweepOptions& options, sweep::plan::SweepPla
   std::erase_if(plan.runs, [&](const sweep::plan::PlannedRun& item) {
     return std::find(chosen.begin(), chosen.end(), item.run.index) == chosen.end();
   });
+  keep_copies_of_runs(plan);
 }
 
 /// Numbers of the chosen runs that are not finished, and of their copies; of equal ones the first.
@@ -301,9 +315,9 @@ Left left_of(const sweep::plan::SweepPlan& plan, const std::vector<int>& unfinis
   return left;
 }
 
-/// Gives the manifest the cost of each run and copy. @return s of one thread, of all runs
-double take_costs(const sweep::plan::SweepPlan& plan, const sweep::plan::StudyForecast& forecast,
-                  sweep::store::Manifest& manifest) {
+/// Gives the manifest the cost of each run and copy.
+void take_costs(const sweep::plan::SweepPlan& plan, const sweep::plan::StudyForecast& forecast,
+                sweep::store::Manifest& manifest) {
   double cost = 0, seconds = 0;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     manifest.runs[k].work = forecast.cost(k);
@@ -314,7 +328,6 @@ double take_costs(const sweep::plan::SweepPlan& plan, const sweep::plan::StudyFo
     variant.run.work =
         forecast.cost(variant.of) * sweep::plan::work_ratio(plan, variant.coarsening);
   if (forecast.seconds_per_work > 0) manifest.seconds_per_work = seconds / cost;
-  return seconds;
 }
 
 /// Says how long the sweep will take, and gives the manifest the cost of each run, by which runs
@@ -329,7 +342,7 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
   const std::vector<std::size_t> places(known.begin(), known.end());
   const sweep::plan::StudyForecast forecast = sweep::plan::foresee_study(
       plan, places, sweep::plan::small_effort(plan, places, cores), cores);
-  const double seconds = take_costs(plan, forecast, manifest);
+  take_costs(plan, forecast, manifest);
   sweep::store::write_manifest(plan.folder, manifest);
   double of_copies = 0;
   for (const sweep::plan::PlannedVariant* copy : left.copies)
@@ -343,8 +356,9 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
         left.copies.size() == 1 ? "copy" : "copies",
         of_copies > 0 ? ": about " + duration_text(of_copies / cores) + " more on these cores"
                       : ""));
-  if (options.refine > 0 && forecast.seconds_per_work > 0)
-    progress.note(sweep::plan::refinement_text(plan, options.refine, seconds, cores));
+  const sweep::plan::Refinement refinement = sweep::plan::refinement_of(options, plan);
+  if (refinement.is_wanted() && forecast.seconds_per_work > 0)
+    progress.note(sweep::plan::refinement_text(refinement, plan, forecast, cores));
   return forecast.seconds_of_all(left.runs, cores).expected + of_copies / cores;
 }
 
@@ -352,23 +366,16 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
 std::vector<std::size_t> points_to_refine(const sweep::plan::SweepOptions& options,
                                           const sweep::plan::SweepPlan& plan,
                                           const sweep::store::Manifest& manifest) {
-  const auto seeds = static_cast<std::size_t>(manifest.seeds);
   std::vector<std::size_t> points;
-  const auto add = [&](std::size_t run) {
-    const std::size_t first = run - run % seeds;
-    if (std::find(points.begin(), points.end(), first) == points.end()) points.push_back(first);
-  };
-  if (!options.refine_runs.empty())
-    for (const int run : sweep::plan::parse_selection("--refine-runs", options.refine_runs,
-                                                      plan.runs.back().run.index))
-      add(static_cast<std::size_t>(run));
-  if (options.refine > 0)
-    for (const std::size_t run :
-         sweep::store::points_to_refine(manifest, sweep::store::read_results(plan.folder, manifest),
-                                        sweep::store::predictions_of(plan.folder, manifest),
-                                        static_cast<std::size_t>(options.refine),
-                                        sweep::store::Best::parse("--best", options.best)))
-      add(run);
+  for (const int run : sweep::plan::refinement_of(options, plan).named)
+    points.push_back(static_cast<std::size_t>(run));
+  if (options.refine == 0) return points;
+  for (const std::size_t run :
+       sweep::store::points_to_refine(manifest, sweep::store::read_results(plan.folder, manifest),
+                                      sweep::store::predictions_of(plan.folder, manifest),
+                                      static_cast<std::size_t>(options.refine),
+                                      sweep::store::Best::parse("--best", options.best)))
+    if (std::find(points.begin(), points.end(), run) == points.end()) points.push_back(run);
   return points;
 }
 
@@ -423,9 +430,10 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   warn_of_equal_runs(plan, progress);
   warn_of_numbers(plan, options.coarsening.value_or(1), progress);
   note_repeated_points(plan, progress);
+  const sweep::plan::Refinement refinement = sweep::plan::refinement_of(options, plan);
   choose_runs(options, plan, progress);
   if (options.is_dry_run) {
-    sweep::plan::print_sweep_plan(plan, options.refine, cores, options.is_json);
+    sweep::plan::print_sweep_plan(plan, refinement, cores, options.is_json);
     return exit_ok;
   }
   const output::MovieStyle movie = output::available_movie(options.movie, plan.base.fps);
@@ -447,9 +455,8 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   sweep::store::Redrawn redrawn;
   sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan, &redrawn);
   note_redrawn(redrawn, plan, progress);
-  const bool refines = options.refine > 0 || !options.refine_runs.empty();
   // Those at full resolution are not chosen yet.
-  if (!refines) note_left_out(plan.folder, manifest, progress);
+  if (!refinement.is_wanted()) note_left_out(plan.folder, manifest, progress);
   const double foreseen_seconds = foresee_runs(options, plan, cores, manifest, progress);
   if (plan.source) sweep::jobs::take_beginning(plan, *manifest.beginning, cores, progress);
   if (!options.emit.empty()) {
@@ -458,7 +465,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   }
   sweep::jobs::JobsResult result = run_engine(options, plan.folder, manifest, progress);
   const bool has_ended = !result.failure && !result.is_interrupted && result.elsewhere == 0;
-  if (has_ended && refines) {
+  if (has_ended && refinement.is_wanted()) {
     result = refine(options, cores, result, plan, manifest, progress);
     note_left_out(plan.folder, manifest, progress);
   }

@@ -83,9 +83,10 @@ def write(row):
 
 
 def settings_of(made, powers, coarsen):
-    """The thresholds of a full run's materials, divided; "ADDRESS=VALUE"."""
-    words = []
-    for name, material in tomllib.loads(made["scene"])["material"].items():
+    """The thresholds of a full run's materials, divided, without the rule of --coarsen; "ADDRESS=VALUE"."""
+    scene = tomllib.loads(made["scene"])
+    words = [f"solver.threshold_cell={scene['solver']['cell_size'] * coarsen:.12g}"]
+    for name, material in scene["material"].items():
         for key, power in zip(addresses, powers):
             if power and key in material:
                 words.append(f"material.{name}.{key}={material[key] / coarsen ** power:.8g}")
@@ -128,9 +129,10 @@ def main():
         for group in options.groups:
             plan = groups[group]
             copies = [(1, untouched)] + [(c, tuple(p)) for c in plan["coarsen"] for p in plan["powers"]]
-            for case in plan["case"]:
+            source = groups[plan.get("cases_of", group)]
+            for case in source["case"]:
                 for seed in case.get("seeds", plan.get("seeds", [1])):
-                    wanted = plan.get("all", {}) | {"more_seeds": plan.get("more_seeds", [])} | case
+                    wanted = source.get("all", {}) | {"more_seeds": plan.get("more_seeds", [])} | case
                     jobs.append(pool.submit(work, neve, plan.get("set", []), group, wanted, seed, copies, known))
         for job in jobs:
             job.result()

@@ -320,6 +320,61 @@ TEST_F(RefinedSeeds, TheCostOfAllSeedsIsSaidBefore) {
   EXPECT_FALSE(exists("study"));
 }
 
+TEST_F(RefinedSeeds, RunsAtFullResolutionAreCountedApartFromTheOthers) {
+  const auto plan_of = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{
+        "sweep",     "scene.toml", "-p",        "body.ball.velocity=[0,-1,0],[0,-3,0],[0,-6,0]",
+        "--coarsen", "2",          "--dry-run", "--out",
+        "study"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto said = neve(words);
+    EXPECT_EQ(said.exit_code, 0) << said.errors;
+    return said.output;
+  };
+  const std::string text = plan_of({"--refine-runs", "0,2"});
+  EXPECT_TRUE(contains(text, "then 2 points at full resolution, of runs 0, 2, about ")) << text;
+  EXPECT_TRUE(contains(text, "\nin all about ")) << text;
+  EXPECT_TRUE(contains(plan_of({"--refine", "1", "--refine-runs", "0"}),
+                       "then at most 2 points at full resolution, with run 0, about "));
+  EXPECT_TRUE(contains(plan_of({"--refine", "50"}), "then 3 points at full resolution, about "))
+      << "there are no more";
+  EXPECT_FALSE(contains(plan_of({}), "in all about"));
+
+  const app::Json plain = app::parse_json(plan_of({"--json"}));
+  EXPECT_FALSE(plain.contains("refinement"));
+  EXPECT_EQ(plain.at("seconds_in_all"), plain.at("seconds"));
+  const app::Json json =
+      app::parse_json(plan_of({"--json", "--seeds", "2", "--refine", "1", "--refine-runs", "3"}));
+  const app::Json& full = json.at("refinement");
+  EXPECT_EQ(full.at("named"), app::Json::array({2})) << "the point that run 3 is of";
+  EXPECT_EQ(full.at("points"), 2);
+  EXPECT_EQ(full.at("runs"), 4);
+  double coarse = 0, largest = 0;
+  for (const app::Json& run : json.at("runs")) {
+    coarse += run.at("seconds").get<double>();
+    largest = std::max(largest, run.at("memory_bytes").get<double>());
+  }
+  // Four of six runs, with 16 times the work.
+  EXPECT_GT(full.at("seconds").get<double>(), 0.5 * 16 * 4 / 6 * coarse);
+  EXPECT_LT(full.at("seconds").get<double>(), 2.0 * 16 * 4 / 6 * coarse);
+  EXPECT_GT(full.at("memory_bytes").get<double>(), largest);
+  EXPECT_GT(json.at("seconds_in_all"), json.at("seconds"));
+
+  const auto refused = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--coarsen", "2", "--dry-run",
+                             "--refine-runs", "5"});
+  EXPECT_EQ(refused.exit_code, app::exit_usage);
+  EXPECT_TRUE(contains(refused.errors, "--refine-runs: there is no run 5")) << refused.errors;
+  EXPECT_FALSE(exists("study"));
+}
+
+TEST_F(Prediction, OnlySomeRunsHaveTheCopiesOfTheirPoints) {
+  const auto said =
+      neve({"sweep", "scene.toml", "-p", "body.ball.velocity=[0,-1,0],[0,-3,0],[0,-6,0]",
+            "--coarsen", "2", "--predict", "--only", "2", "--dry-run", "--out", "study"});
+  EXPECT_EQ(said.exit_code, 0) << said.errors;
+  EXPECT_TRUE(contains(said.output, "the prediction takes 3 coarse copies")) << said.output;
+}
+
 TEST_F(Prediction, TheFullRunBreaksAsItsCopiesDo) {
   for (const char* preset : {"paper", "lower_hardening"}) {
     const std::string snow = std::string("material.snow.preset=") + preset;

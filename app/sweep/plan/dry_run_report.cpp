@@ -50,15 +50,25 @@ double seconds_of_copies(const SweepPlan& plan, const StudyForecast& forecast) {
   return seconds;
 }
 
-/// s of one thread, of all runs.
-double seconds_of_runs(const StudyForecast& forecast) {
-  double seconds = 0;
-  for (std::size_t k = 0; k < forecast.work.size(); ++k) seconds += forecast.seconds(k).expected;
-  return seconds;
+/// s on these cores, of the runs and of what is made besides them.
+double seconds_in_all(const SweepPlan& plan, const Refinement& refinement,
+                      const StudyForecast& forecast, double of_runs, int cores) {
+  return of_runs +
+         (seconds_of_copies(plan, forecast) + cost_of(refinement, plan, forecast).seconds) / cores;
+}
+
+Json refinement_json(const SweepPlan& plan, const Refinement& refinement,
+                     const StudyForecast& forecast) {
+  const RefinementCost cost = cost_of(refinement, plan, forecast);
+  return {{"points", cost.points},
+          {"named", refinement.named},
+          {"runs", cost.runs},
+          {"seconds", cost.seconds},
+          {"memory_bytes", whole_bytes(refinement.memory)}};
 }
 
 void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
-                const forecast::Cost& seconds_of_all, int refined) {
+                const forecast::Cost& seconds_of_all, const Refinement& refinement, int cores) {
   Json json;
   json["title"] = plan.title;
   json["scene"] = plan.sweep.scene_file;
@@ -89,14 +99,12 @@ void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
   if (!plan.variants.empty())
     json["prediction"] = {{"copies", plan.variants.size()},
                           {"seconds", seconds_of_copies(plan, foreseen)}};
-  if (refined > 0)
-    json["refinement"] = {
-        {"points", refined},
-        {"runs", refined * plan.sweep.runs_per_point()},
-        {"seconds", seconds_of_refinement(plan, refined, seconds_of_runs(foreseen))}};
+  if (refinement.is_wanted()) json["refinement"] = refinement_json(plan, refinement, foreseen);
   json["memory_bytes"] = whole_bytes(totals_of(plan).largest);
   json["seconds"] = seconds_of_all.expected;
   json["seconds_range"] = {seconds_of_all.least, seconds_of_all.most};
+  json["seconds_in_all"] =
+      seconds_in_all(plan, refinement, foreseen, seconds_of_all.expected, cores);
   std::cout << to_text(json) << "\n";
 }
 
@@ -146,15 +154,29 @@ std::string copies_text(const SweepPlan& plan, const StudyForecast& forecast, in
       plan.variants.size(), duration_text(seconds_of_copies(plan, forecast) / cores));
 }
 
+/// Points at full resolution, which are no part of what is said of the runs.
+std::string full_runs_text(const SweepPlan& plan, const Refinement& refinement,
+                           const StudyForecast& forecast, int cores) {
+  if (!refinement.is_wanted()) return "";
+  const auto limit = static_cast<double>(plan.sweep.limits.memory);
+  return fmt::format("{}; at most {} of memory a run{}\n",
+                     refinement_text(refinement, plan, forecast, cores),
+                     bytes_text(whole_bytes(refinement.memory)),
+                     limit > 0 && refinement.memory > limit
+                         ? ", over [limits] memory: such a run will not be started"
+                         : "");
+}
+
 }  // namespace
 
-void print_sweep_plan(const SweepPlan& plan, int refined, int cores, bool is_json) {
+void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int cores,
+                      bool is_json) {
   std::vector<std::size_t> all(plan.runs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const StudyForecast forecast = foresee_study(plan, all, whole_effort(cores), cores);
   const Totals totals = totals_of(plan);
   const auto seconds = forecast.seconds_of_all(all, cores);
-  if (is_json) return print_json(plan, forecast, seconds, refined);
+  if (is_json) return print_json(plan, forecast, seconds, refinement, cores);
   print_table(plan, forecast);
   const std::string longest = longest_text(plan, all, forecast);
   if (plan.source)
@@ -177,9 +199,12 @@ void print_sweep_plan(const SweepPlan& plan, int refined, int cores, bool is_jso
                    duration_text(seconds.expected), cores, cores == 1 ? "core" : "cores",
                    bytes_text(whole_bytes(totals.largest)))
             << copies_text(plan, forecast, cores)
-            << (refined > 0
-                    ? refinement_text(plan, refined, seconds_of_runs(forecast), cores) + "\n"
-                    : "")
+            << full_runs_text(plan, refinement, forecast, cores)
+            << (plan.variants.empty() && !refinement.is_wanted()
+                    ? ""
+                    : fmt::format("in all about {}\n",
+                                  duration_text(seconds_in_all(plan, refinement, forecast,
+                                                               seconds.expected, cores))))
             << (longest.empty() ? "" : longest + "\n")
             << (plan.keeps_states ? fmt::format("kept states take about {} on disk\n",
                                                 bytes_text(whole_bytes(bytes_of_states(plan))))

@@ -1,12 +1,13 @@
 #pragma once
 /// `neve sweep --dry-run`: the runs, their time and their memory.
 
+#include "app/sweep/plan/refinement.h"
 #include "app/sweep/plan/sweep_plan.h"
 
 namespace neve::app::sweep::plan {
 
 /// On stdout; measures some steps of the costliest run to foresee seconds.
-/// @param refined  points that are made at full resolution as well
-void print_sweep_plan(const SweepPlan& plan, int refined, int cores, bool is_json);
+/// @param refinement  points that are made at full resolution as well, counted apart
+void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int cores, bool is_json);
 
 }  // namespace neve::app::sweep::plan

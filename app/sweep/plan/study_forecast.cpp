@@ -280,18 +280,4 @@ std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>&
   return longest.empty() ? text : text + "\n" + longest;
 }
 
-double seconds_of_refinement(const SweepPlan& plan, int points, double seconds) {
-  const double runs = points * plan.sweep.runs_per_point();
-  const double share = std::min(1.0, runs / static_cast<double>(plan.runs.size()));
-  return seconds * work_ratio(plan, 1) * share;
-}
-
-std::string refinement_text(const SweepPlan& plan, int points, double seconds, int cores) {
-  const int seeds = plan.sweep.runs_per_point();
-  return fmt::format("then {} {} at full resolution{}, about {} if they cost as most", points,
-                     points == 1 ? "point" : "points",
-                     seeds > 1 ? fmt::format(", {} runs with their seeds", points * seeds) : "",
-                     duration_text(seconds_of_refinement(plan, points, seconds) / cores));
-}
-
 }  // namespace neve::app::sweep::plan

@@ -55,12 +55,6 @@ std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& 
 std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                           const StudyForecast& forecast, int cores, double budget);
 
-/// s of one thread, of this many points at full resolution with all of their seeds, if they cost as
-/// most do. @param seconds  of one thread, of all runs
-double seconds_of_refinement(const SweepPlan& plan, int points, double seconds);
-/// "then 2 points at full resolution, 8 runs with their seeds, about 3 min if they cost as most"
-std::string refinement_text(const SweepPlan& plan, int points, double seconds, int cores);
-
 /// True of a run that no limit of its scene refuses.
 bool is_possible(const PlannedRun& item);
 

@@ -1,0 +1,105 @@
+#include "app/sweep/plan/refinement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "app/support/progress.h"
+#include "app/sweep/plan/selection.h"
+
+namespace neve::app::sweep::plan {
+
+namespace {
+
+std::size_t place(int run) {
+  return static_cast<std::size_t>(run);
+}
+
+/// Bytes, of the largest run at full resolution of the named points, and of the point whose coarse
+/// runs are the largest where any may be chosen.
+double memory_of(const SweepOptions& options, const Refinement& refinement, SweepPlan plan) {
+  std::vector<std::size_t> points;
+  for (const int run : refinement.named) points.push_back(place(run));
+  if (refinement.chosen > 0) {
+    const auto largest =
+        std::max_element(plan.runs.begin(), plan.runs.end(),
+                         [](const auto& a, const auto& b) { return a.run.memory < b.run.memory; });
+    points.push_back(
+        place(points_of_runs({largest->run.index}, plan.sweep.runs_per_point()).front()));
+  }
+  plan.variants.clear();
+  add_full_runs(options, points, plan);
+  double memory = 0;
+  for (const PlannedVariant& full : plan.variants) memory = std::max(memory, full.item.run.memory);
+  return memory;
+}
+
+}  // namespace
+
+std::vector<int> points_of_runs(const std::vector<int>& runs, int seeds) {
+  std::set<int> points;
+  for (const int run : runs) points.insert(run - run % seeds);
+  return {points.begin(), points.end()};
+}
+
+Refinement refinement_of(const SweepOptions& options, const SweepPlan& plan) {
+  const int seeds = plan.sweep.runs_per_point();
+  Refinement refinement;
+  if (!options.refine_runs.empty())
+    refinement.named = points_of_runs(
+        parse_selection("--refine-runs", options.refine_runs, plan.runs.back().run.index), seeds);
+  refinement.chosen = std::min(options.refine, static_cast<int>(plan.runs.size()) / seeds);
+  if (options.is_dry_run && refinement.is_wanted())
+    refinement.memory = memory_of(options, refinement, plan);
+  return refinement;
+}
+
+RefinementCost cost_of(const Refinement& refinement, const SweepPlan& plan,
+                       const StudyForecast& forecast) {
+  const int seeds = plan.sweep.runs_per_point();
+  const std::set<int> named(refinement.named.begin(), refinement.named.end());
+  std::set<int> others;
+  double of_all = 0, of_named = 0;
+  std::size_t counted = 0;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const int point = points_of_runs({plan.runs[k].run.index}, seeds).front();
+    const double seconds = forecast.seconds(k).expected;
+    of_all += seconds;
+    if (named.contains(point)) {
+      of_named += seconds;
+      ++counted;
+    } else {
+      others.insert(point);
+    }
+  }
+  const double mean = of_all / static_cast<double>(std::max<std::size_t>(1, plan.runs.size()));
+  RefinementCost cost;
+  const int chosen = std::min(refinement.chosen, static_cast<int>(others.size()));
+  cost.points = static_cast<int>(named.size()) + chosen;
+  cost.runs = cost.points * seeds;
+  // Those of --only that are left out cost as most.
+  const double unknown = cost.runs - static_cast<double>(counted);
+  cost.seconds = work_ratio(plan, 1) * (of_named + mean * unknown);
+  return cost;
+}
+
+std::string refinement_text(const Refinement& refinement, const SweepPlan& plan,
+                            const StudyForecast& forecast, int cores) {
+  const RefinementCost cost = cost_of(refinement, plan, forecast);
+  const bool is_one = cost.points == 1,
+             has_both = refinement.chosen > 0 && !refinement.named.empty();
+  std::string text = fmt::format("then {}{} {} at full resolution", has_both ? "at most " : "",
+                                 cost.points, is_one ? "point" : "points");
+  if (!refinement.named.empty())
+    text += fmt::format(", {} {} {}", has_both ? "with" : "of",
+                        refinement.named.size() == 1 ? "run" : "runs",
+                        fmt::join(refinement.named, ", "));
+  if (cost.runs > cost.points) text += fmt::format(", {} runs with their seeds", cost.runs);
+  if (forecast.seconds_per_work > 0)
+    text += fmt::format(", about {} more", duration_text(cost.seconds / cores));
+  if (refinement.chosen > 0) text += is_one ? " if it costs as most" : " if they cost as most";
+  return text;
+}
+
+}  // namespace neve::app::sweep::plan
