@@ -143,7 +143,7 @@ sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
 
 int exit_code_of(const sweep::jobs::JobsResult& result) {
   if (result.is_interrupted || result.elsewhere > 0) return exit_resumable;
-  return result.failed > 0 ? exit_runs_failed : exit_ok;
+  return result.failed > 0 || result.failed_beginnings > 0 ? exit_runs_failed : exit_ok;
 }
 
 Json result_json(const std::filesystem::path& folder, const sweep::jobs::JobsResult& result) {
@@ -487,13 +487,35 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   return is_interrupted() ? exit_resumable : exit_code_of(result);
 }
 
+namespace {
+
+/// Indices of common beginnings. @param which  "all", or a number from 1 @throws UsageError
+std::vector<int> chosen_beginnings(const std::string& which,
+                                   const sweep::store::Manifest& manifest) {
+  if (!manifest.beginning)
+    throw UsageError("--beginning", "this sweep has no fork", "give --index N for one of them");
+  const auto count = static_cast<int>(manifest.beginning->runs.size());
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  if (which == "all") return all;
+  const std::optional<int> number = number_of<int>(which);
+  if (!number || *number < 1 || *number > count)
+    throw UsageError("--beginning", "there is no beginning \"" + which + "\"",
+                     count == 1 ? "expected 1, or no number"
+                                : fmt::format("expected a number from 1 to {}, one for each seed, "
+                                              "or none for all of them",
+                                              count));
+  return {*number - 1};
+}
+
+}  // namespace
+
 int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
   const sweep::store::Manifest manifest = sweep::store::read_manifest(options.folder);
-  if (options.is_beginning && !manifest.beginning)
-    throw UsageError("--beginning", "this sweep has no fork", "give --index N for one of them");
+  const bool makes_beginnings = !options.beginning.empty();
   const int index = options.index.value_or(0);
   if (!manifest.run_of(index))
     throw UsageError("--index", fmt::format("there is no run {}", index),
@@ -504,9 +526,8 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   engine.backend = options.backend;
   engine.retry_failed = retry_of(options.retry_failed);
   engine.program = this_program();
-  engine.makes_beginning = options.is_beginning;
-  const std::vector<int> indices =
-      options.is_beginning ? std::vector<int>{} : std::vector<int>{index};
+  if (makes_beginnings) engine.beginnings = chosen_beginnings(options.beginning, manifest);
+  const std::vector<int> indices = makes_beginnings ? std::vector<int>{} : std::vector<int>{index};
   const sweep::jobs::JobsResult result =
       sweep::jobs::run_local(options.folder, manifest, indices, engine, progress);
   if (result.failure) fail_by_machine(*result.failure, options.folder);

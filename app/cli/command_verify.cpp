@@ -71,9 +71,7 @@ Findings verify_sweep_folder(const fs::path& folder) {
     if (status.key != item.key || !sweep::store::is_finished(status.state)) ++left;
     if (status.is_damaged)
       findings.flaws.push_back({(place / "status.json").generic_string(), "is damaged"});
-    const bool is_made = status.state == sweep::store::RunState::ok ||
-                         status.state == sweep::store::RunState::diverged;
-    if (status.key != item.key || !is_made) continue;
+    if (status.key != item.key || !sweep::store::has_record(status)) continue;
     const record::Verification found = record::verify_run(folder / place);
     findings.files += found.files;
     for (const record::Flaw& flaw : found.flaws)

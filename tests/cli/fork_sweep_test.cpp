@@ -200,15 +200,18 @@ fork = "late"
   EXPECT_TRUE(contains(file.errors, "sweep.toml:3:")) << file.errors;
 }
 
-TEST_F(ForkSweep, ABeginningThatFailsEndsTheSweepWithItsReason) {
+TEST_F(ForkSweep, RunsOfABeginningThatFailsFailWithItsReason) {
   folder.write("bad.toml", exploding_scene);
   const std::vector<std::string> words{
       "sweep",  "bad.toml", "-p",    "solver.gravity=[0,-9,0],[0,-8,0]",
       "--fork", "0.25s",    "--out", "bad.cdb"};
   const auto done = neve(words);
   EXPECT_EQ(done.exit_code, 7);
-  EXPECT_TRUE(contains(done.errors, "no run can start: the common beginning ended as diverged"))
-      << done.errors;
+  EXPECT_TRUE(contains(done.errors, "the common beginning ended as diverged")) << done.errors;
+  EXPECT_TRUE(contains(done.errors, "2 runs that fork from it fail with it")) << done.errors;
+  EXPECT_TRUE(contains(read_text(folder / "bad.cdb/data.csv"),
+                       ",diverged,\"the common beginning ended as diverged: "));
+  EXPECT_TRUE(contains(read_text(folder / "bad.cdb/report.html"), "the common beginning ended as"));
   EXPECT_EQ(neve(words).exit_code, 7);
   EXPECT_EQ(json_of("bad.cdb/beginning/status.json")["attempts"], 1);
 }

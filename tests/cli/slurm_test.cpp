@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "app/support/errors.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -80,6 +81,110 @@ TEST_F(SlurmSites, JobsOfAnEarlierCallAreNotSubmittedAgain) {
   EXPECT_TRUE(contains(done.errors, "waiting for the jobs submitted before")) << done.errors;
   EXPECT_TRUE(contains(done.errors, "submitted 3 runs")) << done.errors;
   EXPECT_FALSE(contains(read_text(folder / "calls"), "run.sh 0\n")) << read_text(folder / "calls");
+}
+
+/// A site that makes what it is given: sbatch keeps jobs, each look at the queue makes one whose
+/// dependencies have ended, the youngest first, and says which in the file `order`. A task that
+/// ends with 75 is made again. A script before_job can spoil what jobs find.
+constexpr const char* sbatch_of_site = R"(mkdir -p jobs
+n=$((4711 + $(ls jobs | wc -l))); array=; after=
+while [[ $1 == --* ]]; do
+  case $1 in --array=*) array=${1#--array=};; --dependency=afterany:*) after=${1#*afterany:};; esac
+  shift
+done
+printf '%s\n' "$array" "$after" "$*" > jobs/$n
+echo $n
+)";
+constexpr const char* squeue_of_site = R"(mkdir -p ended
+make_job() {
+  [ -e before_job ] && . ./before_job
+  tasks=none
+  [ -n "$1" ] && tasks=$(for part in ${1//,/ }; do seq ${part%-*} ${part#*-}; done)
+  for task in $tasks; do
+    code=75; tries=0
+    while [ $code = 75 ] && [ $tries -lt 3 ]; do
+      SLURM_ARRAY_TASK_ID=$task bash $2 > log 2>&1 < /dev/null; code=$?; tries=$((tries + 1))
+      echo "$(basename ${2%% *}) $task $code" >> order
+    done
+  done
+}
+for n in $(ls -r jobs); do
+  [ -e ended/$n ] && continue
+  { read -r array; read -r after; read -r script; } < jobs/$n
+  for other in ${after//:/ }; do [ -e ended/$other ] || continue 2; done
+  make_job "${array%\%*}" "$script"
+  touch ended/$n
+  break
+done
+for n in $(ls jobs); do [ -e ended/$n ] || echo $n $n; done
+)";
+
+class SlurmForks : public SlurmSites {
+ protected:
+  SlurmForks() {
+    script("scontrol", "echo 'MaxArraySize = 2'\n");
+    script("sbatch", sbatch_of_site);
+    script("squeue", squeue_of_site);
+  }
+
+  /// Two points of three seeds.
+  app::output::ProcessResult forks(const std::string& out, const std::string& more, int seeds = 3) {
+    return app::output::run_process(
+        "/bin/bash",
+        {"-c",
+         "PATH=\"$PWD/bin:$PATH\" exec \"$0\" sweep scene.toml -p material.snow.hardening=4,20 "
+         "--fork 0.125s --frames 6 --size 96x54 --movie none --out " +
+             out + " --seeds " + std::to_string(seeds) + " " + more,
+         NEVE_BINARY},
+        folder.path());
+  }
+
+  /// "beginning.sh 0 0", a task and its exit code a line.
+  std::vector<std::string> tasks_made() {
+    std::istringstream lines(read_text(folder / "order"));
+    std::vector<std::string> made;
+    for (std::string line; std::getline(lines, line);) made.push_back(line);
+    return made;
+  }
+};
+
+TEST_F(SlurmForks, EachSeedHasABeginningOfItsOwnBeforeAnyRun) {
+  const auto local = forks("local", "");
+  ASSERT_EQ(local.exit_code, 0) << local.errors;
+  const auto array = forks("array", "--engine slurm");
+  EXPECT_EQ(array.exit_code, 0) << array.errors;
+  EXPECT_TRUE(contains(array.errors, "6 runs ok")) << array.errors;
+  const std::vector<std::string> made = tasks_made();
+  ASSERT_EQ(made.size(), 3u + 6u + 1u) << read_text(folder / "order");
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_TRUE(made[k].starts_with("beginning.sh ")) << made[k];
+  EXPECT_TRUE(made.back().starts_with("collect.sh ")) << made.back();
+  for (const char* beginning : {"beginning", "beginning_2", "beginning_3"})
+    EXPECT_EQ(json_of(std::string("array/") + beginning + "/status.json")["attempts"], 1);
+  for (int run = 0; run < 6; ++run) {
+    const std::string place = "/runs/000" + std::to_string(run);
+    EXPECT_EQ(hashes("array" + place), hashes("local" + place)) << run;
+  }
+  EXPECT_EQ(read_text(folder / "array/sheet.png"), read_text(folder / "local/sheet.png"));
+}
+
+TEST_F(SlurmForks, FurtherSeedsWaitForTheirOwnBeginningsOnly) {
+  ASSERT_EQ(forks("array", "--engine slurm").exit_code, 0);
+  fs::remove(folder / "order");
+  const auto more = forks("array", "--engine slurm", 4);
+  EXPECT_EQ(more.exit_code, 0) << more.errors;
+  EXPECT_EQ(tasks_made(), (std::vector<std::string>{"beginning.sh 1 0", "run.sh 1 0", "run.sh 1 0",
+                                                    "collect.sh none 0"}))
+      << "the fourth seed is task 1 of the second array";
+}
+
+TEST_F(SlurmForks, RunsOfABeginningThatFailsAreFailedAndTheOthersAreMade) {
+  folder.write("before_job", "echo 'no scene' > array/beginning_2/scene.toml\n");
+  const auto done = forks("array", "--engine slurm");
+  EXPECT_EQ(done.exit_code, app::exit_runs_failed) << done.errors;
+  EXPECT_TRUE(contains(done.errors, "4 runs ok, 2 failed")) << done.errors;
+  EXPECT_TRUE(contains(read_text(folder / "array/data.csv"),
+                       ",failed,\"the common beginning with seed 2 ended as failed: "))
+      << read_text(folder / "array/data.csv");
 }
 
 }  // namespace

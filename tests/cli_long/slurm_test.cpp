@@ -91,16 +91,18 @@ TEST_F(Cli, ForkedRunsOnSlurmWaitForTheirBeginning) {
   const Slurm slurm;
   if (!slurm.is_up()) SKIP_OR_FAIL("Slurm is installed and does not start");
   const auto sweep = [&](const char* out, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"sweep",  "scene.toml", "-p",    "material.snow.hardening=4,10",
-                                   "--fork", "0.1s",       "--out", out};
+    std::vector<std::string> words{"sweep",   "scene.toml", "-p",    "material.snow.hardening=4,10",
+                                   "--fork",  "0.1s",       "--out", out,
+                                   "--seeds", "2"};
     words.insert(words.end(), more.begin(), more.end());
     const auto done = neve(words);
     EXPECT_EQ(done.exit_code, 0) << done.errors;
   };
   sweep("local", {});
   sweep("array", {"--engine", "slurm"});
-  EXPECT_TRUE(exists("array/slurm/beginning.log"));
-  EXPECT_EQ(json_of("array/beginning/status.json")["attempts"], 1);
+  for (const char* made : {"beginning", "beginning_2"})
+    EXPECT_EQ(json_of(std::string("array/") + made + "/status.json")["attempts"], 1);
+  EXPECT_TRUE(exists("array/slurm/beginning_1.log"));
   EXPECT_EQ(without_times(read_text(folder / "array/data.csv")),
             without_times(read_text(folder / "local/data.csv")));
 }

@@ -110,13 +110,17 @@ class LocalJobs {
     for (const Run* run : queue_) needed.insert(&manifest_.beginning->run_of(*run));
     std::deque<const Run*> waiting;
     for (const Run& run : manifest_.beginning->runs)
-      if ((options_.makes_beginning || needed.contains(&run)) &&
-          !has_beginning(run, beginning_of(run)))
+      if ((is_asked_for(run) || needed.contains(&run)) && !has_beginning(run, beginning_of(run)))
         waiting.push_back(&run);
     if (waiting.empty()) return;
     if (!manifest_.beginning->source.empty()) fail_without_source();
     run_beginnings(waiting);
+    for (const Run* run : failed_beginnings_) fail_runs_of(*run);
     if (is_interrupted()) queue_.clear();
+  }
+
+  bool is_asked_for(const Run& beginning) const {
+    return std::ranges::find(options_.beginnings, beginning.index) != options_.beginnings.end();
   }
 
   fs::path beginning_of(const Run& run) const { return store::beginning_folder(folder_, run); }
@@ -138,7 +142,7 @@ class LocalJobs {
       const bool is_late = options_.budget > 0 && seconds_left() <= 0;
       if (is_interrupted() || is_late)
         for (Active& active : active_) active.child.stop();
-      if (is_interrupted() || is_late || result_.failure || failed_beginning_) {
+      if (is_interrupted() || is_late || result_.failure) {
         if (!waiting.empty()) leave_for_later();
         waiting.clear();
       }
@@ -160,8 +164,6 @@ class LocalJobs {
         std::this_thread::sleep_for(wait_interval);
       }
     }
-    if (!failed_beginning_) return;
-    fail_by_beginning(*failed_beginning_, store::read_status(beginning_of(*failed_beginning_)));
   }
 
   /// @return false while another process makes it
@@ -177,7 +179,7 @@ class LocalJobs {
     const bool is_known = store::has_failed(status.state) && status.key == run.key &&
                           !options_.retry_failed.contains(status.state);
     if (is_known) {
-      failed_beginning_ = &run;
+      failed_beginnings_.push_back(&run);
       return true;
     }
     const char* whose = manifest_.beginning->runs.size() > 1 ? "" : " of all runs";
@@ -199,7 +201,7 @@ class LocalJobs {
       if (is_machine_failure(done.status))
         give_up({done.status.exit_code, done.run->label + ": " + done.status.reason});
       else if (store::has_failed(done.status.state))
-        failed_beginning_ = done.run;
+        failed_beginnings_.push_back(done.run);
       else if (done.status.state == store::RunState::interrupted)
         leave_for_later();
     }
@@ -213,13 +215,45 @@ class LocalJobs {
     queue_.clear();
   }
 
-  [[noreturn]] void fail_by_beginning(const Run& run, const store::RunStatus& status) const {
-    throw Error(
-        exit_runs_failed,
-        fmt::format("no run can start: {} ended as {}{}", run.label, store::name(status.state),
-                    status.reason.empty() ? "" : ": " + status.reason),
-        beginning_of(run).string(),
-        "correct the scene, or fork earlier; --retry-failed tries it again");
+  /// Runs that fork from a beginning that failed fail as it did; those of other seeds are made.
+  void fail_runs_of(const Run& beginning) {
+    const store::RunStatus ended = store::read_status(beginning_of(beginning));
+    const std::string why =
+        fmt::format("{} ended as {}{}", beginning.label, store::name(ended.state),
+                    ended.reason.empty() ? "" : ": " + ended.reason);
+    int failed = 0;
+    std::erase_if(queue_, [&](const Run* run) {
+      if (&manifest_.beginning->run_of(*run) != &beginning) return false;
+      failed += fail_before_fork(*run, ended, why);
+      return true;
+    });
+    ++result_.failed_beginnings;
+    progress_.warning(fmt::format(
+        "{}; {}correct the scene, or fork earlier; --retry-failed tries it again", why,
+        failed > 0 ? fmt::format("{} that {} from it {} with it; ",
+                                 failed == 1 ? "1 run" : fmt::format("{} runs", failed),
+                                 failed == 1 ? "forks" : "fork", failed == 1 ? "fails" : "fail")
+                   : ""));
+  }
+
+  /// @return false where another process has the run
+  bool fail_before_fork(const Run& run, const store::RunStatus& ended, const std::string& why) {
+    const fs::path folder = folder_of(run);
+    const std::optional<output::FolderLock> lock = lock_run(run, folder);
+    if (!lock) return false;
+    clean(folder);
+    store::RunStatus status = store::read_status(folder);
+    status.state = ended.state;
+    status.never_began = true;
+    status.exit_code = ended.exit_code;
+    status.signal = ended.signal;
+    status.reason = why;
+    status.short_reason =
+        "before the fork" + (ended.short_reason.empty() ? "" : ", " + ended.short_reason);
+    store::write_status(folder, status);
+    count(status);
+    work_left_ -= run.work;
+    return true;
   }
 
   fs::path folder_of(const Run& run) const { return store::runs_folder(folder_) / run.folder; }
@@ -326,19 +360,24 @@ class LocalJobs {
     }
   }
 
-  void start(const Run& run, int threads) {
-    const fs::path folder = folder_of(run);
+  /// Nothing while another process makes the run: it is left to that.
+  std::optional<output::FolderLock> lock_run(const Run& run, const fs::path& folder) {
     std::optional<output::FolderLock> lock = output::FolderLock::try_lock(
         folder, "neve sweep", output::FolderLock::Kind::alone, store::run_lock);
-    if (!lock) {
-      ++result_.elsewhere;
-      result_.elsewhere_text = fmt::format("{} is in progress: {}", store::run_text(run),
-                                           output::FolderLock::holder_of(folder, store::run_lock));
-      progress_.warning(result_.elsewhere_text);
-      --counts_.all;
-      work_left_ -= run.work;
-      return;
-    }
+    if (lock) return lock;
+    ++result_.elsewhere;
+    result_.elsewhere_text = fmt::format("{} is in progress: {}", store::run_text(run),
+                                         output::FolderLock::holder_of(folder, store::run_lock));
+    progress_.warning(result_.elsewhere_text);
+    --counts_.all;
+    work_left_ -= run.work;
+    return lock;
+  }
+
+  void start(const Run& run, int threads) {
+    const fs::path folder = folder_of(run);
+    std::optional<output::FolderLock> lock = lock_run(run, folder);
+    if (!lock) return;
     store::RunStatus status = store::read_status(folder);
     if (is_over_memory(run, status, folder)) return;
     Child child = start_child(run, folder, threads, status);
@@ -362,13 +401,14 @@ class LocalJobs {
                     store::RunStatus& status) const {
     const bool resumes = status.state == store::RunState::running ||
                          status.state == store::RunState::interrupted ||
-                         status.state == store::RunState::timeout;
+                         (status.state == store::RunState::timeout && !status.never_began);
     wait_for_orphan(folder);
     if (!resumes) clean(folder);
     Child child({options_.program, arguments_of(run, folder, threads, resumes), folder},
                 folder / "log",
                 {manifest_.timeout, static_cast<std::uint64_t>(manifest_.memory), options_.grace});
     status.state = store::RunState::running;
+    status.never_began = false;
     ++status.attempts;
     status.pid = child.pid();
     status.host = host_name();
@@ -502,7 +542,7 @@ class LocalJobs {
   double work_done_ = 0, work_left_ = 0;
   double work_timed_ = 0, seconds_timed_ = 0;  ///< of runs that ended now
   bool is_over_ = false;                       ///< the budget's time
-  const Run* failed_beginning_ = nullptr;
+  std::vector<const Run*> failed_beginnings_;
   Child::Clock::time_point start_;
   Child::Clock::time_point shown_at_;
 };

@@ -17,7 +17,7 @@ struct LocalOptions {
   int jobs = 0;  ///< runs side by side; 0: as many as keep the cores busy and fit into memory
   std::string backend = "auto";
   double budget = 0;              ///< s for all of them; 0: as long as they take
-  bool makes_beginning = false;   ///< all common beginnings, though no run needs them
+  std::vector<int> beginnings{};  ///< indices of common beginnings to make, whatever runs need
   store::Retry retry_failed;      ///< states of runs that are made once more
   double grace = 20;              ///< s that a run has to end when it is asked to
   std::filesystem::path program;  ///< whose `render` makes the runs
@@ -36,6 +36,7 @@ struct JobsResult {
   int out_of_time = 0;          ///< runs that the budget ended, or was too short for
   int elsewhere = 0;            ///< runs that another process is making
   std::string elsewhere_text;   ///< which, and who makes it, of the last of them
+  int failed_beginnings = 0;    ///< of those that runs waited for
   std::optional<MachineFailure> failure;
   double seconds = 0, cpu_seconds = 0;  ///< of the whole; of all children
   double core_seconds = 0;              ///< time of the children times their threads
@@ -47,8 +48,8 @@ struct JobsResult {
 /// left alone. A finished run with missing or damaged pictures is made again. A Ctrl-C asks all
 /// children to end and waits for them, and so does the end of the budget; a run that would not end
 /// before it is not started. When the machine fails, no further run is started: the next call
-/// continues, beginning with runs that have not met the failure. @throws Error when the common
-/// beginning fails
+/// continues, beginning with runs that have not met the failure. Runs whose common beginning fails
+/// end in its state, with its reason.
 JobsResult run_local(const std::filesystem::path& folder, const store::Manifest& manifest,
                      const std::vector<int>& indices, const LocalOptions& options,
                      Progress& progress);

@@ -95,8 +95,8 @@ void write_scripts(const fs::path& folder, const SlurmOptions& options,
   run.verbosity = Verbosity::quiet;
   run.retry_failed = retry_failed;
   write("run.sh", options::words_of(run), " --index $((SLURM_ARRAY_TASK_ID + $1))");
-  run.is_beginning = true;
-  write("beginning.sh", options::words_of(run));
+  write("beginning.sh", options::words_of(run),
+        " --beginning=$((SLURM_ARRAY_TASK_ID + $1 + 1))");  // they count from 1
   plan::CollectOptions collect;
   collect.folder = run.folder;
   collect.backend = options.backend;
@@ -140,7 +140,14 @@ class Queue {
   std::vector<int> without_job(const std::vector<int>& runs) const;
 
  private:
-  std::string beginning_job();
+  /// Arrays of the common beginnings that these runs lack; submits those that are not queued.
+  /// @return the numbers of their jobs
+  std::vector<std::string> beginning_jobs(const std::vector<int>& runs);
+  /// Of these indices those that no job is queued for.
+  std::vector<int> not_queued(const std::vector<int>& indices, bool are_beginnings) const;
+  /// An array of tasks of a script. @param after  jobs that it waits for
+  void add_arrays(const char* script, const char* log_name, const std::vector<int>& indices,
+                  const std::string& after, bool are_beginnings);
   void add(const std::vector<std::string>& words, const std::vector<int>& runs,
            bool is_beginning = false) {
     jobs_.push_back({job_number(call("sbatch", words)), runs, is_beginning});
@@ -156,44 +163,57 @@ class Queue {
   std::vector<QueuedJob> jobs_;
 };
 
-std::vector<int> Queue::without_job(const std::vector<int>& runs) const {
+std::vector<int> Queue::not_queued(const std::vector<int>& indices, bool are_beginnings) const {
   std::set<int> queued;
-  for (const QueuedJob& job : jobs_) queued.insert(job.runs.begin(), job.runs.end());
+  for (const QueuedJob& job : jobs_)
+    if (job.is_beginning == are_beginnings) queued.insert(job.runs.begin(), job.runs.end());
   std::vector<int> without;
-  std::ranges::copy_if(runs, std::back_inserter(without),
-                       [&](int run) { return !queued.contains(run); });
+  std::ranges::copy_if(indices, std::back_inserter(without),
+                       [&](int index) { return !queued.contains(index); });
   return without;
 }
 
-/// The number of the job that makes the common beginnings; submits it unless it is queued.
-std::string Queue::beginning_job() {
-  const auto queued = std::ranges::find_if(jobs_, &QueuedJob::is_beginning);
-  if (queued != jobs_.end()) return queued->number;
-  std::vector<std::string> words = sbatch_options(manifest_, options_);
-  words.push_back(log("beginning.log"));
-  words.push_back((folder_ / "slurm" / "beginning.sh").string());
-  add(words, {}, true);
-  return jobs_.back().number;
+std::vector<int> Queue::without_job(const std::vector<int>& runs) const {
+  return not_queued(runs, false);
+}
+
+void Queue::add_arrays(const char* script, const char* log_name, const std::vector<int>& indices,
+                       const std::string& after, bool are_beginnings) {
+  for (const SlurmArray& array : split_arrays(indices, max_array_size())) {
+    std::vector<std::string> words = sbatch_options(manifest_, options_);
+    words.push_back("--array=" + array.tasks +
+                    (options_.jobs > 0 ? "%" + std::to_string(options_.jobs) : ""));
+    words.push_back(log(log_name));
+    if (!after.empty()) words.push_back(after);
+    words.push_back((folder_ / "slurm" / script).string());
+    words.push_back(std::to_string(array.offset));
+    add(words, array.runs, are_beginnings);
+  }
+}
+
+std::vector<std::string> Queue::beginning_jobs(const std::vector<int>& runs) {
+  if (!manifest_.beginning) return {};
+  std::set<int> lacking;
+  for (const int run : runs) {
+    const Run& beginning = manifest_.beginning->run_of(*manifest_.run_of(run));
+    if (!has_beginning(beginning, store::beginning_folder(folder_, beginning)))
+      lacking.insert(beginning.index);
+  }
+  add_arrays("beginning.sh", "beginning_%a.log", not_queued({lacking.begin(), lacking.end()}, true),
+             "", true);
+  std::vector<std::string> numbers;
+  for (const QueuedJob& job : jobs_)
+    if (std::ranges::any_of(job.runs,
+                            [&](int index) { return job.is_beginning && lacking.contains(index); }))
+      numbers.push_back(job.number);
+  return numbers;
 }
 
 void Queue::submit(const std::vector<int>& runs) {
   // Not afterok: runs whose beginning failed say so, instead of waiting for ever.
-  std::string after;
-  const bool lacks_beginning =
-      manifest_.beginning && !std::ranges::all_of(manifest_.beginning->runs, [&](const Run& run) {
-        return has_beginning(run, store::beginning_folder(folder_, run));
-      });
-  if (lacks_beginning) after = "--dependency=afterany:" + beginning_job();
-  for (const SlurmArray& array : split_arrays(runs, max_array_size())) {
-    std::vector<std::string> words = sbatch_options(manifest_, options_);
-    words.push_back("--array=" + array.tasks +
-                    (options_.jobs > 0 ? "%" + std::to_string(options_.jobs) : ""));
-    words.push_back(log("%A_%a.log"));
-    if (!after.empty()) words.push_back(after);
-    words.push_back((folder_ / "slurm" / "run.sh").string());
-    words.push_back(std::to_string(array.offset));
-    add(words, array.runs);
-  }
+  const std::vector<std::string> beginnings = beginning_jobs(runs);
+  add_arrays("run.sh", "%A_%a.log", runs,
+             beginnings.empty() ? "" : "--dependency=afterany:" + joined(beginnings, ":"), false);
   // afterany: a failed run is no reason to have no sheet.
   std::string all = "--dependency=afterany";
   for (const QueuedJob& job : jobs_) all += ":" + job.number;
@@ -292,7 +312,8 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
   }
   std::set<int> tried;  // also those of jobs that have ended
   const auto note_tried = [&] {
-    for (const QueuedJob& job : queue.jobs()) tried.insert(job.runs.begin(), job.runs.end());
+    for (const QueuedJob& job : queue.jobs())
+      if (!job.is_beginning) tried.insert(job.runs.begin(), job.runs.end());
   };
   WorkClock clock;
   while (!queue.jobs().empty() && !is_interrupted()) {

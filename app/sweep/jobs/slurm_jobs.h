@@ -10,7 +10,7 @@ namespace neve::app::sweep::jobs {
 struct QueuedJob {
   std::string number;
   std::vector<int> runs;      ///< of an array, by their indices; of other jobs none
-  bool is_beginning = false;  ///< makes the common beginning of the runs
+  bool is_beginning = false;  ///< an array of common beginnings; runs are theirs
 };
 
 /// The number of a job in the answer of sbatch --parsable, "4711" or "4711;cluster", behind

@@ -270,8 +270,10 @@ void describe(options::Command& visit, SweepRunOptions& o) {
   visit.about("sweep run", "Make one run of an existing sweep; --emit and --engine slurm use this");
   visit("--index", o.index, options::number<int>("N", 0, 1e9, "the number of a run, from 0"),
         "Number of the run");
-  visit("--beginning", o.is_beginning,
-        "Make the common beginning of a sweep with --fork, one for each seed, instead of a run")
+  visit("--beginning", o.beginning, options::text("N", "2"),
+        "Make the common beginning of a sweep with --fork instead of a run: of the N-th seed, or "
+        "without N those of all seeds")
+      .or_alone("all")
       .excludes({"--index"}, "give one of the two");
   describe_retry(visit, o.retry_failed,
                  "Repeat the run if it failed before, or ended in one of these states, as in "
@@ -279,7 +281,7 @@ void describe(options::Command& visit, SweepRunOptions& o) {
   options::describe_caps(visit, o.caps);
   describe_folder(visit, o);
   visit.check([&o] {
-    if (!o.index && !o.is_beginning)
+    if (!o.index && o.beginning.empty())
       throw UsageError("sweep run", "which run?", "give --index N, or --beginning");
   });
 }

@@ -58,7 +58,7 @@ struct SweepOptions {
 struct SweepRunOptions {
   std::string folder;  ///< of the sweep
   std::optional<int> index;
-  bool is_beginning = false;  ///< the common beginning of forked runs, instead of a run
+  std::string beginning;  ///< "all", or "2": common beginnings of forked runs, instead of a run
   int threads = 0;            ///< 0: as many as there are
   setup::CapTexts caps;
   std::string backend = "auto";

@@ -123,8 +123,7 @@ bool is_whole(const Run& run, const RunResult& result) {
 
 std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
                          const RunStatus& status) {
-  const bool is_made = status.state == RunState::ok || status.state == RunState::diverged;
-  if (!is_made) return {};
+  if (!has_record(status)) return {};
   const record::Verification found = record::verify_run(runs_folder(folder) / run.folder);
   if (!found.flaws.empty()) return record::flaw_text(found.flaws);
   if (status.state == RunState::ok && found.last_frame != run.frames.last)

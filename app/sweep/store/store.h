@@ -38,7 +38,8 @@ struct RunStatus {
   std::uint64_t peak_memory = 0;  ///< bytes
   long pid = 0;                   ///< while it runs
   std::string host;
-  bool is_damaged = false;  ///< there is a file, and it is not as neve wrote it
+  bool never_began = false;  ///< its common beginning failed, and with it the run
+  bool is_damaged = false;   ///< there is a file, and it is not as neve wrote it
 };
 
 /// "0007"
@@ -57,6 +58,8 @@ void write_status(const std::filesystem::path& run_folder, const RunStatus& stat
 bool is_finished(RunState state);
 /// Ended otherwise than ok.
 bool has_failed(RunState state);
+/// It ended by its own record, run.json: ok, or diverged once it had begun.
+bool has_record(const RunStatus& status);
 
 /// Pictures of a run that exist, from its first frame on. @param known  so many have been seen
 int frames_made(const std::filesystem::path& run_folder, const std::string& view,
