@@ -178,11 +178,18 @@ TEST(Noise, ATileSaysHowOftenTheSnowBreaksAndWhichTilesAreTooCloseToCall) {
   EXPECT_EQ(seals.of_points[0].groups, std::vector<int>{1});
   EXPECT_EQ(seals.of_points[1].groups, std::vector<int>{1});
   EXPECT_EQ(seals.of_points[2].groups, std::vector<int>{0});
-  EXPECT_EQ(seals.of_points[0].min, 0);
-  EXPECT_EQ(seals.of_points[2].max, 1);
-  ASSERT_EQ(seals.key.size(), 2u);
-  EXPECT_EQ(seals.key[0], "tiles that share a letter are too close to call");
-  EXPECT_EQ(seals.key[1], "whisker: spread of 4 seeds, min to max and mean, from 0.5 to 0.93 m");
+  EXPECT_EQ(seals.of_points[0].whisker.span.min, 0);
+  EXPECT_EQ(seals.of_points[2].whisker.span.max, 1);
+  EXPECT_EQ(seals.title, "spread");
+  ASSERT_EQ(seals.key.size(), 5u);
+  EXPECT_EQ(seals.key[0].text,
+            "no letter in common: their spread differs for real, by more than other seeds change "
+            "it (95 %)");
+  EXPECT_EQ(seals.key[1].text, "a letter in common: too close to call");
+  EXPECT_EQ(seals.key[2].text,
+            "spread of 4 seeds, from min to max (bar), and their mean (square, number)");
+  EXPECT_EQ(seals.key[3].text, "the line goes from 0.5 to 0.93 m on every tile");
+  EXPECT_EQ(seals.key[4].mark, sheet::KeyLine::Mark::doubt);
   const std::vector<Point> points = points_of(study.manifest, study.results);
   EXPECT_FALSE(is_noise(study.manifest, points, 0));
   EXPECT_TRUE(is_noise(study.manifest, points, 1));
@@ -211,11 +218,28 @@ TEST(Noise, ATileSaysWhatIsPredictedAndWhichIntervalsOverlap) {
             "expected at full resolution: breaks; coarse: breaks in 1 of 4");
   EXPECT_FALSE(seals.of_points[1].is_undecided) << "what counts is the prediction";
   EXPECT_TRUE(seals.of_points[2].is_undecided);
-  EXPECT_EQ(seals.of_points[2].value, "") << "where copies cannot say there is no number";
+  EXPECT_EQ(seals.of_points[2].whisker.value, "") << "where copies cannot say there is no number";
   EXPECT_TRUE(seals.is_noise) << "0.5 and 0.52 m with 7 % each";
-  EXPECT_EQ(seals.key[0], "all tiles are too close to call");
+  EXPECT_TRUE(seals.key[0].text.starts_with("all tiles are too close to call: "));
   const sheet::Seals apart = sheet::seals_of(study.manifest, study.results,
                                              {predictions[0], prediction_of(0.6), predictions[2]});
+  // What a stranger asks of each mark on the tiles: letters, white, blue and yellow.
+  const auto explained = [](const sheet::Seals& of, sheet::KeyLine::Mark mark) {
+    const auto found = std::find_if(of.key.begin(), of.key.end(),
+                                    [&](const sheet::KeyLine& line) { return line.mark == mark; });
+    return found == of.key.end() ? std::string() : found->text;
+  };
+  using Mark = sheet::KeyLine::Mark;
+  EXPECT_NE(explained(apart, Mark::apart), "");
+  EXPECT_NE(explained(apart, Mark::together), "");
+  EXPECT_EQ(explained(apart, Mark::whisker),
+            "expected: spread at full resolution (square, number), and the interval in which four "
+            "of five full runs end (bar)");
+  EXPECT_EQ(explained(apart, Mark::coarse),
+            "coarse: spread of the 4 coarse seeds, from min to max (bar), and their mean (square, "
+            "number)");
+  EXPECT_NE(explained(apart, Mark::doubt), "");
+  EXPECT_EQ(explained(apart, Mark::full), "") << "no tile is at full resolution";
   EXPECT_EQ(apart.of_points[0].groups, std::vector<int>{1});
   EXPECT_EQ(apart.of_points[1].groups, std::vector<int>{0});
   EXPECT_EQ(prediction_line(predictions),
@@ -247,13 +271,13 @@ TEST(Noise, ATileHasTheWhiskerOfCoarseSeedsBesideThatOfFullResolution) {
   EXPECT_TRUE(seals.of_points[0].outcome.starts_with("full: breaks in 2 of 4; coarse: "))
       << seals.of_points[0].outcome;
   EXPECT_TRUE(seals.of_points[0].is_undecided);
-  EXPECT_EQ(seals.of_points[0].value, "0.5 m");
+  EXPECT_EQ(seals.of_points[0].whisker.value, "0.5 m");
   EXPECT_NE(seals.of_points[0].coarse.value, "");
-  EXPECT_LT(seals.of_points[0].coarse.min, seals.of_points[0].coarse.max);
-  EXPECT_EQ(seals.of_points[1].value, "") << "not made at full resolution";
+  EXPECT_LT(seals.of_points[0].coarse.span.min, seals.of_points[0].coarse.span.max);
+  EXPECT_EQ(seals.of_points[1].whisker.value, "") << "not made at full resolution";
   EXPECT_NE(seals.of_points[1].coarse.value, "");
-  EXPECT_EQ(seals.of_points[2].max, 1) << "one scale for both";
-  EXPECT_LT(seals.of_points[2].coarse.max, 1);
+  EXPECT_EQ(seals.of_points[2].whisker.span.max, 1) << "one scale for both";
+  EXPECT_LT(seals.of_points[2].coarse.span.max, 1);
   EXPECT_NE(seals.of_points[0].groups, seals.of_points[2].groups) << "Welch's interval";
 }
 

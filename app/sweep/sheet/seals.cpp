@@ -3,19 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "app/support/text.h"
+#include "app/sweep/sheet/sheet_layout.h"
 
 namespace neve::app::sweep::sheet {
 
 namespace {
-
-constexpr std::array<std::uint8_t, 3> seal_ink{240, 244, 250}, seal_grey{190, 199, 212},
-    seal_caution{255, 205, 96};
-constexpr std::array<std::uint8_t, 4> rail{96, 106, 122, 255}, white_whisker{240, 244, 250, 255},
-    grey_whisker{142, 150, 162, 255}, coarse_whisker{108, 172, 228, 255};
 
 struct Scale {
   double low = 0, high = 0;
@@ -30,11 +25,13 @@ Scale scale_of(const std::vector<store::Summary>& summaries) {
   return scale;
 }
 
+WhiskerSpan span_on(const Scale& scale, const store::Summary& s) {
+  return {scale.place(s.min), scale.place(s.mean), scale.place(s.max)};
+}
+
 std::string with_unit(double x, const std::string& unit) {
   return rough_text(x) + (unit.empty() ? "" : " " + unit);
 }
-
-constexpr float square_width = 1.5f;  // in sizes of the font
 
 /// A square for each group, or one for many. @return the left end, px
 float draw_letters(const std::vector<int>& groups, float right, float y, float size,
@@ -42,11 +39,7 @@ float draw_letters(const std::vector<int>& groups, float right, float y, float s
   constexpr std::size_t max_squares = 3;
   const auto square = [&](const std::string& text, int group, float width) {
     right -= width;
-    const auto& c = group_colours[static_cast<std::size_t>(group) % group_colours.size()];
-    words.patches.push_back(
-        {right, y - 0.1f * size, width - 0.1f * size, 1.3f * size, {c[0], c[1], c[2], 255}});
-    words.notes.push_back(
-        {right + 0.5f * width, y, text, render::Note::Anchor::middle, width, false, seal_ink});
+    draw_square(text, group, right, y, width, size, words);
   };
   if (groups.size() > max_squares) {
     square(store::group_letters(groups), groups.front(), 3.6f * size);
@@ -81,7 +74,7 @@ namespace {
 /// A metric or a quantity that the whiskers show.
 struct Whiskers {
   std::string title, unit;
-  std::vector<store::Summary> points;
+  std::vector<store::Summary> points{};
   std::vector<store::Summary> coarse{};  ///< beside those at full resolution; none without seeds
 };
 
@@ -92,44 +85,53 @@ Scale place_whiskers(const Whiskers& shown, Seals& seals) {
   std::vector<store::Summary> all = shown.points;
   all.insert(all.end(), shown.coarse.begin(), shown.coarse.end());
   const Scale scale = scale_of(all);
+  seals.title = shown.title;
   for (std::size_t k = 0; k < shown.coarse.size(); ++k) {
     const store::Summary& s = shown.coarse[k];
-    if (s.count > 0)
-      seals.of_points[k].coarse = {with_unit(s.mean, shown.unit), scale.place(s.min),
-                                   scale.place(s.mean), scale.place(s.max)};
+    if (s.count > 0) seals.of_points[k].coarse = {with_unit(s.mean, shown.unit), span_on(scale, s)};
   }
   for (std::size_t k = 0; k < shown.points.size(); ++k) {
     Seal& seal = seals.of_points[k];
     const store::Summary& s = shown.points[k];
     if (s.count == 0) continue;
-    seal.value = with_unit(s.mean, shown.unit);
+    seal.whisker = {with_unit(s.mean, shown.unit), span_on(scale, s)};
     if (!seals.is_noise) seal.groups = groups[k];
-    seal.min = scale.place(s.min);
-    seal.mean = scale.place(s.mean);
-    seal.max = scale.place(s.max);
   }
   return scale;
 }
 
-std::string letters_key(const Seals& seals) {
-  return seals.is_noise ? fmt::format("all tiles are {}", store::close_words)
-                        : fmt::format("tiles that share a letter are {}", store::close_words);
+using Mark = KeyLine::Mark;
+
+/// What it means that two tiles share a letter, or none.
+/// @param differs  "their spread differs for real"
+void explain_letters(const std::string& differs, const char* why_not, Seals& seals) {
+  if (seals.is_noise) {
+    seals.key.push_back(
+        {Mark::none, fmt::format("all tiles are {}: {}", store::close_words, why_not)});
+    return;
+  }
+  seals.key.push_back({Mark::apart, "no letter in common: " + differs});
+  seals.key.push_back({Mark::together, fmt::format("a letter in common: {}", store::close_words)});
 }
 
-/// "from 0.2 to 0.5 m"
-std::string scale_text(const Scale& scale, const std::string& unit) {
-  return fmt::format("from {} to {}", rough_text(scale.low), with_unit(scale.high, unit));
+void explain_rails(const Scale& scale, const std::string& unit, Seals& seals) {
+  seals.key.push_back(
+      {Mark::none, fmt::format("the line goes from {} to {} on every tile", rough_text(scale.low),
+                               with_unit(scale.high, unit))});
 }
 
-const char* whisker_words(const std::vector<predict::Prediction>& predictions) {
-  const auto is_run = [](const predict::Prediction& p) { return p.is_run; };
-  if (std::none_of(predictions.begin(), predictions.end(), is_run))
-    return " expected at full resolution, and the interval that holds four of five";
-  if (std::any_of(predictions.begin(), predictions.end(),
-                  [](const predict::Prediction& p) { return !p.is_run && !p.reason.empty(); }))
-    return " at full resolution: of the run, or expected, with the interval that holds four of "
-           "five";
-  return " of the runs at full resolution";
+/// Words of a kind of whisker. @param whose  "spread of the 4 coarse seeds"
+std::string seeds_text(const std::string& whose) {
+  return whose + ", from min to max (bar), and their mean (square, number)";
+}
+constexpr const char* interval_words =
+    " at full resolution (square, number), and the interval in which four of five full runs end "
+    "(bar)";
+
+void explain_doubt(const char* why, Seals& seals) {
+  if (std::any_of(seals.of_points.begin(), seals.of_points.end(),
+                  [](const Seal& seal) { return seal.is_undecided; }))
+    seals.key.push_back({Mark::doubt, why});
 }
 
 Seals seals_of_seeds(const store::Manifest& manifest, const std::vector<store::Point>& points,
@@ -139,15 +141,42 @@ Seals seals_of_seeds(const store::Manifest& manifest, const std::vector<store::P
   seals.is_noise = !telling;
   for (const store::Point& point : points)
     seals.of_points.push_back(
-        {outcome_at(point, results[point.first]), store::is_undecided(point), false, "", {}});
+        {outcome_at(point, results[point.first]), store::is_undecided(point), false});
   const store::MetricInfo& info = store::metric_infos()[telling.value_or(0)];
   const Scale scale = place_whiskers(
       {info.title, info.unit, store::summaries_of(points, telling.value_or(0))}, seals);
   if (scale.low > scale.high) return seals;
-  seals.key = {letters_key(seals), fmt::format("whisker: {}{} of {} seeds, min to max and mean, {}",
-                                               info.title, seals.is_noise ? ", noise here," : "",
-                                               manifest.seeds, scale_text(scale, info.unit))};
+  explain_letters(
+      fmt::format("their {} differs for real, by more than other seeds change it (95 %)",
+                  info.title),
+      "another seed changes as much", seals);
+  seals.key.push_back(
+      {seals.is_noise ? Mark::grey_whisker : Mark::whisker,
+       seeds_text(fmt::format("{}{} of {} seeds", info.title, seals.is_noise ? ", noise here," : "",
+                              manifest.seeds))});
+  explain_rails(scale, info.unit, seals);
+  explain_doubt("it breaks with some seeds and holds with others: one more may do either", seals);
   return seals;
+}
+
+/// The whiskers of predictions and of runs at full resolution.
+void explain_full(const std::vector<predict::Prediction>& predictions, int seeds,
+                  const std::string& title, Seals& seals) {
+  const bool has_runs = std::any_of(predictions.begin(), predictions.end(),
+                                    [](const predict::Prediction& p) { return p.is_run; });
+  const bool has_expected =
+      std::any_of(predictions.begin(), predictions.end(),
+                  [](const predict::Prediction& p) { return !p.is_run && !p.reason.empty(); });
+  const Mark mark = seals.is_noise ? Mark::grey_whisker : Mark::whisker;
+  if (has_expected)
+    seals.key.push_back(
+        {mark, (seeds > 1 ? "expected: " + title : title + " expected") + interval_words});
+  if (!has_runs) return;
+  const std::string of_runs =
+      seeds > 1 ? seeds_text(fmt::format("{} of the {} seeds at full resolution", title, seeds))
+                : title + " of the run at full resolution";
+  seals.key.push_back({mark, (seeds > 1 ? "full: " : "") + of_runs});
+  seals.key.push_back({Mark::full, "the picture is that of the run at full resolution"});
 }
 
 }  // namespace
@@ -164,28 +193,25 @@ Seals seals_of(const store::Manifest& manifest, const std::vector<store::RunResu
   seals.is_noise = !telling && known > 1;
   for (std::size_t k = 0; k < points.size(); ++k)
     seals.of_points.push_back({predicted_outcome(predictions[k], points[k]),
-                               predict::is_in_doubt(predictions[k]),
-                               predictions[k].is_run,
-                               "",
-                               {}});
+                               predict::is_in_doubt(predictions[k]), predictions[k].is_run});
   const predict::Quantity quantity = telling.value_or(predict::Quantity::spread);
   const predict::QuantityInfo& info = predict::info_of(quantity);
   Whiskers shown{info.title, info.unit, store::summaries_of(predictions, quantity)};
   if (manifest.seeds > 1) shown.coarse = store::summaries_of(points, store::metric_of(quantity));
   const Scale scale = place_whiskers(shown, seals);
   if (scale.low > scale.high) return seals;
-  if (known > 1) seals.key.push_back(letters_key(seals));
-  if (manifest.seeds > 1) {
-    const bool has_runs = std::any_of(predictions.begin(), predictions.end(),
-                                      [](const predict::Prediction& p) { return p.is_run; });
-    seals.key.push_back(
-        fmt::format("whiskers: {}, min to max and mean, {}; blue: {} coarse seeds, white: {}",
-                    info.title, scale_text(scale, info.unit), manifest.seeds,
-                    has_runs ? "full resolution" : "expected at full resolution"));
-    return seals;
-  }
-  seals.key.push_back(fmt::format("whisker: {}{}, {}", info.title, whisker_words(predictions),
-                                  scale_text(scale, info.unit)));
+  if (known > 1)
+    explain_letters(fmt::format("their {} at full resolution differs for real", info.title),
+                    "what is known of them at full resolution overlaps", seals);
+  explain_full(predictions, manifest.seeds, info.title, seals);
+  if (manifest.seeds > 1)
+    seals.key.push_back({Mark::coarse, seeds_text(fmt::format("coarse: {} of the {} coarse seeds",
+                                                              info.title, manifest.seeds))});
+  explain_rails(scale, info.unit, seals);
+  explain_doubt(
+      "undecided: of its copies or runs some break and some hold, or it is at the edge; --refine "
+      "decides",
+      seals);
   return seals;
 }
 
@@ -199,25 +225,18 @@ struct WhiskerPlace {
 void draw_whisker(const Whisker& shown, const WhiskerPlace& place,
                   const std::array<std::uint8_t, 4>& color, const std::array<std::uint8_t, 3>& ink,
                   render::Frame& words) {
-  const float size = place.size, edge = 0.6f * size,
-              length = place.right - 2 * edge - place.room - place.left,
-              middle = place.y + 0.55f * size;
-  const auto at = [&](double share) { return place.left + static_cast<float>(share) * length; };
-  const float thin = std::max(1.0f, 0.1f * size), thick = std::max(2.0f, 0.22f * size),
-              dot = 0.6f * size;
-  words.patches.push_back({place.left, middle - 0.5f * thin, length, thin, rail});
-  words.patches.push_back({at(shown.min) - 0.5f * thick, middle - 0.5f * thick,
-                           at(shown.max) - at(shown.min) + thick, thick, color});
-  words.patches.push_back({at(shown.mean) - 0.5f * dot, middle - 0.5f * dot, dot, dot, color});
+  const float edge = 0.6f * place.size;
+  draw_whisker_mark(shown.span, place.left, place.right - 2 * edge - place.room - place.left,
+                    place.y, place.size, color, words);
   words.notes.push_back({place.right - 0.5f * edge, place.y, shown.value,
                          render::Note::Anchor::right, place.room, false, ink});
 }
 
 }  // namespace
 
-void draw_seal(const Seal& seal, bool is_noise, const SealPlace& tile, render::Frame& words) {
+void draw_seal(const Seal& seal, const Seals& all, const SealPlace& tile, render::Frame& words) {
   const float size = tile.font_size, line = 1.3f * size, edge = 0.6f * size;
-  const bool has_value = !seal.value.empty(), has_outcome = !seal.outcome.empty(),
+  const bool has_value = !seal.whisker.value.empty(), has_outcome = !seal.outcome.empty(),
              has_coarse = !seal.coarse.value.empty();
   if (!has_value && !has_outcome && !has_coarse) return;
   const float height =
@@ -231,16 +250,22 @@ void draw_seal(const Seal& seal, bool is_noise, const SealPlace& tile, render::F
                            seal.is_undecided ? seal_caution : seal_ink});
     y += line;
   }
-  const float label = has_coarse ? 5 * size : 0;
+  // Rails of one scale are equally long on all tiles: so are the names before them.
+  const bool has_two = std::any_of(all.of_points.begin(), all.of_points.end(),
+                                   [](const Seal& s) { return !s.coarse.value.empty(); });
+  const float label =
+      has_two ? 5 * size
+              : std::min(0.32f * tile.width, size * static_cast<float>(letter_width) *
+                                                 static_cast<float>(all.title.size() + 2));
   const float last = y + (has_coarse ? line : 0);
   const float end = tile.x + tile.width - edge;
   float right = has_value ? draw_letters(seal.groups, end, last, size, words) : end;
   // Room for a letter in any case: rails of one scale are equally long.
-  if (has_coarse) right = std::min(right, end - square_width * size);
+  if (has_two) right = std::min(right, end - square_width * size);
   WhiskerPlace place{tile.x + edge + label, right, y, 0.26f * tile.width, size};
-  const auto name = [&](const char* text) {
-    words.notes.push_back(
-        {tile.x + edge, place.y, text, render::Note::Anchor::left, label, false, seal_ink});
+  const auto name = [&](const std::string& text) {
+    words.notes.push_back({tile.x + edge, place.y, text, render::Note::Anchor::left,
+                           label - 0.3f * size, false, seal_ink});
   };
   if (has_coarse) {
     name("coarse");
@@ -248,9 +273,9 @@ void draw_seal(const Seal& seal, bool is_noise, const SealPlace& tile, render::F
     place.y = last;
   }
   if (!has_value) return;
-  if (has_coarse) name(seal.is_run ? "full" : "expected");
-  draw_whisker({seal.value, seal.min, seal.mean, seal.max}, place,
-               is_noise ? grey_whisker : white_whisker, is_noise ? seal_grey : seal_ink, words);
+  name(!has_two ? all.title : seal.is_run ? "full" : "expected");
+  draw_whisker(seal.whisker, place, all.is_noise ? grey_whisker : white_whisker,
+               all.is_noise ? seal_grey : seal_ink, words);
 }
 
 }  // namespace neve::app::sweep::sheet

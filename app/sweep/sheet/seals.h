@@ -2,42 +2,38 @@
 /// What a tile says of the other runs of its point: how often the snow breaks, and a metric with
 /// its noise.
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "app/sweep/sheet/key.h"
+#include "app/sweep/sheet/marks.h"
 #include "app/sweep/store/points.h"
 #include "app/sweep/store/predictions.h"
 #include "render/frame/frame.h"
 
 namespace neve::app::sweep::sheet {
 
-/// sRGB of groups, of equal lightness, again and again.
-inline constexpr std::array<std::array<std::uint8_t, 3>, 6> group_colours{
-    {{46, 117, 182}, {178, 92, 32}, {58, 132, 80}, {148, 84, 158}, {128, 116, 40}, {170, 70, 96}}};
-
-/// Places on a scale that all tiles share, 0 to 1.
+/// On a scale that all tiles share.
 struct Whisker {
   std::string value;  ///< "0.42 m"; "" where no run tells
-  double min = 0, mean = 0, max = 0;
+  WhiskerSpan span{};
 };
 
 struct Seal {
   std::string outcome;        ///< "breaks in 1 of 4: not here"
   bool is_undecided = false;  ///< some runs break
   bool is_run = false;        ///< the tile shows the run at full resolution
-  std::string value;          ///< "0.42 m"; "" where no run tells
-  std::vector<int> groups;    ///< tiles that share one are too close to call; none where all are
-  double min = 0, mean = 0, max = 0;  ///< places on a scale that all tiles share, 0 to 1
+  Whisker whisker{};
+  std::vector<int> groups{};  ///< tiles that share one are too close to call; none where all are
   /// Of the coarse runs, beside that of full resolution; only with seeds.
   Whisker coarse{};
 };
 
 /// Of a sweep with seeds or predictions; without, there are none.
 struct Seals {
-  std::vector<std::string> key;  ///< lines that explain them
-  bool is_noise = false;         ///< no metric tells points apart: whiskers are grey
+  std::vector<KeyLine> key;  ///< explains them
+  std::string title;         ///< what the whiskers show: "spread"
+  bool is_noise = false;     ///< no metric tells points apart: whiskers are grey
   std::vector<Seal> of_points;
 };
 
@@ -60,7 +56,7 @@ struct SealPlace {
   float x = 0, y = 0, width = 0, height = 0, font_size = 16;
 };
 
-/// Puts it along the lower edge of a tile.
-void draw_seal(const Seal& seal, bool is_noise, const SealPlace& tile, render::Frame& words);
+/// Puts one of the seals along the lower edge of a tile.
+void draw_seal(const Seal& seal, const Seals& all, const SealPlace& tile, render::Frame& words);
 
 }  // namespace neve::app::sweep::sheet

@@ -132,7 +132,7 @@ SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& mani
       renderer_(renderer),
       head_(manifest_),
       named_(manifest_),
-      pages_(layout_pages(manifest_, !legends.empty(), renderer.max_size())) {
+      pages_(layout_pages(manifest_, !legends.empty(), renderer.max_size(), seals_.key)) {
   head_.runs.clear();
   show_full_runs(manifest);
   const auto full = std::count_if(predictions.begin(), predictions.end(),
@@ -243,7 +243,7 @@ void SheetMaker::add_seal(const SheetLayout& layout, const Tile& tile, render::F
                            words_of_run, render::Note::Anchor::middle, width, false, bright});
   }
   if (manifest_.tile_label == "none") return;
-  draw_seal(seals_.of_points[manifest_.place_of(*tile.run)], seals_.is_noise,
+  draw_seal(seals_.of_points[manifest_.place_of(*tile.run)], seals_,
             {static_cast<float>(tile.x), static_cast<float>(tile.y),
              static_cast<float>(layout.tile_width), static_cast<float>(layout.tile_height),
              static_cast<float>(layout.font_size)},
@@ -292,13 +292,8 @@ render::Image SheetMaker::sheet(int frame, std::size_t page) {
            ? dot + ("page " + std::to_string(page + 1)) + " of " + std::to_string(pages_.size())
            : "");
   render::Frame words = frame_of(layout, line);
-  const auto size = static_cast<float>(layout.font_size);
-  float y = static_cast<float>(layout.height - layout.key) + 0.4f * size;
-  for (const std::string& text : seals_.key) {
-    words.notes.push_back({size, y, text, render::Note::Anchor::left,
-                           static_cast<float>(layout.width) - 2 * size, false, soft});
-    y += 1.4f * size;
-  }
+  draw_key(layout.key, static_cast<float>(layout.height - layout.key_height),
+           static_cast<float>(layout.width), static_cast<float>(layout.font_size), words);
   return compose(layout, tiles, words);
 }
 

@@ -119,7 +119,7 @@ class Layouter {
     out_.words = word_room();
   }
 
-  SheetLayout make() {
+  SheetLayout make(const std::vector<KeyLine>& key) {
     sides_ = choose_sides(m_, 1.0 * out_.tile_width / out_.tile_height);
     is_wrapped_ = is_wrapped(m_);
     const double aspect = 1.0 * out_.tile_width / out_.tile_height;
@@ -140,8 +140,9 @@ class Layouter {
     out_.width = column_x(columns_ - 1) + out_.tile_width + margin() + legend;
     // A title needs room too.
     out_.width = std::max(out_.width, 26 * out_.font_size);
-    out_.key = m_.apart > 1 || !m_.variants.empty() ? 3 * out_.font_size : 0;
-    out_.height = bottom_ + margin() + out_.key;
+    out_.key = wrapped_key(key, out_.width, out_.font_size);
+    out_.key_height = key_height(out_.key.size(), out_.font_size);
+    out_.height = bottom_ + margin() + out_.key_height;
     return out_;
   }
 
@@ -318,19 +319,21 @@ bool fits(const SheetLayout& layout, int largest) {
          1.0 * layout.width * layout.height <= max_pixels;
 }
 
-SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest) {
+SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest,
+                         const std::vector<KeyLine>& key) {
   constexpr int smallest_tile = 64;
   int tile = manifest.tile_width;
   while (true) {
-    SheetLayout layout = Layouter(manifest, has_legend, tile).make();
+    SheetLayout layout = Layouter(manifest, has_legend, tile).make(key);
     if (fits(layout, largest) || tile <= smallest_tile) return layout;
     tile = std::max(smallest_tile, tile * 9 / 10);
   }
 }
 
-std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest) {
+std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest,
+                                    const std::vector<KeyLine>& key) {
   constexpr int readable_tile = 160;
-  SheetLayout whole = layout_sheet(manifest, has_legend, largest);
+  SheetLayout whole = layout_sheet(manifest, has_legend, largest, key);
   if (fits(whole, largest)) return {{0, manifest.runs.size(), std::move(whole)}};
 
   store::Manifest part = manifest;
@@ -339,7 +342,7 @@ std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_le
   const auto layout_of = [&](std::size_t first, std::size_t count) {
     const auto begin = manifest.runs.begin() + static_cast<std::ptrdiff_t>(first);
     part.runs.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
-    return layout_sheet(part, has_legend, largest);
+    return layout_sheet(part, has_legend, largest, key);
   };
   const auto is_readable = [&](const SheetLayout& layout) {
     return fits(layout, largest) &&

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/sweep/sheet/key.h"
 #include "app/sweep/sheet/tile_words.h"
 #include "app/sweep/store/manifest.h"
 #include "render/frame/frame.h"
@@ -23,7 +24,8 @@ struct SheetLayout {
   int tile_width = 0, tile_height = 0;  ///< px
   int font_size = 16;                   ///< px
   int header = 0;                       ///< px, above the labels
-  int key = 0;                          ///< px, below the tiles, for words that explain noise
+  std::vector<KeyLine> key;             ///< lines below the tiles that explain noise
+  int key_height = 0;                   ///< px
   bool has_edges = false;               ///< the axes are along the edges
   WordRoom words;                       ///< on a tile
   std::vector<SheetTile> tiles;
@@ -36,7 +38,9 @@ struct SheetLayout {
 /// without axes are wrapped. Tiles shrink until the sheet fits.
 /// @param has_legend keeps room for it on the right
 /// @param largest side of a picture, px
-SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest);
+/// @param key  explains noise
+SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest,
+                         const std::vector<KeyLine>& key = {});
 
 /// Runs that share a picture.
 struct SheetPage {
@@ -46,7 +50,8 @@ struct SheetPage {
 
 /// One page where all runs fit into a picture. Otherwise as many as it takes: without axes along
 /// their edges, so that each tile names its own values.
-std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest);
+std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest,
+                                    const std::vector<KeyLine>& key = {});
 
 /// True if a sheet of this layout can be a picture.
 bool fits(const SheetLayout& layout, int largest);
