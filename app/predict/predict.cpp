@@ -37,7 +37,7 @@ Estimate estimate(Quantity quantity, const std::vector<Copy>& copies) {
   Estimate out{quantity};
   out.expected = std::max(0.0, fine + toward * difference);
   const double half = per_difference * std::abs(difference) + per_noise * (high - low) / 2 +
-                      shares[static_cast<int>(quantity)] * out.expected;
+                      share_of(quantity) * out.expected;
   out.low = std::max(0.0, out.expected - half);
   out.high = out.expected + half;
   if (quantity == Quantity::largest_piece) {
@@ -117,6 +117,10 @@ Prediction silent(std::string reason) {
   Prediction prediction;
   prediction.reason = std::move(reason);
   return prediction;
+}
+
+double share_of(Quantity quantity) {
+  return shares[static_cast<int>(quantity)];
 }
 
 Prediction judge(std::vector<Copy> copies) {

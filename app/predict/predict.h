@@ -30,6 +30,10 @@ struct Prediction {
   std::string reason;  ///< of the verdict, a sentence
 };
 
+/// Half of an interval where all copies agree, as a share of the value: so far at least a full run
+/// with another seed may lie.
+double share_of(Quantity quantity);
+
 /// @param copies  the finest first, as run_copies() makes them; at least two
 Prediction judge(std::vector<Copy> copies);
 /// True where something is said, and it is neither that the snow breaks nor that it holds.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "app/support/errors.h"
 #include "app/sweep/plan/expand.h"
@@ -291,6 +292,39 @@ TEST(Noise, RunsAtFullResolutionAreComparedByTheirNoiseAndWithIntervalsByOverlap
   wide.is_interval = true;
   wide.min = 0.54;
   EXPECT_FALSE(differ(runs[0], wide)) << "an interval reaches there";
+}
+
+TEST(Noise, ALoneRunAtFullResolutionIsOneDraw) {
+  const auto lone = [](double spread) {
+    predict::Prediction run = full_runs(spread, 1, 0);
+    for (predict::Estimate& e : run.estimates) e.low = e.high = e.expected;
+    return run;
+  };
+  const std::vector<Summary> runs =
+      summaries_of({lone(0.155), lone(0.162), lone(0.2)}, predict::Quantity::spread);
+  EXPECT_EQ(runs[0].mean, 0.155);
+  EXPECT_FALSE(differ(runs[0], runs[1])) << "another seed may change as much";
+  EXPECT_TRUE(differ(runs[0], runs[2]));
+}
+
+TEST(Noise, TheLinesOfWhiskersAreEquallyLongOnAllTiles) {
+  sheet::Seals seals;
+  seals.title = "spread";
+  for (const std::vector<int>& groups : {std::vector<int>{0}, {0, 1}, {}}) {
+    sheet::Seal& seal = seals.of_points.emplace_back();
+    seal.whisker = {"0.2 m", {0.2, 0.5, 0.7}};
+    seal.groups = groups;
+  }
+  std::set<float> lengths;
+  for (const sheet::Seal& seal : seals.of_points) {
+    render::Frame words;
+    sheet::draw_seal(seal, seals, {0, 0, 320, 180, 11}, words);
+    float longest = 0;  // but for the patch behind all
+    for (std::size_t k = 1; k < words.patches.size(); ++k)
+      longest = std::max(longest, words.patches[k].width);
+    lengths.insert(longest);
+  }
+  EXPECT_EQ(lengths.size(), 1u);
 }
 
 TEST(Refine, HowWellCoarseRankedIsSaidOfMeans) {

@@ -33,21 +33,28 @@ std::string with_unit(double x, const std::string& unit) {
   return rough_text(x) + (unit.empty() ? "" : " " + unit);
 }
 
-/// A square for each group, or one for many. @return the left end, px
-float draw_letters(const std::vector<int>& groups, float right, float y, float size,
-                   render::Frame& words) {
-  constexpr std::size_t max_squares = 3;
+constexpr std::size_t max_squares = 3;
+constexpr float wide_square = 3.6f;  // in sizes of the font, of more letters
+
+/// In sizes of the font.
+float letters_width(const std::vector<int>& groups) {
+  return groups.size() > max_squares ? wide_square
+                                     : square_width * static_cast<float>(groups.size());
+}
+
+/// A square for each group, or one for many.
+void draw_letters(const std::vector<int>& groups, float right, float y, float size,
+                  render::Frame& words) {
   const auto square = [&](const std::string& text, int group, float width) {
     right -= width;
     draw_square(text, group, right, y, width, size, words);
   };
   if (groups.size() > max_squares) {
-    square(store::group_letters(groups), groups.front(), 3.6f * size);
-    return right;
+    square(store::group_letters(groups), groups.front(), wide_square * size);
+    return;
   }
   for (auto group = groups.rbegin(); group != groups.rend(); ++group)
     square(store::group_letters({*group}), *group, square_width * size);
-  return right;
 }
 
 }  // namespace
@@ -174,7 +181,9 @@ void explain_full(const std::vector<predict::Prediction>& predictions, int seeds
   if (!has_runs) return;
   const std::string of_runs =
       seeds > 1 ? seeds_text(fmt::format("{} of the {} seeds at full resolution", title, seeds))
-                : title + " of the run at full resolution";
+                : title +
+                      " of the run at full resolution (square, number), and how far one with "
+                      "another seed may lie from it (bar)";
   seals.key.push_back({mark, (seeds > 1 ? "full: " : "") + of_runs});
   seals.key.push_back({Mark::full, "the picture is that of the run at full resolution"});
 }
@@ -250,7 +259,8 @@ void draw_seal(const Seal& seal, const Seals& all, const SealPlace& tile, render
                            seal.is_undecided ? seal_caution : seal_ink});
     y += line;
   }
-  // Rails of one scale are equally long on all tiles: so are the names before them.
+  // Rails of one scale are equally long on all tiles: so are the names before and the letters
+  // behind.
   const bool has_two = std::any_of(all.of_points.begin(), all.of_points.end(),
                                    [](const Seal& s) { return !s.coarse.value.empty(); });
   const float label =
@@ -259,9 +269,11 @@ void draw_seal(const Seal& seal, const Seals& all, const SealPlace& tile, render
                                                  static_cast<float>(all.title.size() + 2));
   const float last = y + (has_coarse ? line : 0);
   const float end = tile.x + tile.width - edge;
-  float right = has_value ? draw_letters(seal.groups, end, last, size, words) : end;
-  // Room for a letter in any case: rails of one scale are equally long.
-  if (has_two) right = std::min(right, end - square_width * size);
+  float letters = 0;
+  for (const Seal& other : all.of_points)
+    letters = std::max(letters, size * letters_width(other.groups));
+  const float right = end - letters;
+  if (has_value) draw_letters(seal.groups, end, last, size, words);
   WhiskerPlace place{tile.x + edge + label, right, y, 0.26f * tile.width, size};
   const auto name = [&](const std::string& text) {
     words.notes.push_back({tile.x + edge, place.y, text, render::Note::Anchor::left,

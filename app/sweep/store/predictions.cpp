@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "app/support/text.h"
@@ -135,6 +136,11 @@ std::vector<Summary> summaries_of(const std::vector<predict::Prediction>& predic
                .max = e.high,
                .variance = e.variance,
                .is_interval = !has_noise};
+    // One run is one draw.
+    if (!prediction.is_run || prediction.runs != 1) continue;
+    const double half = predict::share_of(quantity) * std::abs(e.expected);
+    summary.min -= half;
+    summary.max += half;
   }
   return summaries;
 }

@@ -27,7 +27,8 @@ std::vector<const RunResult*> full_results_of(const std::vector<std::optional<Ru
 std::vector<predict::Prediction> predictions_of(const std::filesystem::path& folder,
                                                 const Manifest& manifest);
 
-/// A quantity of all points, as intervals; without values where copies cannot say.
+/// A quantity of all points, as intervals; without values where copies cannot say. That of a lone
+/// run at full resolution is where one with another seed may lie.
 std::vector<Summary> summaries_of(const std::vector<predict::Prediction>& predictions,
                                   predict::Quantity quantity);
 

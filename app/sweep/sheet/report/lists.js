@@ -253,7 +253,7 @@ function startTable() {
   }
   if (study.predicts)
     by('table-hint').textContent += ' Columns called full have what coarse copies forecast for full resolution, with intervals that hold ' +
-      `four times in five, or what the ${hasSeeds ? 'seeds there gave, from min to max' : 'run there gave'}; those that share a letter ` +
+      `four times in five, or what the ${hasSeeds ? 'seeds there gave, from min to max' : 'run there gave, with how far another seed may lie'}; those that share a letter ` +
       'are too close to call.';
   const body = make('tbody'), box = watchBox(element);
   const above = make('tr', {className: 'room'}, make('td', {colSpan: columns.length + 1}));
