@@ -86,6 +86,9 @@ Findings verify_sweep_folder(const fs::path& folder) {
        manifest.beginning ? manifest.beginning->runs : std::vector<sweep::Run>{}) {
     const fs::path place = sweep::store::beginning_folder("", beginning);
     if (!fs::exists(folder / place, error)) continue;
+    const sweep::store::RunStatus status = sweep::store::read_status(folder / place);
+    // One that was refused, say, wrote none.
+    if (sweep::store::has_failed(status.state) && !sweep::store::has_record(status)) continue;
     for (const record::Flaw& flaw : record::verify_run(folder / place).flaws)
       findings.flaws.push_back({(place / flaw.file).generic_string(), flaw.what});
   }

@@ -216,5 +216,16 @@ TEST_F(ForkSweep, RunsOfABeginningThatFailsFailWithItsReason) {
   EXPECT_EQ(json_of("bad.cdb/beginning/status.json")["attempts"], 1);
 }
 
+TEST_F(ForkSweep, RunsOfABeginningThatIsRefusedAreRefused) {
+  const auto done = sweep({"--set", "limits.particles=50"});
+  EXPECT_EQ(done.exit_code, 7);
+  EXPECT_TRUE(contains(done.errors, "the common beginning ended as refused: about "))
+      << done.errors;
+  EXPECT_EQ(json_in(done)["failed"], 3);
+  for (const char* run : {"0000", "0001", "0002"})
+    EXPECT_EQ(json_of(std::string("f.cdb/runs/") + run + "/status.json")["state"], "refused");
+  EXPECT_EQ(neve({"verify", "f.cdb"}).exit_code, 0) << "nothing is missing that was made";
+}
+
 }  // namespace
 }  // namespace neve::test

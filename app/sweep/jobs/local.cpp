@@ -218,9 +218,11 @@ class LocalJobs {
   /// Runs that fork from a beginning that failed fail as it did; those of other seeds are made.
   void fail_runs_of(const Run& beginning) {
     const store::RunStatus ended = store::read_status(beginning_of(beginning));
+    const std::string state = store::name(ended.state);
+    const bool says_it = ended.reason.starts_with(state + ":");
     const std::string why =
-        fmt::format("{} ended as {}{}", beginning.label, store::name(ended.state),
-                    ended.reason.empty() ? "" : ": " + ended.reason);
+        beginning.label + " ended as " +
+        (says_it ? ended.reason : state + (ended.reason.empty() ? "" : ": " + ended.reason));
     int failed = 0;
     std::erase_if(queue_, [&](const Run* run) {
       if (&manifest_.beginning->run_of(*run) != &beginning) return false;
