@@ -2,14 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "app/setup/camera_path.h"
 #include "app/setup/framing.h"
 #include "app/setup/push_in.h"
-#include "app/setup/snow_pieces.h"
+#include "app/setup/subject.h"
 #include "app/support/round_number.h"
 
 namespace neve::app::setup {
@@ -20,136 +19,6 @@ using sim::Vec3d;
 
 constexpr double filled = 0.62;  // share of the picture that the subject takes
 constexpr double filled_by_plane = 0.72;
-constexpr double spread = 1.7;     // snow of many small cells scatters wider than its coarse copy
-constexpr double outliers = 0.02;  // share of particles that may leave the picture
-constexpr double largest_growth = 16;  // of the subject's size: snow that falls for ever is let go
-// A small part of the snow that flies away is let go where the picture would have to grow so much
-// for it; the rest is the subject.
-constexpr double growth_for_few = 2.2, share_of_few = 0.45;
-
-/// Share of the way to the corners of a box: about the extent of a sphere in it.
-constexpr double towards_sphere = 0.8;
-
-std::array<Vec3d, 8> corners(const Vec3d& min, const Vec3d& max) {
-  std::array<Vec3d, 8> result;
-  for (unsigned k = 0; k < 8; ++k)
-    result[k] = {k & 1 ? max.x() : min.x(), k & 2 ? max.y() : min.y(), k & 4 ? max.z() : min.z()};
-  return result;
-}
-
-/// The snow that stays within its own size of where all of it was, if most of it does and the rest
-/// would make it small in the picture; otherwise all of it.
-std::vector<Vec3d> without_flown(const std::vector<Vec3d>& points, const Box& start) {
-  const Vec3d reach = Vec3d::Constant(start.diagonal());
-  std::vector<Vec3d> near;
-  for (const Vec3d& x : points)
-    if (((x - start.min + reach).array() >= 0).all() &&
-        ((start.max + reach - x).array() >= 0).all())
-      near.push_back(x);
-  const double far_share = 1 - static_cast<double>(near.size()) /
-                                   static_cast<double>(std::max<std::size_t>(1, points.size()));
-  const bool is_few = far_share > 0 && far_share < share_of_few;
-  const bool is_large = box_of(points).diagonal() > growth_for_few * box_of(near).diagonal();
-  return is_few && is_large ? near : points;
-}
-
-/// The start of what the camera moves along with, and room for it to burst.
-std::vector<Vec3d> followed(const scene::Scene& scene, const std::string& name) {
-  constexpr double room = 1.6;
-  std::vector<Vec3d> points;
-  const auto add = [&](const sim::shapes::Bounds& box) {
-    const Vec3d center = 0.5 * (box.min + box.max);
-    for (const Vec3d& corner : corners(box.min, box.max))
-      points.push_back(center + room * (corner - center));
-  };
-  for (const sim::seeding::Body& body : scene.bodies)
-    if (body.name == name) add(sim::shapes::bounds(body.shape));
-  for (const sim::shapes::Collider& collider : scene.colliders)
-    if (points.empty() && collider.name == name) add(sim::shapes::bounds_at(collider, 0));
-  return points;
-}
-
-/// Bodies and emitters before the first step.
-Box start_of(const scene::Scene& scene) {
-  std::vector<Vec3d> points;
-  for (const SnowPiece& piece : snow_places(scene)) {
-    const sim::shapes::Bounds bounds = sim::shapes::bounds(*piece.shape);
-    points.push_back(bounds.min);
-    points.push_back(bounds.max);
-  }
-  return box_of(points);
-}
-
-/// Everything that should be seen at some time.
-std::vector<Vec3d> subject(const scene::Scene& scene, const std::vector<CoarseMoment>& moments) {
-  const Box start = start_of(scene);
-  std::vector<Vec3d> points{start.min, start.max};
-  const double first_size = std::max(start.diagonal(), 1e-6);
-  Box seen;
-  for (const CoarseMoment& moment : moments) {
-    const std::vector<Vec3d> kept =
-        moment.time > 0 ? scattered(without_outliers(moment.x, outliers), spread) : moment.x;
-    Box grown = seen;
-    for (const Vec3d& x : kept) grown.add(x);
-    if (moment.time > 0 && grown.diagonal() > largest_growth * first_size) break;
-    seen = grown;
-    points.insert(points.end(), kept.begin(), kept.end());
-  }
-  return points;
-}
-
-/// Obstacles that the snow meets belong in the picture unless they would dwarf it.
-void add_small_colliders(const scene::Scene& scene, std::vector<Vec3d>& points) {
-  const Box snow = box_of(points);
-  const Vec3d margin = Vec3d::Constant(0.25 * snow.diagonal());
-  for (const sim::shapes::Collider& collider : scene.colliders) {
-    if (std::holds_alternative<sim::shapes::Plane>(collider.shape.form) ||
-        std::holds_alternative<sim::shapes::Terrain>(collider.shape.form))
-      continue;
-    const sim::shapes::Bounds bounds = sim::shapes::bounds_at(collider, 0);
-    const bool is_near = ((bounds.min - margin).array() <= snow.max.array()).all() &&
-                         ((bounds.max + margin).array() >= snow.min.array()).all();
-    if (!is_near || (bounds.max - bounds.min).norm() > 1.5 * snow.diagonal()) continue;
-    const Vec3d center = 0.5 * (bounds.min + bounds.max),
-                half = towards_sphere * (bounds.max - center);
-    for (const Vec3d& corner : corners(center - half, center + half)) points.push_back(corner);
-  }
-}
-
-/// What snow moves is as much the subject, until it is so far away that all else would be small.
-void add_bodies(const std::vector<CoarseMoment>& moments, std::vector<Vec3d>& points) {
-  constexpr double largest_growth_for_bodies = 3;
-  const double largest = largest_growth_for_bodies * box_of(points).diagonal();
-  Box seen = box_of(points);
-  for (const CoarseMoment& moment : moments)
-    for (const sim::shapes::Bounds& body : moment.bodies) {
-      if (!body.min.allFinite() || !body.max.allFinite()) continue;
-      const Vec3d center = 0.5 * (body.min + body.max), half = towards_sphere * (body.max - center);
-      Box grown = seen;
-      grown.add(center - half);
-      grown.add(center + half);
-      if (grown.diagonal() > largest) continue;
-      seen = grown;
-      for (const Vec3d& corner : corners(center - half, center + half)) points.push_back(corner);
-    }
-}
-
-/// The floor below the subject, unless it is farther below than the subject is large: snow falls
-/// there after the coarse run has ended, and what stands on it has its foot in the picture.
-void add_floor(const scene::Scene& scene, std::vector<Vec3d>& points) {
-  const Box box = box_of(points);
-  for (const sim::shapes::Collider& collider : scene.colliders) {
-    const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
-    if (!plane || !collider.keyframes.empty()) continue;
-    const Vec3d up = plane->normal.normalized();
-    if (up.y() < 0.9) continue;
-    for (const Vec3d& corner : corners(box.min, box.max)) {
-      const double height = (corner - plane->point).dot(up);
-      if (height > 0 && height < box.diagonal()) points.push_back(corner - height * up);
-    }
-  }
-}
-
 /// The points laid into a plane through their middle: snow before and behind it is not seen.
 std::vector<Vec3d> flattened(std::vector<Vec3d> points, const Vec3d& normal) {
   const Vec3d middle = median(points);
@@ -244,6 +113,26 @@ bool is_clear(const scene::Scene& scene, const Framing& framing, const Vec3d& to
   });
 }
 
+/// Nearer where the snow of one moment would be small beside that of others: what is thrown far
+/// leaves the picture then, not where snow is dense.
+Framing near_the_smallest(const scene::Scene& scene, const std::vector<CoarseMoment>& moments,
+                          const Shot& whole, const Lens& lens) {
+  constexpr double min_width = 0.36;  // of the picture's; a quarter is what a tile has to have
+  double smallest = min_width;
+  for (const CoarseMoment& moment : moments) {
+    const Extent seen = extent_of(core_of_moment(scene, moment), whole, lens);
+    smallest = std::min(smallest, 0.5 * (seen.right - seen.left));
+  }
+  if (smallest >= min_width) return whole.framing;
+  const std::vector<Vec3d> dense = dense_snow(scene, moments);
+  const Framing nearest = fit(dense, box_of(dense).center(), whole.towards_eye, lens);
+  const double way = whole.framing.distance - nearest.distance;
+  if (way <= 0) return whole.framing;
+  const double wanted = whole.framing.distance * (1 - smallest / min_width);
+  const Framing near = between(whole.framing, nearest, std::min(1.0, wanted / way));
+  return is_clear(scene, near, whole.towards_eye, lens) ? near : whole.framing;
+}
+
 struct Place {
   Vec3d eye, target;
 };
@@ -277,16 +166,9 @@ void add_push_in(const scene::Scene& scene, const std::vector<CoarseMoment>& mom
 scene::CameraSettings automatic_camera(const scene::Scene& scene,
                                        const std::vector<CoarseMoment>& moments,
                                        const scene::CameraSettings& settings, double aspect,
-                                       const std::optional<Vec3d>& normal) {
+                                       const std::optional<Vec3d>& normal, Shown shown) {
   const bool is_following = !settings.follow.empty();
-  std::vector<Vec3d> points =
-      is_following ? followed(scene, settings.follow) : subject(scene, moments);
-  if (!is_following && !normal) points = without_flown(points, start_of(scene));
-  if (!is_following) add_small_colliders(scene, points);
-  if (!is_following) add_bodies(moments, points);
-  // On a plane there is room for the few that fly, since those beside it are not seen.
-  const bool is_upright = normal && std::abs(normal->normalized().y()) < 0.1;
-  if (is_upright && !is_following) add_floor(scene, points);
+  std::vector<Vec3d> points = subject_of(scene, moments, settings.follow, normal, shown);
   if (normal) points = flattened(points, normal->normalized());
   const Lens lens{settings.up.normalized(), std::tan(radians(settings.fov / 2)), aspect,
                   normal ? filled_by_plane : filled, turns_of(settings, scene::duration(scene))};
@@ -307,6 +189,9 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
       if (!is_clear(scene, fitted, candidate, lens)) continue;
       towards_eye = candidate, framing = fitted, is_found = true;
     }
+
+  if (shown == Shown::moments && !normal && !is_following && !lens.is_turning())
+    framing = near_the_smallest(scene, moments, {framing, towards_eye}, lens);
 
   scene::CameraSettings camera = settings;
   const Vec3d origin = is_following ? middle : Vec3d::Zero();

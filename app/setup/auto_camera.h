@@ -6,6 +6,7 @@
 
 #include "app/scene/scene.h"
 #include "app/setup/coarse_run.h"
+#include "app/setup/subject.h"
 
 namespace neve::app::setup {
 
@@ -14,10 +15,12 @@ namespace neve::app::setup {
 /// round.
 /// @param settings all but eye and target is kept
 /// @param aspect width / height of the picture
+/// Of Shown::moments, the smallest snow takes about a third of the picture's width.
 /// @param normal of a plane that should be seen from its front, a little askew
 scene::CameraSettings automatic_camera(const scene::Scene& scene,
                                        const std::vector<CoarseMoment>& moments,
                                        const scene::CameraSettings& settings, double aspect,
-                                       const std::optional<sim::Vec3d>& normal = {});
+                                       const std::optional<sim::Vec3d>& normal = {},
+                                       Shown shown = Shown::fall);
 
 }  // namespace neve::app::setup

@@ -141,4 +141,24 @@ std::vector<CoarseMoment> coarse_run(const scene::Scene& scene) {
   return is_longer ? second.seen : first.seen;
 }
 
+std::vector<CoarseMoment> moments_near(const std::vector<CoarseMoment>& moments,
+                                       const std::vector<double>& times) {
+  constexpr double known = 1.1;  // times the last moment
+  std::vector<bool> is_near(moments.size(), false);
+  for (const double time : times) {
+    if (moments.empty() || time > known * moments.back().time) return moments;
+    const auto after =
+        std::lower_bound(moments.begin(), moments.end(), time,
+                         [](const CoarseMoment& moment, double t) { return moment.time < t; });
+    const auto at = static_cast<std::size_t>(after - moments.begin());
+    if (at < moments.size()) is_near[at] = true;
+    const bool is_exact = at < moments.size() && moments[at].time - time < 1e-6;
+    if (at > 0 && !is_exact) is_near[at - 1] = true;
+  }
+  std::vector<CoarseMoment> chosen;
+  for (std::size_t k = 0; k < moments.size(); ++k)
+    if (is_near[k]) chosen.push_back(moments[k]);
+  return chosen;
+}
+
 }  // namespace neve::app::setup

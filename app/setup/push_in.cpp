@@ -3,25 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/setup/subject.h"
+
 namespace neve::app::setup {
 
 namespace {
 
 using sim::Vec3d;
 
-constexpr double crumbs = 0.1;           // share of the snow that may leave the picture
-constexpr double settled_spread = 1.25;  // snow of many small cells lies wider than its coarse copy
-constexpr double min_known = 0.6;        // share of the scene that the coarse run has to reach
+constexpr double min_known = 0.6;  // share of the scene that the coarse run has to reach
 constexpr double latest_begin = 0.5, end_of_move = 0.92;  // of the scene
 constexpr double halvings_a_second = 1;
 constexpr double max_part = 0.88;  // of the distance: less of a move is none
 constexpr double min_part =
     0.4;  // of the distance: colliders should still be seen as what they are
-
-/// Snow without crumbs that have flown off.
-std::vector<Vec3d> core_of(const std::vector<Vec3d>& x) {
-  return scattered(without_outliers(x, crumbs), settled_spread);
-}
 
 /// Snow of the last moments; a sweep brings those of several runs.
 std::vector<Vec3d> settled_snow(const std::vector<CoarseMoment>& moments) {
@@ -29,7 +24,7 @@ std::vector<Vec3d> settled_snow(const std::vector<CoarseMoment>& moments) {
   std::vector<Vec3d> points;
   for (const CoarseMoment& moment : moments)
     if (moment.time >= last * moments.back().time) {
-      const std::vector<Vec3d> core = core_of(moment.x);
+      const std::vector<Vec3d> core = heap_of(moment.x);
       points.insert(points.end(), core.begin(), core.end());
     }
   return points;
@@ -44,7 +39,7 @@ bool is_inside(const std::vector<Vec3d>& points, const Shot& shot, const Lens& l
 double time_inside(const std::vector<CoarseMoment>& moments, const Shot& shot, const Lens& lens) {
   double time = moments.back().time;
   for (auto moment = moments.rbegin(); moment != moments.rend(); ++moment) {
-    if (!is_inside(core_of(moment->x), shot, lens)) break;
+    if (!is_inside(heap_of(moment->x), shot, lens)) break;
     time = moment->time;
   }
   return time;

@@ -78,19 +78,20 @@ bool needs_framing(const scene::Scene& scene) {
          });
 }
 
-void resolve_cameras(scene::Scene& scene, const std::vector<CoarseMoment>& moments) {
+void resolve_cameras(scene::Scene& scene, const std::vector<CoarseMoment>& moments, Shown shown) {
   const bool is_shared = needs_shared_camera(scene);
   const scene::CameraSettings lens = scene.camera.value_or(scene::CameraSettings{});
   const double shared = aspect_of(scene.size);
-  if (is_shared) scene.camera = automatic_camera(scene, moments, lens, shared);
+  if (is_shared) scene.camera = automatic_camera(scene, moments, lens, shared, {}, shown);
   for (scene::View& view : scene.views) {
     const double aspect = aspect_of(size_of(scene, view));
     if (view.camera && !has_place(*view.camera))
-      view.camera = automatic_camera(scene, moments, *view.camera, aspect);
+      view.camera = automatic_camera(scene, moments, *view.camera, aspect, {}, shown);
     else if (faces_its_plane(view) || (!view.camera && is_shared && scene::shows_slice(view)))
-      view.camera = automatic_camera(scene, moments, lens_of(lens), aspect, view.slice.normal);
+      view.camera =
+          automatic_camera(scene, moments, lens_of(lens), aspect, view.slice.normal, shown);
     else if (!view.camera && is_shared && !is_of_shape(aspect, shared))
-      view.camera = automatic_camera(scene, moments, lens, aspect);
+      view.camera = automatic_camera(scene, moments, lens, aspect, {}, shown);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "app/scene/scene.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/plan.h"
+#include "app/setup/subject.h"
 
 namespace neve::app::setup {
 
@@ -15,7 +16,8 @@ void resolve(scene::Scene& scene, std::size_t particle_count);
 bool needs_framing(const scene::Scene& scene);
 
 /// Places those cameras for the snow of coarse runs, in order of time.
-void resolve_cameras(scene::Scene& scene, const std::vector<CoarseMoment>& moments);
+void resolve_cameras(scene::Scene& scene, const std::vector<CoarseMoment>& moments,
+                     Shown shown = Shown::fall);
 
 void resolve_ranges(scene::Scene& scene, std::size_t particle_count);
 

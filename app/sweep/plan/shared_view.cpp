@@ -76,30 +76,73 @@ std::vector<std::vector<int>> coordinates_of(const SweepPlan& plan) {
   return places;
 }
 
-std::vector<setup::CoarseMoment> moments_of_corners(const SweepPlan& plan, int cores) {
-  std::vector<const scene::Scene*> scenes;
-  for (const std::size_t k : coarse_first(coordinates_of(plan), axis_sizes(plan), draws_of(plan)))
-    if (scenes.size() < max_dry_runs && setup::needs_framing(plan.runs[k].scene))
-      scenes.push_back(&plan.runs[k].scene);
-  std::vector<setup::CoarseMoment> moments;
+/// The scene as far as its tile shows it: all that it does is in its frames.
+scene::Scene until_last_frame(const PlannedRun& item) {
+  scene::Scene scene = item.scene;
+  scene.frames = std::min(scene.frames, item.run.frames.last - scene::number_of(scene, 0));
+  return scene;
+}
+
+/// Coarse runs of these scenes, side by side.
+std::vector<std::vector<setup::CoarseMoment>> coarse_runs(const std::vector<scene::Scene>& scenes,
+                                                          int cores) {
+  std::vector<std::vector<setup::CoarseMoment>> found;
   const auto together = static_cast<std::size_t>(std::max(1, cores));
   for (std::size_t first = 0; first < scenes.size(); first += together) {
     std::vector<std::future<std::vector<setup::CoarseMoment>>> runs;
     for (std::size_t k = first; k < std::min(first + together, scenes.size()); ++k)
       runs.push_back(std::async(std::launch::async,
-                                [scene = scenes[k]] { return setup::coarse_run(*scene); }));
-    for (auto& run : runs)
-      for (setup::CoarseMoment& moment : run.get()) moments.push_back(std::move(moment));
+                                [scene = &scenes[k]] { return setup::coarse_run(*scene); }));
+    for (auto& run : runs) found.push_back(run.get());
   }
+  return found;
+}
+
+/// The moment of the sheet; the whole run where the coarse one ends long before it.
+std::vector<setup::CoarseMoment> moment_of_sheet(const scene::Scene& scene,
+                                                 std::vector<setup::CoarseMoment> moments) {
+  constexpr double near_the_end = 0.9;
+  if (moments.empty() || moments.back().time < near_the_end * scene.frames / scene.fps)
+    return moments;
+  return {std::move(moments.back())};
+}
+
+std::vector<setup::CoarseMoment> moments_of_corners(const SweepPlan& plan, int cores) {
+  const bool is_whole = plan.sweep.sheet.framing == read::Framing::fall;
+  std::vector<scene::Scene> scenes;
+  for (const std::size_t k : coarse_first(coordinates_of(plan), axis_sizes(plan), draws_of(plan)))
+    if (scenes.size() < max_dry_runs && setup::needs_framing(plan.runs[k].scene))
+      scenes.push_back(is_whole ? plan.runs[k].scene : until_last_frame(plan.runs[k]));
+  std::vector<setup::CoarseMoment> moments;
+  std::vector<std::vector<setup::CoarseMoment>> runs = coarse_runs(scenes, cores);
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    for (setup::CoarseMoment& moment :
+         is_whole ? std::move(runs[k]) : moment_of_sheet(scenes[k], std::move(runs[k])))
+      moments.push_back(std::move(moment));
   std::stable_sort(
       moments.begin(), moments.end(),
       [](const setup::CoarseMoment& a, const setup::CoarseMoment& b) { return a.time < b.time; });
   return moments;
 }
 
+/// A camera for each run that has none.
+void frame_each(std::vector<PlannedRun*> items, int cores) {
+  std::erase_if(items, [](const PlannedRun* item) { return !setup::needs_framing(item->scene); });
+  std::vector<scene::Scene> scenes;
+  for (const PlannedRun* item : items) scenes.push_back(until_last_frame(*item));
+  std::vector<std::vector<setup::CoarseMoment>> runs = coarse_runs(scenes, cores);
+  for (std::size_t k = 0; k < items.size(); ++k)
+    setup::resolve_cameras(items[k]->scene, moment_of_sheet(scenes[k], std::move(runs[k])),
+                           setup::Shown::moments);
+}
+
 scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
   scene::Scene shared = plan.base;
-  if (setup::needs_framing(shared)) setup::resolve_cameras(shared, moments_of_corners(plan, cores));
+  const read::Framing framing = plan.sweep.sheet.framing;
+  if (framing != read::Framing::each && setup::needs_framing(shared))
+    setup::resolve_cameras(
+        shared, moments_of_corners(plan, cores),
+        framing == read::Framing::fall ? setup::Shown::fall : setup::Shown::moments);
   for (const PlannedRun& item : plan.runs) {
     scene::Scene resolved = item.scene;
     setup::resolve_ranges(resolved, static_cast<std::size_t>(item.plan.particles));
@@ -108,10 +151,16 @@ scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
   return shared;
 }
 
-/// Names the scene that the camera and ranges belong to. Axes are no part of it: they may grow.
+/// Names the scene that the camera and ranges belong to, and what the camera holds. Axes are no
+/// part of it: they may grow.
 std::string mark_of(const SweepPlan& plan) {
-  const std::string text = scene::write_scene(plan.base);
-  return "# Camera and colour ranges of all runs. Of scene " + record::hash_of(text) + "\n";
+  std::string held;
+  if (plan.sweep.sheet.framing == read::Framing::each) held = ", each run by itself";
+  if (plan.sweep.sheet.framing == read::Framing::sheet)
+    for (const PlannedRun& item : plan.runs)
+      if (held.empty()) held = ", at frame " + std::to_string(item.run.frames.last);
+  return "# Camera and colour ranges of all runs. Of scene " +
+         record::hash_of(scene::write_scene(plan.base)) + held + "\n";
 }
 
 }  // namespace
@@ -135,6 +184,13 @@ void share_camera_and_ranges(SweepPlan& plan, int cores) {
     if (is_interrupted()) return;
     output::make_folder(plan.folder);
     output::write_file(file, mark + scene::write_scene(*shared));
+  }
+  if (plan.sweep.sheet.framing == read::Framing::each) {
+    std::vector<PlannedRun*> items;
+    for (PlannedRun& item : plan.runs) items.push_back(&item);
+    for (PlannedVariant& variant : plan.variants)
+      if (variant.failure.empty()) items.push_back(&variant.item);
+    frame_each(std::move(items), cores);
   }
   const auto complete = [&](PlannedRun& item) {
     apply(*shared, item.scene);

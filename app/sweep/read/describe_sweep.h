@@ -88,6 +88,10 @@ void describe(V& visit, SheetSettings& s) {
   visit("label", s.label, scene::unit::none, scene::anything, restart,
         "Text on a tile. differences: the name and the parameters that differ; name: the name of "
         "the run; none: no text.");
+  visit("framing", s.framing, scene::unit::none, scene::anything, restart,
+        "What a camera without a place holds. sheet: the snow of all runs at the last frame, which "
+        "the sheet shows; fall: all that the snow does, from the start; each: a camera for each "
+        "run, which holds its own snow at the last frame.");
 }
 
 template <class V>

@@ -36,6 +36,13 @@ inline constexpr int min_seeds = 2, max_seeds = 100;
 
 enum class TileLabel { differences, name, none };
 
+/// What automatic cameras hold.
+enum class Framing {
+  sheet,  ///< the snow of all runs at the moment of the sheet
+  fall,   ///< the whole fall of all runs
+  each    ///< its own snow at the moment of the sheet, a camera for each run
+};
+
 struct Duration {
   double seconds = 0;
 };
@@ -86,6 +93,7 @@ struct SheetSettings {
   std::optional<scene::PictureSize> tile;
   std::string view;
   TileLabel label = TileLabel::differences;
+  Framing framing = Framing::sheet;
 };
 
 /// A sweep file before its addresses and values are looked at.

@@ -19,6 +19,11 @@ constexpr auto names(TileLabel) {
   return std::array{scene::Name{differences, "differences"}, scene::Name{name, "name"},
                     scene::Name{none, "none"}};
 }
+constexpr auto names(Framing) {
+  using enum Framing;
+  return std::array{scene::Name{sheet, "sheet"}, scene::Name{fall, "fall"},
+                    scene::Name{each, "each"}};
+}
 
 /// Seconds of "90", "90s", "20m", "1h30m"; nothing for other text.
 std::optional<double> seconds_of(std::string_view text);
