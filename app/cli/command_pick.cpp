@@ -15,6 +15,9 @@
 #include "app/output/folder_lock.h"
 #include "app/pick/game.h"
 #include "app/pick/round_noise.h"
+#include "app/record/picture_record.h"
+#include "app/scene/scene_file.h"
+#include "app/scene/toml/toml_source.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/json.h"
@@ -197,8 +200,17 @@ int play(pick::Game& game, const pick::PickOptions& options, const view::ScreenO
   return play_on(*place, game, options, !screen.replay.empty());
 }
 
+/// True for a file with a table [sweep], whatever else is wrong with it.
+bool is_sweep_file(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error) && !record::is_picture(file) &&
+         scene::toml::parse_toml(scene::read_toml_file(file), file).find("sweep") != nullptr;
+}
+
 /// What a sweep takes and a search does not. @throws UsageError
-void check_axes(const std::vector<std::string>& axes) {
+void check_axes(const std::string& file, const std::vector<std::string>& axes) {
+  if (axes.empty() && is_sweep_file(file))
+    throw UsageError("pick", file + " is a sweep", "give its scene, and the axes with -p");
   if (axes.empty())
     throw UsageError("pick", "no parameter to find",
                      "name one, and the two values to search between: -p "
@@ -210,7 +222,7 @@ void check_axes(const std::vector<std::string>& axes) {
 int run_pick(const PickCommand& command) {
   const pick::PickOptions& options = command.pick;
   const view::ScreenOptions& screen = command.screen;
-  check_axes(options.runs.axes);
+  check_axes(options.runs.file, options.runs.axes);
   pick::Game game(options);
   if (options.clicks.empty() && !wants_screen(options, screen) &&
       !devices::TerminalLines::is_there())

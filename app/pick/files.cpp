@@ -5,9 +5,11 @@
 #include <algorithm>
 
 #include "app/scene/coarsen.h"
+#include "app/scene/edit_text.h"
 #include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/support/text.h"
 
 namespace neve::app::pick {
@@ -48,13 +50,15 @@ std::string round_sweep(const SearchScene& scene, const std::filesystem::path& f
   return text;
 }
 
-std::string picked_scene(const SearchScene& scene, const search::Point& place) {
+std::string picked_scene(const SearchScene& scene, const search::Point& place,
+                         const std::filesystem::path& out) {
   std::vector<scene::Override> all = scene.fixed;
   const std::vector<scene::Override> own = settings_at(scene.axes, place);
   all.insert(all.end(), own.begin(), own.end());
-  return "# Picked with neve pick from " +
-         line_text(std::filesystem::path(scene.file).filename().string()) + ".\n" +
-         scene::write_scene(scene::read_scene_file(scene.file, all));
+  return scene::with_header(
+      scene::changed_scene_text(scene::read_toml_file(scene.file), all, scene.file, out.string()),
+      "# Picked with neve pick from " +
+          line_text(std::filesystem::path(scene.file).filename().string()) + ".\n");
 }
 
 std::string picked_sweep(const SearchScene& scene, const std::string& scene_name,

@@ -22,8 +22,10 @@ struct SearchScene {
 std::string round_sweep(const SearchScene& scene, const std::filesystem::path& folder, int round,
                         const std::vector<search::Point>& tiles);
 
-/// The scene with the values of a place, every parameter written out.
-std::string picked_scene(const SearchScene& scene, const search::Point& place);
+/// The scene with the values of a place, in its own resolution, and with the comments of its file.
+/// @param out  file that the text is for
+std::string picked_scene(const SearchScene& scene, const search::Point& place,
+                         const std::filesystem::path& out);
 
 /// A sweep file around a place: the two axes that tell most with three values each, or the only
 /// one with five.

@@ -41,10 +41,11 @@ Game::Game(const PickOptions& options) : options_(options) {
     throw UsageError("pick", options.runs.file + " is a sweep",
                      "give its scene, and the axes with -p");
   scene_ = {options.runs.file, sweep.fixed, axes_of(sweep)};
-  // Complains about settings, and both ends of the axes, before anything is written.
-  for (const double end : {0., 1.}) picked_scene(scene_, search::Point::Constant(dimension(), end));
   folder_ =
       options.runs.out.empty() ? out_folder() / (sweep.name + ".pick") : fs::path(options.runs.out);
+  // Complains about settings, and both ends of the axes, before anything is written.
+  for (const double end : {0., 1.})
+    picked_scene(scene_, search::Point::Constant(dimension(), end), folder_ / "picked.toml");
   own_clicks_ = folder_ / "clicks.txt";
 }
 
@@ -154,7 +155,8 @@ search::Point Game::result() const {
 std::optional<std::vector<scene::Override>> Game::write_pick() const {
   const search::Point place = result();
   if (place.size() == 0) return std::nullopt;
-  output::write_file(folder_ / "picked.toml", picked_scene(scene_, place));
+  const fs::path picked = folder_ / "picked.toml";
+  output::write_file(picked, picked_scene(scene_, place, picked));
   std::vector<std::size_t> order;
   for (const AxisTaste& taste : lesson().tastes) order.push_back(taste.axis);
   output::write_file(folder_ / "picked_sweep.toml",

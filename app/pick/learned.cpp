@@ -41,6 +41,14 @@ AxisTaste taste_along(const search::Preference& taste, const Point& favourite, s
   return found;
 }
 
+/// What a person who likes the end of a range is told; "" away from the ends.
+std::string end_words(double u) {
+  constexpr double near_end = 0.05;  // of the range
+  if (u > 1 - near_end) return "; at the upper end of its range: more may be liked better";
+  if (u < near_end) return "; at the lower end of its range: less may be liked better";
+  return "";
+}
+
 }  // namespace
 
 std::string short_value(const PickAxis& axis, double u) {
@@ -73,8 +81,8 @@ std::vector<std::string> taste_lines(const std::vector<PickAxis>& axes,
                                   short_value(axis, 0), short_value(axis, 1), unit));
       continue;
     }
-    const std::string liked =
-        short_value(axis, favourite[static_cast<Eigen::Index>(found.axis)]) + unit;
+    const double place = favourite[static_cast<Eigen::Index>(found.axis)];
+    const std::string liked = short_value(axis, place) + unit;
     constexpr double nearly_all = 0.95;
     if (found.high - found.low > nearly_all)
       lines.push_back(
@@ -84,6 +92,7 @@ std::vector<std::string> taste_lines(const std::vector<PickAxis>& axes,
                                   found.effect < strong ? "perhaps liked" : "liked",
                                   short_value(axis, found.low), short_value(axis, found.high),
                                   unit));
+    lines.back() += end_words(place);
   }
   return lines;
 }

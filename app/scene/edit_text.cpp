@@ -7,6 +7,7 @@
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_layout.h"
 #include "app/scene/toml/toml_source.h"
@@ -405,6 +406,23 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
   if (is_right) return edited;
   throw UsageError(name, "the changed values cannot be written into this file in its present form",
                    "save the scene under another name, or change the file by hand");
+}
+
+std::string changed_scene_text(const std::string& text, const std::vector<Override>& changes,
+                               const std::string& file, const std::string& out) {
+  const std::string from = base_dir_of(file);
+  const std::string whole = write_scene(read_scene_text(text, file, from, changes));
+  try {
+    std::string edited = edit_scene_text(text, changes, file, from);
+    if (write_scene(read_scene_text(edited, out, base_dir_of(out))) == whole) return edited;
+  } catch (const Error&) {
+  }
+  return whole;
+}
+
+std::string with_header(const std::string& text, const std::string& header) {
+  const std::size_t start = text.starts_with("#:schema") ? text.find('\n') + 1 : 0;
+  return text.substr(0, start) + header + text.substr(start);
 }
 
 }  // namespace neve::app::scene

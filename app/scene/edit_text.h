@@ -23,4 +23,14 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
                             const std::string& name = "the scene",
                             const std::string& base_dir = {});
 
+/// The same for another file: with the words of the scene where these can take the changes and find
+/// their files from there, otherwise with every number written out.
+/// @param file  that the text is of @param out  file that the result is for
+/// @throws SceneError for the text, UsageError for the changes
+std::string changed_scene_text(const std::string& text, const std::vector<Override>& changes,
+                               const std::string& file, const std::string& out);
+
+/// Comments put above a scene, below the line that names the schema, which editors want first.
+std::string with_header(const std::string& text, const std::string& header);
+
 }  // namespace neve::app::scene

@@ -53,6 +53,17 @@ TEST_F(PickCli, ReplayedClicksGiveTheSamePickToTheBit) {
   EXPECT_EQ(neve({"sweep", "a/picked_sweep.toml", "--dry-run"}).exit_code, 0);
 }
 
+TEST_F(PickCli, ThePickKeepsTheCommentsOfItsScene) {
+  folder.write("scene.toml", "# of the shot in the street\n" + std::string(tiny_scene));
+  const auto made = pick("3\n", "a");
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  const std::string picked = read_text(folder / "a/picked.toml");
+  EXPECT_TRUE(contains(picked, "# of the shot in the street")) << picked;
+  EXPECT_TRUE(contains(picked, "# Picked with neve pick from scene.toml."));
+  EXPECT_FALSE(contains(picked, "poisson_ratio")) << "what the scene does not say, it leaves out";
+  EXPECT_EQ(neve({"render", "a/picked.toml", "--dry-run"}).exit_code, 0);
+}
+
 TEST_F(PickCli, ThePickIsShownCoarseAndAtFullResolution) {
   const auto made = pick("5\n", "a", {"--coarsen", "1.5", "--refine"});
   ASSERT_EQ(made.exit_code, 0) << made.errors;

@@ -40,6 +40,20 @@ TEST(Learned, TheAxisThatWasChosenByTellsMost) {
   EXPECT_NE(lines[0].find("liked between"), std::string::npos) << lines[0];
 }
 
+TEST(Learned, APickAtTheEndOfItsRangeSaysSo) {
+  const auto rounds = rounds_of_more_hardening();
+  const search::Preference taste = search::learn(rounds, 2);
+  search::Point place = search::favourite(rounds, taste);
+  const std::vector<AxisTaste> tastes = axis_tastes(two_axes, taste, place);
+  const auto line_at = [&](double u) {
+    place[0] = u;
+    return taste_lines(two_axes, tastes, place)[0];
+  };
+  EXPECT_NE(line_at(0.99).find("at the upper end of its range"), std::string::npos) << line_at(1);
+  EXPECT_NE(line_at(0.01).find("at the lower end of its range"), std::string::npos) << line_at(0);
+  EXPECT_EQ(line_at(0.5).find("end of its range"), std::string::npos) << line_at(0.5);
+}
+
 TEST(Learned, TheMapHasEveryTileAndTheFavourite) {
   const auto rounds = rounds_of_more_hardening();
   const search::Preference taste = search::learn(rounds, 2);

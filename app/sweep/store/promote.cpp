@@ -52,28 +52,6 @@ std::string scene_text(const std::string& folder, const Manifest& manifest, cons
   return scene::read_toml_file(manifest.scene_file);
 }
 
-/// The scene with the changes in its own words, comments and all; where its text cannot take them,
-/// or other files are found from elsewhere, with every number written out.
-std::string promoted_text(const std::string& text, const std::vector<scene::Override>& changes,
-                          const fs::path& file, const fs::path& out) {
-  const std::string name = file.string(), from = scene::base_dir_of(name);
-  const std::string whole = scene::write_scene(scene::read_scene_text(text, name, from, changes));
-  try {
-    std::string edited = scene::edit_scene_text(text, changes, name, from);
-    const std::string there = scene::base_dir_of(out.string());
-    if (scene::write_scene(scene::read_scene_text(edited, out.string(), there)) == whole)
-      return edited;
-  } catch (const Error&) {
-  }
-  return whole;
-}
-
-/// Below the line that names the schema, which editors want first.
-std::string with_header(const std::string& text, const std::string& header) {
-  const std::size_t start = text.starts_with("#:schema") ? text.find('\n') + 1 : 0;
-  return text.substr(0, start) + header + text.substr(start);
-}
-
 fs::path path_of(const PromoteOptions& options, const Manifest& manifest) {
   if (!options.out.empty()) return options.out;
   const fs::path scene = manifest.scene_file;
@@ -104,9 +82,10 @@ int run_promote(const PromoteOptions& options) {
   for (const scene::Override& setting : run.settings)
     values += (values.empty() ? ": " : ", ") + setting.address + " = " + setting.value;
   const fs::path out = path_of(options, manifest);
-  const std::string made = with_header(promoted_text(text, changes, manifest.scene_file, out),
-                                       "# Run " + std::to_string(run.index) + " of " +
-                                           line_text(options.folder) + line_text(values) + ".\n");
+  const std::string made = scene::with_header(
+      scene::changed_scene_text(text, changes, manifest.scene_file, out.string()),
+      "# Run " + std::to_string(run.index) + " of " + line_text(options.folder) +
+          line_text(values) + ".\n");
   std::error_code error;
   if (fs::exists(out, error) && scene::read_toml_file(out.string()) != made)
     throw UsageError("sweep promote", out.string() + " exists, and is another scene",
