@@ -221,6 +221,13 @@ std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
   return identity_of(std::move(picture));
 }
 
+void refuse_sweep_folder(const RenderJob& job) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(job.folder / "manifest.json", error) &&
+      std::filesystem::is_directory(job.folder / "runs", error))
+    refuse(job, "is the folder of a sweep", "", "choose another folder with --out");
+}
+
 void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::RunRecord& ours,
                  const record::PictureRecord& picture) {
   const std::string elsewhere = "choose another folder with --out";

@@ -34,6 +34,9 @@ std::optional<EarlierRun> earlier_run(const RenderJob& job, const record::RunRec
 std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
                        const std::string& view);
 
+/// @throws UsageError for the folder of a sweep, whose runs have folders of their own
+void refuse_sweep_folder(const RenderJob& job);
+
 /// @throws UsageError that says what the command would replace, unless the options replace it, and
 /// for the folder of another scene
 void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::RunRecord& ours,

@@ -110,6 +110,7 @@ void RenderRun::add_slates() {
 }
 
 std::vector<int> RenderRun::begin() {
+  refuse_sweep_folder(job_);
   output::make_folder(job_.folder);
   if (job_.options.checkpoint_every > 0) output::tidy_checkpoint_folder(job_.folder);
   const std::optional<EarlierRun> earlier = earlier_run(job_, record());

@@ -509,6 +509,19 @@ TEST_F(SweepCli, ABudgetStopsTheSweepResumable) {
   EXPECT_EQ(neve({"sweep", "long.toml", "--budget", "9m", "--engine", "slurm"}).exit_code, 2);
 }
 
+TEST_F(SweepCli, SweepsAndRunsAreKeptOutOfEachOthersFolders) {
+  ASSERT_EQ(neve({"sweep", "sweep.toml", "--frames", "0", "--out", "s"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "0", "--out", "r"}).exit_code, 0);
+  const auto run = neve({"render", "scene.toml", "--frames", "0", "--out", "s"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_TRUE(contains(run.errors, "is the folder of a sweep")) << run.errors;
+  EXPECT_FALSE(exists("s/run.json"));
+  const auto sweep = neve({"sweep", "sweep.toml", "--frames", "0", "--out", "r"});
+  EXPECT_EQ(sweep.exit_code, 2);
+  EXPECT_TRUE(contains(sweep.errors, "is the folder of a run")) << sweep.errors;
+  EXPECT_FALSE(exists("r/manifest.json"));
+}
+
 TEST_F(SweepCli, InterruptedSweepsContinue) {
   // A million steps: nobody waits for them.
   const char* const endless = R"(

@@ -399,6 +399,10 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
 
 void check_folder(const plan::SweepPlan& plan) {
   const std::optional<Manifest> earlier = earlier_manifest(plan.folder);
+  std::error_code error;
+  if (!earlier && std::filesystem::is_regular_file(plan.folder / "run.json", error))
+    throw UsageError(plan.folder.string(), "is the folder of a run",
+                     "choose another folder with --out: a sweep has one of its own");
   if (!earlier) return;
   const std::optional<std::vector<std::string>> before = axis_addresses(*earlier);
   const std::vector<std::string> now = axis_addresses(plan.sweep);
