@@ -27,7 +27,12 @@ double bounded_number(const Leaf& leaf, const std::string& kind) {
     x = *f;
   } else {
     const auto* text = std::get_if<std::string>(&leaf.value.data);
-    leaf.fail(kind, text ? advice::number_advice(*text, leaf.unit) : "");
+    const bool is_vector_of_curve =
+        std::holds_alternative<toml::Array>(leaf.value.data) && leaf.address.ends_with("].value");
+    leaf.fail(kind, text                 ? advice::number_advice(*text, leaf.unit)
+                    : is_vector_of_curve ? "of a vector the key is vector = " +
+                                               toml::toml_literal(leaf.value, toml::max_shown)
+                                         : "");
   }
   if (!std::isfinite(x)) leaf.fail("a finite number");
   if (!leaf.valid.contains(x)) leaf.fail(leaf.valid.text_of_bounds(), leaf.valid.advice_on(x));
@@ -310,6 +315,9 @@ namespace {
 std::string context_of(const std::string& address) {
   if (address.ends_with("colormap")) return "colormap";
   if (address.starts_with("material.")) return "material.NAME" + address.substr(address.rfind('.'));
+  if (address.starts_with("collider.") && address.ends_with(".style")) return "collider.NAME.style";
+  if (address.starts_with("view.") && address.find(".layers[") != std::string::npos)
+    return "view.NAME.layers";
   if (!address.starts_with("export.")) return address;
   return address.ends_with(".format")                        ? "format of an export"
          : address.find(".attributes[") != std::string::npos ? "attribute"

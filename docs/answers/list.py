@@ -248,6 +248,31 @@ SCENES = [
          "layers = [\"arrows\"]\nslice = { point = [5, 0, 5] }"),
     edit("[material.snow]", "[material.powder]\npreset = \"powder\"\n[material.snow]"),
     edit("center = [0, 0.12, 0]", "center = [0, 10000, 0]"),
+    # Bodies, curves, holdouts, covers, cameras.
+    edit("name = \"floor\"", "name = \"floor\"\nbounce = 0.5"),
+    edit("name = \"floor\"", "name = \"floor\"\nhinge = [0, 0, 1]"),
+    edit("name = \"floor\"", "name = \"floor\"\ndynamic = true"),
+    edit("name = \"floor\"", "name = \"floor\"\nkinematic = true"),
+    edit("name = \"floor\"", "name = \"floor\"\nholdout = true"),
+    edit("name = \"floor\"", "name = \"floor\"\nvisible = false"),
+    edit("name = \"floor\"", "name = \"floor\"\nstyle = \"shadow_catcher\""),
+    edit("name = \"floor\"", "name = \"floor\"\nmass = 2"),
+    edit("[[view]]", "[[curve]]\nparameter = \"solver.gravity\"\n"
+         "keyframes = [{ time = 0, value = [0, -9.81, 0] }]\n[[view]]"),
+    edit("[[view]]", "[[curve]]\nparameter = \"solver.gravity\"\n"
+         "keys = [[0, -9.81], [1, -3]]\n[[view]]"),
+    edit("[[view]]", "[[curve]]\naddress = \"solver.gravity\"\n[[view]]"),
+    edit("[[view]]", "[[curve]]\nparameter = \"material.snow.density\"\n"
+         "keyframes = [{ time = 0, value = 400 }]\n[[view]]"),
+    edit("[[view]]", "[dust]\nwind = 5\n[[view]]"),
+    edit("[[view]]", "[dust]\nwind = [5, 0, 0]\n[[view]]"),
+    edit("[[view]]", "[camera]\nzoom = 2\n[[view]]"),
+    edit("[[view]]", "[camera]\npush_in = true\neye = [1, 1, 1]\ntarget = [0, 0, 0]\n[[view]]"),
+    edit("\"particles\",", "\"particles\", \"fog\","),
+    edit("sphere = { center = [0, 0.12, 0], radius = 0.08 }",
+         "cover = { mesh = \"roof.obj\", depth = 0.3 }"),
+    edit("sphere = { center = [0, 0.12, 0], radius = 0.08 }",
+         "cover = { on = \"floor\", thickness = 0.3 }"),
 ]
 
 COMMANDS = [
@@ -421,6 +446,7 @@ COMMANDS = [
     command("compare", "out/a", "out/b"),
     command("verify", "nowhere"),
     command("pick", "scene.toml"),
+    {"files": {"sweep.toml": "[sweep]\nscene = \"scene.toml\"\n"}, "arguments": ["pick", "sweep.toml"]},
     command("pick", "scene.toml", "-p", "hardning=5,20"),
     command("pick", "scene.toml", "-p", "material.snow.hardening=5"),
     command("pick", "scene.toml", "-p", "material.snow.hardening=5,500"),
@@ -451,6 +477,18 @@ COMMANDS = [
             files={"street/1001.png": "", "street/1002.png": ""}),
     command("dump", "scene.toml", "--at", "0.1", "--histogram", "--probe", "3"),
     command("sweep", "star", "out/none.cdb", "3"),
+    command("promote", "out/sweep.cdb", "9"),
+    command("star", "out/sweep.cdb", "9"),
+    command("sweep", "promote", "scene.toml", "1"),
+    command("sweep", "star", "nowhere", "0"),
+    command("sweep", "unstar", "nowhere", "0"),
+    command("render", "scene.toml", "--overwrite"),
+    command("render", "scene.toml", "--force"),
+    command("render", "scene.toml", "--no-states"),
+    command("render", "scene.toml", "--states-budget", "lots"),
+    command("card", "powder"),
+    command("card", "--preset", "slush"),
+    command("render", "scene.toml", "--predict"),
 ]
 
 SWEEP = '[sweep]\nscene = "scene.toml"\n[axis]\n"material.snow.hardening" = [5, 10]\n'
@@ -556,4 +594,8 @@ OTHERS = [
     points("v 1 2 3\nv 2 3 4\n", "p.obj"),
     points("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
            "property float z\nend_header\n", "p.ply"),
+    sweep("[axis]", "[sheet]\nframing = \"tile\"\n[axis]"),
+    command("sweep", "scene.toml", "-p", "seed=1,2", "--framing", "each"),
+    command("sweep", "scene.toml", "-p", "seed=1,2", "--seeds", "1"),
+    command("sweep", "scene.toml", "-p", "seed=1,2", "--refine", "3"),
 ]

@@ -210,9 +210,9 @@ TEST(SceneErrors, ChoicesAreListed) {
             "did you mean \"cubic\"?");
   EXPECT_EQ(error_of("[solver]\nkernel = 3"),
             "s.toml:2:10: error: solver.kernel = 3; expected \"cubic\" or \"quadratic\"");
-  const std::string layer = error_of("[[view]]\nlayers = [\"ground\", \"fog\"]");
+  const std::string layer = error_of("[[view]]\nlayers = [\"ground\", \"drizzle\"]");
   EXPECT_TRUE(
-      layer.starts_with("s.toml:2:21: error: view.1.layers[1] = \"fog\"; expected \"ground\", "
+      layer.starts_with("s.toml:2:21: error: view.1.layers[1] = \"drizzle\"; expected \"ground\", "
                         "\"colliders\", \"particles\", "))
       << layer;
   EXPECT_TRUE(layer.ends_with(", \"dust\" or \"extremes\"")) << layer;

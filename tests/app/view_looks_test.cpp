@@ -97,7 +97,7 @@ TEST(ColliderStyle, ColliderStyleDoesNotAffectTheSimulation) {
   EXPECT_EQ(
       view_error("[[collider]]\nshape = { box = { size = [0.2, 0.2, 0.2] } }\nstyle = \"glass\""),
       "s.toml:5:9: error: collider.1.style = \"glass\"; expected \"solid\", \"wire\", "
-      "\"ghost\" or \"holdout\"");
+      "\"ghost\" or \"holdout\"; did you mean \"ghost\"?");
 }
 
 TEST(Clip, ClipRemovesTheParticlesOnItsSide) {
