@@ -328,6 +328,38 @@ TEST_F(ViewByScript, TheTourIsClickedThroughAtOnePlace) {
   EXPECT_EQ(clicked.exit_code, 0) << clicked.errors;
 }
 
+/// A hand that stays where it is meets the same button in a run, in an older frame of it, and after
+/// an object was added to it.
+TEST_F(ViewByScript, ButtonsOfTheTimeLineAndOfObjectsStayWhereTheyAre) {
+  const std::string rest = R"({"move": {"label": "picture", "part": [0.5, 0.2]}}, {"wait": 4},)";
+  const auto look = [&](const std::string& button, const std::string& name) {
+    return rest + R"({"screenshot": ")" + name + R"(_rest.png"}, {"move": ")" + button +
+           R"("}, {"wait": 4}, {"screenshot": ")" + name + R"(_lit.png"},)";
+  };
+  const auto found = view(R"([{"resize": [1280, 760]}, {"click": "Run"},
+    {"wait_for": "simulation frame 4"}, {"wait_for": "simulation paused"},)" +
+                          look("Vary from here", "newest") +
+                          R"({"key": "home"}, {"wait_for": "simulation frame 0"}, {"wait": 3},)" +
+                          look("Vary from here", "older") +
+                          R"({"key": "end"}, {"wait_for": "simulation frame 4"},
+    {"click": "Objects"}, {"wait_for": "label Add ..."},)" +
+                          look("Add ...", "before") +
+                          R"({"click": "Add ..."}, {"click": "Collider: a sphere"},
+    {"wait_for": "label collider.sphere"}, {"wait": 4},)" +
+                          look("Add ...", "after") + rest + R"({"wait": 1}])");
+  SKIP_WITHOUT_GL(found);
+  ASSERT_EQ(found.exit_code, 0) << found.errors;
+  const auto image = [&](const std::string& name) {
+    return render::decode_png(app::output::read_file(folder / "out" / (name + ".png")));
+  };
+  const auto place = [&](const std::string& name) {
+    return middle_of_change(image(name + "_rest"), image(name + "_lit"));
+  };
+  EXPECT_NE(place("newest"), place("before")) << "both were lit";
+  EXPECT_EQ(place("newest"), place("older")) << "Vary from here";
+  EXPECT_EQ(place("before"), place("after")) << "Add ...";
+}
+
 /// The list of keys is beside what it explains, in any window.
 TEST_F(ViewByScript, TheListOfKeysLeavesThePictureFree) {
   for (const char* size : {"[1280, 760]", "[800, 600]", "[390, 844]"}) {
