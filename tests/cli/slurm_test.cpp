@@ -185,6 +185,10 @@ TEST_F(SlurmForks, RunsOfABeginningThatFailsAreFailedAndTheOthersAreMade) {
   EXPECT_TRUE(contains(read_text(folder / "array/data.csv"),
                        ",failed,\"the common beginning with seed 2 ended as failed: "))
       << read_text(folder / "array/data.csv");
+  const auto again = forks("array", "--engine slurm --retry-failed");
+  EXPECT_EQ(again.exit_code, app::exit_runs_failed) << again.errors;
+  EXPECT_EQ(json_of("array/beginning_2/status.json")["attempts"], 2)
+      << "its job tries it again, and not each run once more";
 }
 
 }  // namespace

@@ -102,7 +102,6 @@ TEST_F(Cli, ForkedRunsOnSlurmWaitForTheirBeginning) {
   sweep("array", {"--engine", "slurm"});
   for (const char* made : {"beginning", "beginning_2"})
     EXPECT_EQ(json_of(std::string("array/") + made + "/status.json")["attempts"], 1);
-  EXPECT_TRUE(exists("array/slurm/beginning_1.log"));
   EXPECT_EQ(without_times(read_text(folder / "array/data.csv")),
             without_times(read_text(folder / "local/data.csv")));
 }

@@ -166,6 +166,17 @@ class LocalJobs {
     }
   }
 
+  /// False of a beginning that was tried again since all runs that wait failed with it: on Slurm
+  /// each is a process that was asked to repeat what failed.
+  bool is_retried(const Run& beginning, const store::RunStatus& status) const {
+    if (is_asked_for(beginning)) return true;
+    return std::ranges::any_of(queue_, [&](const Run* run) {
+      if (&manifest_.beginning->run_of(*run) != &beginning) return false;
+      const int known = store::read_status(folder_of(*run)).failed_beginning;
+      return known == 0 || known >= status.attempts;
+    });
+  }
+
   /// @return false while another process makes it
   bool start_beginning(const Run& run, int left) {
     const fs::path folder = beginning_of(run);
@@ -176,8 +187,9 @@ class LocalJobs {
     store::RunStatus status = store::read_status(folder);
     // Another process may just have finished it.
     if (has_beginning(run, folder)) return true;
-    const bool is_known = store::has_failed(status.state) && status.key == run.key &&
-                          !options_.retry_failed.contains(status.state);
+    const bool is_known =
+        store::has_failed(status.state) && status.key == run.key &&
+        !(options_.retry_failed.contains(status.state) && is_retried(run, status));
     if (is_known) {
       failed_beginnings_.push_back(&run);
       return true;
@@ -246,7 +258,7 @@ class LocalJobs {
     clean(folder);
     store::RunStatus status = store::read_status(folder);
     status.state = ended.state;
-    status.never_began = true;
+    status.failed_beginning = std::max(1, ended.attempts);
     status.exit_code = ended.exit_code;
     status.signal = ended.signal;
     status.reason = why;
@@ -403,14 +415,14 @@ class LocalJobs {
                     store::RunStatus& status) const {
     const bool resumes = status.state == store::RunState::running ||
                          status.state == store::RunState::interrupted ||
-                         (status.state == store::RunState::timeout && !status.never_began);
+                         (status.state == store::RunState::timeout && status.failed_beginning == 0);
     wait_for_orphan(folder);
     if (!resumes) clean(folder);
     Child child({options_.program, arguments_of(run, folder, threads, resumes), folder},
                 folder / "log",
                 {manifest_.timeout, static_cast<std::uint64_t>(manifest_.memory), options_.grace});
     status.state = store::RunState::running;
-    status.never_began = false;
+    status.failed_beginning = 0;
     ++status.attempts;
     status.pid = child.pid();
     status.host = host_name();

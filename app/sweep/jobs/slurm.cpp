@@ -199,8 +199,8 @@ std::vector<std::string> Queue::beginning_jobs(const std::vector<int>& runs) {
     if (!has_beginning(beginning, store::beginning_folder(folder_, beginning)))
       lacking.insert(beginning.index);
   }
-  add_arrays("beginning.sh", "beginning_%a.log", not_queued({lacking.begin(), lacking.end()}, true),
-             "", true);
+  add_arrays("beginning.sh", "beginning_%A_%a.log",
+             not_queued({lacking.begin(), lacking.end()}, true), "", true);
   std::vector<std::string> numbers;
   for (const QueuedJob& job : jobs_)
     if (std::ranges::any_of(job.runs,

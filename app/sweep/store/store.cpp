@@ -60,7 +60,7 @@ bool has_failed(RunState state) {
 
 bool has_record(const RunStatus& status) {
   return status.state == RunState::ok ||
-         (status.state == RunState::diverged && !status.never_began);
+         (status.state == RunState::diverged && status.failed_beginning == 0);
 }
 
 int frames_made(const fs::path& run_folder, const std::string& view,
@@ -96,7 +96,7 @@ RunStatus read_status(const fs::path& run_folder) {
     status.peak_memory = whole_number_or(json, "peak_memory_bytes", std::uint64_t{0});
     status.pid = whole_number_or(json, "pid", 0L);
     status.host = json.value("host", "");
-    status.never_began = json.value("never_began", false);
+    status.failed_beginning = whole_number_or(json, "failed_beginning", 0);
     if (!(status.seconds >= 0 && status.seconds < 1e12) || status.attempts < 0) return damaged;
     if (found != states.end()) status.state = static_cast<RunState>(found - states.begin());
   } catch (const UnreadableError&) {
@@ -123,7 +123,7 @@ void write_status(const fs::path& run_folder, const RunStatus& status) {
   json["peak_memory_bytes"] = status.peak_memory;
   json["pid"] = status.pid;
   json["host"] = status.host;
-  if (status.never_began) json["never_began"] = true;
+  if (status.failed_beginning > 0) json["failed_beginning"] = status.failed_beginning;
   output::write_file(status_path(run_folder), record::with_own_hash(json));
 }
 

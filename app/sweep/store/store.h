@@ -38,8 +38,9 @@ struct RunStatus {
   std::uint64_t peak_memory = 0;  ///< bytes
   long pid = 0;                   ///< while it runs
   std::string host;
-  bool never_began = false;  ///< its common beginning failed, and with it the run
-  bool is_damaged = false;   ///< there is a file, and it is not as neve wrote it
+  /// Attempts of its common beginning, which failed, and with it the run; 0: it began.
+  int failed_beginning = 0;
+  bool is_damaged = false;  ///< there is a file, and it is not as neve wrote it
 };
 
 /// "0007"
