@@ -225,7 +225,7 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
     result.divergence = copy + " diverges: " + simulation.divergence()->what;
   else if (const sim::Warnings& warnings = simulation.warnings(); warnings.rules_ignored > 0)
     result.ignored =
-        fmt::format("{} breaks the rule {} in step {} and goes on", copy,
+        fmt::format("{} breaks the rule {} in step {} and continues", copy,
                     sim::stop_rules.at(warnings.first_ignored_rule), warnings.first_ignored);
   if (run.particle_steps > 0) result.seconds_per_particle_step = seconds / run.particle_steps;
   return run;

@@ -59,7 +59,7 @@ struct SweepRunOptions {
   std::string folder;  ///< of the sweep
   std::optional<int> index;
   std::string beginning;  ///< "all", or "2": common beginnings of forked runs, instead of a run
-  int threads = 0;            ///< 0: as many as there are
+  int threads = 0;        ///< 0: as many as there are
   setup::CapTexts caps;
   std::string backend = "auto";
   std::string retry_failed;  ///< "all", or states as in "timeout,crashed"; "": none
