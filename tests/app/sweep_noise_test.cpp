@@ -13,6 +13,7 @@
 #include "app/sweep/sheet/effects.h"
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/seals.h"
+#include "app/sweep/sheet/sheet_layout.h"
 #include "app/sweep/store/points.h"
 #include "app/sweep/store/refine.h"
 #include "app/sweep/store/statistics.h"
@@ -307,6 +308,30 @@ TEST(Noise, ALoneRunAtFullResolutionIsOneDraw) {
   EXPECT_TRUE(differ(runs[0], runs[2]));
 }
 
+TEST(Noise, WhatATileSaysOfNoiseIsBelowItsPicture) {
+  sheet::Seals seals;
+  EXPECT_EQ(sheet::rows_of(seals), 0);
+  seals.of_points.resize(3);
+  seals.of_points[1].outcome = "breaks";
+  EXPECT_EQ(sheet::rows_of(seals), 1);
+  seals.of_points[2] = {"breaks", false, false, {"0.2 m"}, {}, {"0.3 m"}};
+  EXPECT_EQ(sheet::rows_of(seals), 3);
+
+  const Study study = study_of_seeds();
+  const Manifest& manifest = study.manifest;
+  const sheet::SheetLayout plain = sheet::layout_sheet(manifest, false, 8192),
+                           sealed = sheet::layout_sheet(manifest, false, 8192, {{}, 3});
+  EXPECT_EQ(plain.seal_height, 0);
+  EXPECT_EQ(sealed.seal_height, sheet::rows_height(3, sealed.font_size));
+  EXPECT_EQ(sealed.tile_height, plain.tile_height) << "pictures are as large";
+  for (const sheet::SheetTile& a : sealed.tiles)
+    for (const sheet::SheetTile& b : sealed.tiles) {
+      if (a.x != b.x || a.y >= b.y) continue;
+      EXPECT_GT(b.y, a.y + sealed.tile_height + sealed.seal_height);
+    }
+  EXPECT_GT(sealed.height, sealed.tiles.back().y + sealed.tile_height + sealed.seal_height);
+}
+
 TEST(Noise, TheLinesOfWhiskersAreEquallyLongOnAllTiles) {
   sheet::Seals seals;
   seals.title = "spread";
@@ -318,7 +343,7 @@ TEST(Noise, TheLinesOfWhiskersAreEquallyLongOnAllTiles) {
   std::set<float> lengths;
   for (const sheet::Seal& seal : seals.of_points) {
     render::Frame words;
-    sheet::draw_seal(seal, seals, {0, 0, 320, 180, 11}, words);
+    sheet::draw_seal(seal, seals, {0, 180, 320, 36, 11}, words);
     float longest = 0;  // but for the patch behind all
     for (std::size_t k = 1; k < words.patches.size(); ++k)
       longest = std::max(longest, words.patches[k].width);

@@ -60,7 +60,8 @@ std::string paper_section(const store::Manifest& manifest, const SheetLayout& la
             "\" style=\"left:" + css_percent(tile.x, layout.width) +
             ";top:" + css_percent(tile.y, layout.height) +
             ";width:" + css_percent(layout.tile_width, layout.width) +
-            ";height:" + css_percent(layout.tile_height, layout.height) + "\"></a>\n";
+            ";height:" + css_percent(layout.tile_height + layout.seal_height, layout.height) +
+            "\"></a>\n";
   }
   return html + "</div>\n";
 }

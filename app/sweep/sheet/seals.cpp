@@ -243,19 +243,23 @@ void draw_whisker(const Whisker& shown, const WhiskerPlace& place,
 
 }  // namespace
 
-void draw_seal(const Seal& seal, const Seals& all, const SealPlace& tile, render::Frame& words) {
-  const float size = tile.font_size, line = 1.3f * size, edge = 0.6f * size;
+int rows_of(const Seals& seals) {
+  int rows = 0;
+  for (const Seal& seal : seals.of_points)
+    rows = std::max(
+        rows, !seal.outcome.empty() + !seal.whisker.value.empty() + !seal.coarse.value.empty());
+  return rows;
+}
+
+void draw_seal(const Seal& seal, const Seals& all, const SealPlace& band, render::Frame& words) {
+  const float size = band.font_size, line = 1.3f * size, edge = 0.6f * size;
   const bool has_value = !seal.whisker.value.empty(), has_outcome = !seal.outcome.empty(),
              has_coarse = !seal.coarse.value.empty();
-  if (!has_value && !has_outcome && !has_coarse) return;
-  const float height =
-      line * static_cast<float>(has_value + has_outcome + has_coarse) + 0.5f * size;
-  const float top = tile.y + tile.height - height;
-  words.patches.push_back({tile.x, top, tile.width, height, {8, 10, 16, 190}});
-  float y = top + 0.25f * size;
+  words.patches.push_back({band.x, band.y, band.width, band.height, {8, 10, 16, 190}});
+  float y = band.y + 0.25f * size;
   if (has_outcome) {
-    words.notes.push_back({tile.x + edge, y, seal.outcome, render::Note::Anchor::left,
-                           tile.width - 2 * edge, false,
+    words.notes.push_back({band.x + edge, y, seal.outcome, render::Note::Anchor::left,
+                           band.width - 2 * edge, false,
                            seal.is_undecided ? seal_caution : seal_ink});
     y += line;
   }
@@ -265,18 +269,18 @@ void draw_seal(const Seal& seal, const Seals& all, const SealPlace& tile, render
                                    [](const Seal& s) { return !s.coarse.value.empty(); });
   const float label =
       has_two ? 5 * size
-              : std::min(0.32f * tile.width, size * static_cast<float>(letter_width) *
+              : std::min(0.32f * band.width, size * static_cast<float>(letter_width) *
                                                  static_cast<float>(all.title.size() + 2));
   const float last = y + (has_coarse ? line : 0);
-  const float end = tile.x + tile.width - edge;
+  const float end = band.x + band.width - edge;
   float letters = 0;
   for (const Seal& other : all.of_points)
     letters = std::max(letters, size * letters_width(other.groups));
   const float right = end - letters;
   if (has_value) draw_letters(seal.groups, end, last, size, words);
-  WhiskerPlace place{tile.x + edge + label, right, y, 0.26f * tile.width, size};
+  WhiskerPlace place{band.x + edge + label, right, y, 0.26f * band.width, size};
   const auto name = [&](const std::string& text) {
-    words.notes.push_back({tile.x + edge, place.y, text, render::Note::Anchor::left,
+    words.notes.push_back({band.x + edge, place.y, text, render::Note::Anchor::left,
                            label - 0.3f * size, false, seal_ink});
   };
   if (has_coarse) {

@@ -51,12 +51,14 @@ std::string predicted_outcome(const predict::Prediction& prediction, const store
 /// "breaks in 1 of 4: here"; says whether a run is of those where some break and some hold.
 std::string outcome_at(const store::Point& point, const store::RunResult& run);
 
-/// The place of a tile, px.
+/// Rows of words and whiskers that the fullest seal has.
+int rows_of(const Seals& seals);
+
+/// The place of a seal, px.
 struct SealPlace {
   float x = 0, y = 0, width = 0, height = 0, font_size = 16;
 };
 
-/// Puts one of the seals along the lower edge of a tile.
-void draw_seal(const Seal& seal, const Seals& all, const SealPlace& tile, render::Frame& words);
+void draw_seal(const Seal& seal, const Seals& all, const SealPlace& place, render::Frame& words);
 
 }  // namespace neve::app::sweep::sheet

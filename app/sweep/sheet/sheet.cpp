@@ -132,7 +132,8 @@ SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& mani
       renderer_(renderer),
       head_(manifest_),
       named_(manifest_),
-      pages_(layout_pages(manifest_, !legends.empty(), renderer.max_size(), seals_.key)) {
+      pages_(layout_pages(manifest_, !legends.empty(), renderer.max_size(),
+                          {seals_.key, manifest_.tile_label == "none" ? 0 : rows_of(seals_)})) {
   head_.runs.clear();
   show_full_runs(manifest);
   const auto full = std::count_if(predictions.begin(), predictions.end(),
@@ -244,9 +245,8 @@ void SheetMaker::add_seal(const SheetLayout& layout, const Tile& tile, render::F
   }
   if (manifest_.tile_label == "none") return;
   draw_seal(seals_.of_points[manifest_.place_of(*tile.run)], seals_,
-            {static_cast<float>(tile.x), static_cast<float>(tile.y),
-             static_cast<float>(layout.tile_width), static_cast<float>(layout.tile_height),
-             static_cast<float>(layout.font_size)},
+            {static_cast<float>(tile.x), static_cast<float>(tile.y + layout.tile_height),
+             static_cast<float>(layout.tile_width), static_cast<float>(layout.seal_height), size},
             words);
 }
 

@@ -109,20 +109,21 @@ int wrap_count(const store::Manifest& m, std::size_t count, double tile_aspect) 
 
 class Layouter {
  public:
-  Layouter(const store::Manifest& m, bool has_legend, int tile_width)
+  Layouter(const store::Manifest& m, bool has_legend, int tile_width, int rows)
       : m_(m), has_legend_(has_legend) {
     out_.tile_width = tile_width;
     out_.tile_height =
         std::max(1, static_cast<int>(std::lround(1.0 * tile_width * m.tile_height / m.tile_width)));
     out_.font_size = std::clamp(static_cast<int>(std::lround(tile_width / 28.0)), 11, 28);
+    out_.seal_height = rows_height(rows, out_.font_size);
     gap_ = std::max(3, out_.font_size / 4);
     out_.words = word_room();
   }
 
   SheetLayout make(const std::vector<KeyLine>& key) {
-    sides_ = choose_sides(m_, 1.0 * out_.tile_width / out_.tile_height);
+    const double aspect = 1.0 * out_.tile_width / whole_height();
+    sides_ = choose_sides(m_, aspect);
     is_wrapped_ = is_wrapped(m_);
-    const double aspect = 1.0 * out_.tile_width / out_.tile_height;
     columns_ = is_wrapped_ ? wrap_count(m_, m_.runs.size(), aspect) : sides_.columns.count(m_);
     if (!is_wrapped_) {
       column_gaps_ = gaps_of(sides_.columns, columns_);
@@ -156,6 +157,9 @@ class Layouter {
             static_cast<std::size_t>(std::max(1.0, lines))};
   }
 
+  /// px, of a picture with what is below it.
+  int whole_height() const { return out_.tile_height + out_.seal_height; }
+
   double line() const { return 1.3 * out_.font_size; }
   int margin() const { return out_.font_size; }
   int wide_gap() const { return 3 * gap_ + out_.font_size / 2; }
@@ -174,13 +178,11 @@ class Layouter {
   int column_x(int column) const {
     return left_ + column * (out_.tile_width + gap_) + gap_at(column_gaps_, column);
   }
-  int row_y(int row) const {
-    return top_ + row * (out_.tile_height + gap_) + gap_at(row_gaps_, row);
-  }
+  int row_y(int row) const { return top_ + row * (whole_height() + gap_) + gap_at(row_gaps_, row); }
 
   void put(std::size_t run, int column, int row) {
     out_.tiles.push_back({run, column_x(column), row_y(row)});
-    bottom_ = std::max(bottom_, row_y(row) + out_.tile_height);
+    bottom_ = std::max(bottom_, row_y(row) + whole_height());
   }
 
   void place_tiles() {
@@ -273,7 +275,7 @@ class Layouter {
         block *= static_cast<int>(m_.axes[sides_.rows.axes[j]].values.size());
       for (int first = 0; first < sides_.rows.count(m_); first += block) {
         const int value = sides_.rows.values(m_, first)[k];
-        const double middle = 0.5 * (row_y(first) + row_y(first + block - 1) + out_.tile_height);
+        const double middle = 0.5 * (row_y(first) + row_y(first + block - 1) + whole_height());
         const auto room = static_cast<float>(level_width(axis));
         const std::vector<std::string> lines = row_lines(axis, value);
         const bool has_name = !m_.axes[axis].name.empty() && !is_joined(axis);
@@ -293,7 +295,7 @@ class Layouter {
   /// A line along the rows that an outer value holds for.
   void add_bracket(int x, int first, int last) {
     const auto top = static_cast<float>(row_y(first)),
-               bottom = static_cast<float>(row_y(last) + out_.tile_height);
+               bottom = static_cast<float>(row_y(last) + whole_height());
     out_.brackets.push_back({static_cast<float>(x),
                              top,
                              std::max(1.0f, 0.1f * static_cast<float>(out_.font_size)),
@@ -312,6 +314,10 @@ class Layouter {
 
 }  // namespace
 
+int rows_height(int rows, int font_size) {
+  return rows == 0 ? 0 : static_cast<int>(std::lround((1.3 * rows + 0.5) * font_size));
+}
+
 bool fits(const SheetLayout& layout, int largest) {
   // The sheet, its overlay and its encoder.
   const double max_pixels = std::min(48e6, memory_room() / 20);
@@ -320,20 +326,20 @@ bool fits(const SheetLayout& layout, int largest) {
 }
 
 SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest,
-                         const std::vector<KeyLine>& key) {
+                         const NoiseRoom& noise) {
   constexpr int smallest_tile = 64;
   int tile = manifest.tile_width;
   while (true) {
-    SheetLayout layout = Layouter(manifest, has_legend, tile).make(key);
+    SheetLayout layout = Layouter(manifest, has_legend, tile, noise.rows).make(noise.key);
     if (fits(layout, largest) || tile <= smallest_tile) return layout;
     tile = std::max(smallest_tile, tile * 9 / 10);
   }
 }
 
 std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest,
-                                    const std::vector<KeyLine>& key) {
+                                    const NoiseRoom& noise) {
   constexpr int readable_tile = 160;
-  SheetLayout whole = layout_sheet(manifest, has_legend, largest, key);
+  SheetLayout whole = layout_sheet(manifest, has_legend, largest, noise);
   if (fits(whole, largest)) return {{0, manifest.runs.size(), std::move(whole)}};
 
   store::Manifest part = manifest;
@@ -342,7 +348,7 @@ std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_le
   const auto layout_of = [&](std::size_t first, std::size_t count) {
     const auto begin = manifest.runs.begin() + static_cast<std::ptrdiff_t>(first);
     part.runs.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
-    return layout_sheet(part, has_legend, largest, key);
+    return layout_sheet(part, has_legend, largest, noise);
   };
   const auto is_readable = [&](const SheetLayout& layout) {
     return fits(layout, largest) &&

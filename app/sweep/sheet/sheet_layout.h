@@ -14,6 +14,15 @@ namespace neve::app::sweep::sheet {
 /// Width of a letter, as a share of the height of its line, about.
 inline constexpr double letter_width = 0.56;
 
+/// What a sheet with noise needs room for.
+struct NoiseRoom {
+  std::vector<KeyLine> key;  ///< lines below the tiles
+  int rows = 0;              ///< of words and whiskers below the picture of each tile
+};
+
+/// px, of the rows below a picture.
+int rows_height(int rows, int font_size);
+
 struct SheetTile {
   std::size_t run = 0;
   int x = 0, y = 0;  ///< px, of its upper left corner
@@ -21,7 +30,8 @@ struct SheetTile {
 
 struct SheetLayout {
   int width = 0, height = 0;            ///< px
-  int tile_width = 0, tile_height = 0;  ///< px
+  int tile_width = 0, tile_height = 0;  ///< px, of a picture
+  int seal_height = 0;                  ///< px, below each picture; 0 without noise
   int font_size = 16;                   ///< px
   int header = 0;                       ///< px, above the labels
   std::vector<KeyLine> key;             ///< lines below the tiles that explain noise
@@ -38,9 +48,8 @@ struct SheetLayout {
 /// without axes are wrapped. Tiles shrink until the sheet fits.
 /// @param has_legend keeps room for it on the right
 /// @param largest side of a picture, px
-/// @param key  explains noise
 SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest,
-                         const std::vector<KeyLine>& key = {});
+                         const NoiseRoom& noise = {});
 
 /// Runs that share a picture.
 struct SheetPage {
@@ -51,7 +60,7 @@ struct SheetPage {
 /// One page where all runs fit into a picture. Otherwise as many as it takes: without axes along
 /// their edges, so that each tile names its own values.
 std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest,
-                                    const std::vector<KeyLine>& key = {});
+                                    const NoiseRoom& noise = {});
 
 /// True if a sheet of this layout can be a picture.
 bool fits(const SheetLayout& layout, int largest);
