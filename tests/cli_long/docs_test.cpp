@@ -71,13 +71,19 @@ std::string shortened(std::string command) {
            std::to_string(std::hash<std::string>()(command));
   if (command.find(" --plate ") != std::string::npos)
     command = std::regex_replace(command, std::regex("--size [^ ]+"), "");
+  // A page of another host cannot be replayed.
+  if (command.find("--public-url") != std::string::npos) return "";
   // A test of Slurm submits what the page of farms does.
   if (command.find("--engine slurm") != std::string::npos) return "";
   command =
       std::regex_replace(command, std::regex("sweep collect [^ ]+"), "sweep collect elsewhere");
   const bool is_tiny = command.find(" scene.toml") != std::string::npos;
+  // Each render has a folder of its own: what is there is not replaced.
+  const std::string own = "--out drawn_" + std::to_string(std::hash<std::string>()(command));
   command = std::regex_replace(command, std::regex("--out [^ ]+"),
-                               name == "dump" ? "--out dumped" : "--out elsewhere");
+                               name == "dump"     ? "--out dumped"
+                               : name == "render" ? own
+                                                  : "--out elsewhere");
   const auto add = [&](const std::string& flag, const std::string& value = "") {
     if (command.find(flag) == std::string::npos)
       command += " " + flag + (value.empty() ? "" : " " + value);
@@ -88,15 +94,19 @@ std::string shortened(std::string command) {
   if (name == "view") add("--replay", "wait.json");
   const bool is_run = name == "view" || name == "dump" || name == "check" || name == "sweep";
   const bool has_cells = std::regex_search(command, std::regex("^[a-z]+ out/[a-z]+( |$)"));
-  if (is_run && !is_tiny && !is_collected && !has_cells) add("--coarsen", "3");
+  const bool has_own_cells = command.find("--live") != std::string::npos;
+  if (is_run && !is_tiny && !is_collected && !has_cells && !has_own_cells) add("--coarsen", "3");
   if (name != "render") return command;
   const bool is_picture = std::regex_search(command, std::regex("^render [^ ]+\\.(png|exr)"));
   if (!is_picture) add("--frames", "0");
-  if (!is_tiny) add("--coarsen", "3");
-  // Another command has left another run there.
-  std::smatch scene;
-  std::regex_search(command, scene, std::regex("[^ /]+\\.toml"));
-  if (command.find("--resume") != std::string::npos) add("--out", "resumed_" + scene.str());
+  // The run of the page is that of another scene here.
+  const std::regex run("^render out/[a-z_]+(?= |$)");
+  if (std::regex_search(command, run)) {
+    command = std::regex_replace(command, run, "render out/a") + " --replace";
+  } else {
+    if (!is_tiny) add("--coarsen", "3");
+    if (!is_picture) command += command.find("--out ") == std::string::npos ? " " + own : "";
+  }
   add("--size", "64x36");
   if (command.find("--movie ") == std::string::npos) add("--no-movie");
   return command;
