@@ -71,6 +71,10 @@ std::string shortened(std::string command) {
            std::to_string(std::hash<std::string>()(command));
   if (command.find(" --plate ") != std::string::npos)
     command = std::regex_replace(command, std::regex("--size [^ ]+"), "");
+  // The run of a page is that of another scene here.
+  command = std::regex_replace(
+      command, std::regex("^([a-z]+) out/(snowball|castle_hit|my_scene|preview)(?= |$)"),
+      "$1 out/a");
   // A page of another host cannot be replayed.
   if (command.find("--public-url") != std::string::npos) return "";
   // A test of Slurm submits what the page of farms does.
@@ -99,14 +103,8 @@ std::string shortened(std::string command) {
   if (name != "render") return command;
   const bool is_picture = std::regex_search(command, std::regex("^render [^ ]+\\.(png|exr)"));
   if (!is_picture) add("--frames", "0");
-  // The run of the page is that of another scene here.
-  const std::regex run("^render out/[a-z_]+(?= |$)");
-  if (std::regex_search(command, run)) {
-    command = std::regex_replace(command, run, "render out/a") + " --replace";
-  } else {
-    if (!is_tiny) add("--coarsen", "3");
-    if (!is_picture) command += command.find("--out ") == std::string::npos ? " " + own : "";
-  }
+  if (!is_tiny && !has_cells) add("--coarsen", "3");
+  if (!is_picture && command.find("--out ") == std::string::npos) command += " " + own;
   add("--size", "64x36");
   if (command.find("--movie ") == std::string::npos) add("--no-movie");
   return command;
