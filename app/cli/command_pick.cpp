@@ -209,8 +209,7 @@ bool is_sweep_file(const std::string& file) {
 
 /// What a sweep takes and a search does not. @throws UsageError
 void check_axes(const std::string& file, const std::vector<std::string>& axes) {
-  if (axes.empty() && is_sweep_file(file))
-    throw UsageError("pick", file + " is a sweep", "give its scene, and the axes with -p");
+  if (axes.empty() && is_sweep_file(file)) pick::refuse_sweep(file);
   if (axes.empty())
     throw UsageError("pick", "no parameter to find",
                      "name one, and the two values to search between: -p "

@@ -56,7 +56,7 @@ struct Forecast {
   double seconds_per_particle_step = 0;  ///< of the copy, on one thread
   Spread spread{};                       ///< of the copy at the start
   std::string divergence;                ///< of the copy, a sentence; empty if it holds
-  std::string ignored;                   ///< rule that the copy breaks and goes on, a sentence
+  std::string ignored;                   ///< rule that the copy breaks and continues, a sentence
   std::vector<Withheld> withheld;        ///< by the copy's emitters
   double peak_force = 0;  ///< N, on one collider of the copy, mean over a frame; the largest
   double mean_J_P = 1;    ///< of the copy's particles, in the last frame that it reached

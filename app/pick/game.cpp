@@ -31,15 +31,17 @@ void refuse_repeated(const std::vector<std::string>& axes) {
 
 }  // namespace
 
+void refuse_sweep(const std::string& file) {
+  throw UsageError("pick", file + " is a sweep", "give its scene, and the axes with -p");
+}
+
 Game::Game(const PickOptions& options) : options_(options) {
   std::vector<std::string> axes;
   for (const std::string& axis : options.runs.axes) axes.push_back(with_two_ends(axis));
   refuse_repeated(options.runs.axes);
   const sweep::read::Sweep sweep =
       sweep::read::read_sweep(options.runs.file, {axes, options.runs.overrides});
-  if (!sweep.file.empty())
-    throw UsageError("pick", options.runs.file + " is a sweep",
-                     "give its scene, and the axes with -p");
+  if (!sweep.file.empty()) refuse_sweep(options.runs.file);
   scene_ = {options.runs.file, sweep.fixed, axes_of(sweep)};
   folder_ =
       options.runs.out.empty() ? out_folder() / (sweep.name + ".pick") : fs::path(options.runs.out);

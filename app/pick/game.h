@@ -26,6 +26,9 @@ struct Lesson {
   bool has_favourite() const { return favourite.size() > 0; }
 };
 
+/// @throws UsageError for a sweep file in the place of a scene, always
+[[noreturn]] void refuse_sweep(const std::string& file);
+
 class Game {
  public:
   /// Reads the scene; writes nothing. @throws UsageError, SceneError

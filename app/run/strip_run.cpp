@@ -182,16 +182,26 @@ class Strip {
   std::uint64_t state_hash_ = 0;  ///< of the last of them
 };
 
-/// A run keeps its scene with cameras in their places: those that are where an automatic camera
-/// would be get none, so that the strip of a run is that of its scene.
-scene::Scene with_automatic_cameras(scene::Scene scene) {
+/// Places automatic cameras for the moments of the strip. A run keeps its scene with cameras in
+/// their places: those that are where an automatic camera would be are found anew, so that the
+/// strip of a run is that of its scene.
+void place_cameras(const StripJob& job, scene::Scene& scene) {
   scene::Scene open = scene;
-  if (open.camera) open.camera->eye.reset(), open.camera->target.reset();
-  for (scene::View& view : open.views) view.camera.reset();
-  if (!setup::needs_framing(open)) return scene;
-  scene::Scene placed = open;
-  setup::resolve_cameras(placed, setup::coarse_run(placed));
-  return scene::write_scene(placed) == scene::write_scene(scene) ? open : scene;
+  const bool is_of_run = !job.run.run.empty();
+  if (is_of_run) {
+    if (open.camera) open.camera->eye.reset(), open.camera->target.reset();
+    for (scene::View& view : open.views) view.camera.reset();
+  }
+  if (!setup::needs_framing(open)) return;
+  const std::vector<setup::CoarseMoment> moments = setup::coarse_run(open);
+  if (is_of_run) {
+    scene::Scene placed = open;
+    setup::resolve_cameras(placed, moments);
+    if (scene::write_scene(placed) != scene::write_scene(scene)) open = scene;
+  }
+  if (!setup::needs_framing(open)) return;
+  setup::resolve_cameras(open, setup::moments_near(moments, job.times), setup::Shown::moments);
+  scene = std::move(open);
 }
 
 }  // namespace
@@ -246,10 +256,7 @@ StripResult run_strip(const StripJob& job, const RenderOptions& options, Progres
                               progress);
   timeline::Timeline timeline = timeline::open(job.run, options.threads, progress);
   scene::Scene resolved = job.run.scene;
-  if (!job.run.run.empty()) resolved = with_automatic_cameras(std::move(resolved));
-  if (setup::needs_framing(resolved))
-    setup::resolve_cameras(resolved, setup::moments_near(setup::coarse_run(resolved), job.times),
-                           setup::Shown::moments);
+  place_cameras(job, resolved);
   setup::resolve(resolved, timeline.seeded().planned);
   Strip strip(job, resolved, renderer);
   progress.start(job.run.frames.last);

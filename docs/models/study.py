@@ -6,17 +6,19 @@ that are there are not made again, so that it can be stopped and started.
 
 import argparse
 import concurrent.futures
-import csv
 import json
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
-import threading
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from results import Results  # noqa: E402
 
 here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
-results = here / "results.csv"
 scenes = {"snowball_drop": 14, "snowball_wedge": 20, "two_snowballs": 14, "slope_slide": 34, "castle_hit": 16}
 kinds = ["paper", "lower_youngs_modulus", "powder", "wet", "packed", "icy"]
 # The others mean for cam clay what paper means.
@@ -24,7 +26,7 @@ presets = {"snow": kinds + ["lower_hardening", "lower_critical_compression", "lo
                             "lower_compression_and_stretch"], "cam_clay": kinds + ["quick"]}
 columns = ["scene", "preset", "model", "lumps", "coarsen", "seed", "status", "spread", "height", "mean_J_P", "fragments",
            "largest", "powder", "crumbs", "frames", "steps", "work", "seconds"]
-lock = threading.Lock()
+results = Results(here / "results.csv", columns, 6)
 
 
 def text_of(scene, preset, model, lumps):
@@ -70,23 +72,6 @@ def run(neve, key):
         return row_of(json.loads(made.read_text()), key)
 
 
-def rows_known():
-    if not results.exists():
-        return {}
-    return {tuple(row[c] for c in columns[:6]): row for row in csv.DictReader(open(results))}
-
-
-def write(row):
-    with lock:
-        is_new = not results.exists()
-        with open(results, "a", newline="") as file:
-            out = csv.DictWriter(file, columns, lineterminator="\n")
-            if is_new:
-                out.writeheader()
-            out.writerow({c: f"{row.get(c, ''):.6g}" if isinstance(row.get(c), float) else row.get(c, "")
-                          for c in columns})
-
-
 def main():
     words = argparse.ArgumentParser()
     words.add_argument("neve")
@@ -102,10 +87,10 @@ def main():
     if options.full:
         keys += every("0", "1", "1", ["paper", "powder", "packed", "quick"])
     keys += every("1.2", "1.5", "1") + every("0", "2", "2") + every("0", "2", "3")
-    known = rows_known()
+    known = results.known()
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for row in pool.map(lambda key: run(neve, key), [key for key in keys if key not in known]):
-            write(row)
+            results.write(row)
 
 
 main()

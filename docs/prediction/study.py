@@ -6,25 +6,27 @@ not made again, so that it can be stopped and started.
 
 import argparse
 import concurrent.futures
-import csv
 import json
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
-import threading
 import tomllib
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from results import Results, text  # noqa: E402
 
 here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
-results = here / "results.csv"
 measured = ["broken", "largest", "spread", "height", "mean_J_P", "fragments", "force", "steps", "seconds"]
 columns = ["group", "case", "seed", "coarsen", "stretch", "compression", "cohesion", "pressure", "status"] + measured
 # Powers of the factor of --coarsen by which a threshold is divided: of critical_stretch, critical_compression,
 # cohesion and consolidation_pressure.
 untouched = (0, 0, 0, 0)
 addresses = ["critical_stretch", "critical_compression", "cohesion", "consolidation_pressure"]
-lock = threading.Lock()
+results = Results(here / "results.csv", columns, 8)
 
 
 def force_of(frame):
@@ -62,26 +64,6 @@ def row_of(made, key):
                   "seconds": sum(frame["seconds_sim"] for frame in made["frames"])}
 
 
-def text(value):
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-def rows_known():
-    if not results.exists():
-        return {}
-    return {tuple(row[c] for c in columns[:8]): row for row in csv.DictReader(open(results))}
-
-
-def write(row):
-    with lock:
-        is_new = not results.exists()
-        with open(results, "a", newline="") as file:
-            out = csv.DictWriter(file, columns, lineterminator="\n")
-            if is_new:
-                out.writeheader()
-            out.writerow({c: text(row.get(c, "")) for c in columns})
-
-
 def settings_of(made, powers, coarsen):
     """The thresholds of a full run's materials, divided, without the rule of --coarsen; "ADDRESS=VALUE"."""
     scene = tomllib.loads(made["scene"])
@@ -100,16 +82,16 @@ def work(neve, plan_words, group, case, seed, copies, known):
         return
     full = run(neve, case if keys[0] not in known else case | {"last": 0}, seed, 1, base)
     if keys[0] not in known:
-        write(row_of(full, keys[0]))
+        results.write(row_of(full, keys[0]))
     for key, (coarsen, powers) in zip(keys[1:], copies[1:]):
         if key not in known:
             words = base + settings_of(full, powers, coarsen)
-            write(row_of(run(neve, case, seed, coarsen, words), key))
+            results.write(row_of(run(neve, case, seed, coarsen, words), key))
     for more in case.get("more_seeds", []):  # of the coarsest copy
         coarsen, powers = copies[-1]
         key = tuple(map(text, (group, case["name"], more, float(coarsen), *map(float, powers))))
         if key not in known:
-            write(row_of(run(neve, case, more, coarsen, base + settings_of(full, powers, coarsen)), key))
+            results.write(row_of(run(neve, case, more, coarsen, base + settings_of(full, powers, coarsen)), key))
 
 
 def main():
@@ -123,7 +105,7 @@ def main():
     groups = {}
     for file in sorted(here.glob("*.toml")):
         groups |= tomllib.loads(file.read_text())
-    known = rows_known()
+    known = results.known()
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         jobs = []
         for group in options.groups:

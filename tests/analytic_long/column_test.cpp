@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/laws/list.h"
+#include "tests/support/sand.h"
 #include "tests/support/snow.h"
 #include "tests/support/verification.h"
 
@@ -16,23 +16,13 @@ using namespace neve::test;
 
 constexpr double radius = 0.4, height = 0.8;  // m
 
-Material dry_sand() {
-  Material m;
-  m.model = laws::model::sand;
-  m.density = 1500;
-  m.youngs_modulus = 1e6;
-  m.poisson_ratio = 0.3;
-  m.friction_angle = 26.3;  // slides at about 31 degrees, as that of the experiments
-  return m;
-}
-
 /// Run-out over the radius, of 98 % of the sand, a second after it was let go: it lies since 0.8 s.
 /// @param cells  of the radius
 double run_out(int cells, double friction) {
   SolverSettings s;
   s.cell_size = radius / cells;
   s.max_dt = 5e-3;
-  const Material sand = dry_sand();
+  const Material sand = dry_sand(26.3);  // slides at about 31 degrees, as that of the experiments
   ParticleArrays column;
   const ParticleArrays box =
       box_of_snow({-radius, 0, -radius}, {radius, height, radius}, s.cell_size / 2);

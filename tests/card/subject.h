@@ -6,6 +6,7 @@
 #include "app/card/experiment.h"
 #include "app/scene/presets.h"
 #include "sim/laws/list.h"
+#include "tests/support/sand.h"
 
 namespace neve::test {
 
@@ -20,17 +21,6 @@ inline sim::Material preset_snow(app::scene::Preset preset,
                                  sim::Model model = sim::laws::model::snow) {
   sim::Material material = app::scene::snow_of(preset);
   material.model = model;
-  return material;
-}
-
-/// Poisson ratio 0.3: pressed with its sides held, it stays below its cone.
-inline sim::Material dry_sand(double friction_angle) {
-  sim::Material material;
-  material.model = sim::laws::model::sand;
-  material.density = 1500;
-  material.youngs_modulus = 1e6;
-  material.poisson_ratio = 0.3;
-  material.friction_angle = friction_angle;
   return material;
 }
 

@@ -14,6 +14,7 @@
 #include "sim/state/method.h"
 #include "sim/state/records.h"
 #include "tests/support/one_particle.h"
+#include "tests/support/sand.h"
 #include "tests/support/simd_levels.h"
 
 namespace {
@@ -23,16 +24,6 @@ using namespace neve::sim;
 using namespace neve::test;
 
 constexpr double pi = 3.14159265358979323846;
-
-Material dry_sand() {
-  Material m;
-  m.model = laws::model::sand;
-  m.density = 1500;
-  m.youngs_modulus = 1e6;
-  m.poisson_ratio = 0.3;
-  m.friction_angle = 30;
-  return m;
-}
 
 template <class Real>
 kernels::Particle<Real> grain(const Mat3d& F_E, double J_P) {
@@ -49,7 +40,7 @@ template <class Real>
 void expect_cone(double tolerance) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const Material m = dry_sand();
+  const Material m = dry_sand(30);
   for (int trial = 0; trial < 300; ++trial) {
     const Mat3d F = std::exp(0.05 * unit(random)) *
                     (Mat3d::Identity() + 0.1 * Mat3d::NullaryExpr([&] { return unit(random); }));
@@ -77,7 +68,7 @@ TEST(Sand, SandStaysOnItsConeAndKeepsItsVolume) {
 
 /// Thrown apart and pressed together again, it bears pressure where it did before.
 TEST(Sand, SandGivesBackTheVolumeThatItGained) {
-  const Material m = dry_sand();
+  const Material m = dry_sand(30);
   kernels::Particle<double> p = grain<double>(Mat3d::Identity(), 1);
   const auto strain = [&](double factor) {
     engine::store_matrix(Mat3d(factor * engine::matrix(p.F_E)), p.F_E);
@@ -98,7 +89,7 @@ TEST(Sand, SandGivesBackTheVolumeThatItGained) {
 /// below 1: a pressure from that would be energy out of nothing.
 TEST(Sand, SandThatWasPackedBearsNoPressureByItself) {
   at_every_simd_level([] {
-    const Material m = dry_sand();
+    const Material m = dry_sand(30);
     for (const double J_P : {0.1, 0.8, 0.999}) {
       kernels::Particle<double> p = grain<double>(Mat3d::Identity(), J_P);
       update_material(p, engine::constants_of<double>(m));
@@ -125,7 +116,7 @@ double acceleration_on_a_slope(double degrees) {
   const double angle = degrees * pi / 180;
   s.gravity = 9.81 * Vec3d(std::sin(angle), -std::cos(angle), 0);
   ParticleArrays p;
-  const Material m = dry_sand();
+  const Material m = dry_sand(30);
   for (int i = 0; i < 2 * side; ++i)
     for (int j = 0; j < 2 * height; ++j)
       for (int k = 0; k < 2 * side; ++k) {

@@ -16,6 +16,18 @@ std::size_t place(int run) {
   return static_cast<std::size_t>(run);
 }
 
+/// First run of the point of a run. @param seeds  runs of each point
+int point_of(int run, int seeds) {
+  return run - run % seeds;
+}
+
+/// Those of the points of these runs, in order.
+std::vector<int> points_of_runs(const std::vector<int>& runs, int seeds) {
+  std::set<int> points;
+  for (const int run : runs) points.insert(point_of(run, seeds));
+  return {points.begin(), points.end()};
+}
+
 /// Bytes, of the largest run at full resolution of the named points, and of the point whose coarse
 /// runs are the largest where any may be chosen.
 double memory_of(const SweepOptions& options, const Refinement& refinement, SweepPlan plan) {
@@ -25,8 +37,7 @@ double memory_of(const SweepOptions& options, const Refinement& refinement, Swee
     const auto largest =
         std::max_element(plan.runs.begin(), plan.runs.end(),
                          [](const auto& a, const auto& b) { return a.run.memory < b.run.memory; });
-    points.push_back(
-        place(points_of_runs({largest->run.index}, plan.sweep.runs_per_point()).front()));
+    points.push_back(place(point_of(largest->run.index, plan.sweep.runs_per_point())));
   }
   plan.variants.clear();
   add_full_runs(options, points, plan);
@@ -36,12 +47,6 @@ double memory_of(const SweepOptions& options, const Refinement& refinement, Swee
 }
 
 }  // namespace
-
-std::vector<int> points_of_runs(const std::vector<int>& runs, int seeds) {
-  std::set<int> points;
-  for (const int run : runs) points.insert(run - run % seeds);
-  return {points.begin(), points.end()};
-}
 
 Refinement refinement_of(const SweepOptions& options, const SweepPlan& plan) {
   const int seeds = plan.sweep.runs_per_point();
@@ -63,7 +68,7 @@ RefinementCost cost_of(const Refinement& refinement, const SweepPlan& plan,
   double of_all = 0, of_named = 0;
   std::size_t counted = 0;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
-    const int point = points_of_runs({plan.runs[k].run.index}, seeds).front();
+    const int point = point_of(plan.runs[k].run.index, seeds);
     const double seconds = forecast.seconds(k).expected;
     of_all += seconds;
     if (named.contains(point)) {

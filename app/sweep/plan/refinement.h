@@ -20,9 +20,6 @@ struct Refinement {
   bool is_wanted() const { return chosen > 0 || !named.empty(); }
 };
 
-/// First runs of the points of these runs, in order. @param seeds  runs of each point
-std::vector<int> points_of_runs(const std::vector<int>& runs, int seeds);
-
 /// What --refine and --refine-runs ask for, never more points than there are.
 /// @throws UsageError for a run that there is not
 Refinement refinement_of(const SweepOptions& options, const SweepPlan& plan);

@@ -156,9 +156,8 @@ scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
 std::string mark_of(const SweepPlan& plan) {
   std::string held;
   if (plan.sweep.sheet.framing == read::Framing::each) held = ", each run by itself";
-  if (plan.sweep.sheet.framing == read::Framing::sheet)
-    for (const PlannedRun& item : plan.runs)
-      if (held.empty()) held = ", at frame " + std::to_string(item.run.frames.last);
+  if (plan.sweep.sheet.framing == read::Framing::sheet && !plan.runs.empty())
+    held = ", at frame " + std::to_string(plan.runs.front().run.frames.last);
   return "# Camera and colour ranges of all runs. Of scene " +
          record::hash_of(scene::write_scene(plan.base)) + held + "\n";
 }

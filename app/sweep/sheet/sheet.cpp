@@ -11,6 +11,7 @@
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/sweep/jobs/outcome.h"
+#include "app/sweep/sheet/marks.h"
 #include "app/sweep/sheet/tile_words.h"
 #include "render/frame/compose.h"
 
@@ -21,8 +22,7 @@ namespace {
 using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr Rgb paper{30, 33, 39}, empty_tile{44, 48, 56};
-constexpr Rgb bright{240, 244, 250}, soft{190, 199, 212}, alarm{255, 138, 76},
-    caution{255, 205, 96};
+constexpr Rgb alarm{255, 138, 76};
 constexpr double darkness = 0.42;  // of a tile whose run got less far
 constexpr std::size_t max_moments = 6;
 const char* const dot = "   \u00b7   ";
@@ -192,9 +192,9 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
   for (std::size_t k = 0; k < lines.size(); ++k)
     words.notes.push_back({left, top + 1.25f * size * static_cast<float>(k), lines[k],
                            render::Note::Anchor::left, room, false,
-                           k >= names                           ? caution
-                           : k == 0 && !tile.run->label.empty() ? bright
-                                                                : soft});
+                           k >= names                           ? seal_caution
+                           : k == 0 && !tile.run->label.empty() ? seal_ink
+                                                                : seal_grey});
   add_seal(layout, tile, words);
   add_star(layout, tile, words);
   if (!is_dark) return;
@@ -205,11 +205,11 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
   const float y =
       static_cast<float>(tile.y) + 0.5f * height - (reason.empty() ? 0.6f : 1.2f) * size;
   const std::string first = state.empty() ? reason : state;
-  words.notes.push_back(
-      {middle, y, first, render::Note::Anchor::middle, room, is_alarm, is_alarm ? alarm : soft});
+  words.notes.push_back({middle, y, first, render::Note::Anchor::middle, room, is_alarm,
+                         is_alarm ? alarm : seal_grey});
   if (!state.empty() && !reason.empty())
     words.notes.push_back(
-        {middle, y + 1.6f * size, reason, render::Note::Anchor::middle, room, false, bright});
+        {middle, y + 1.6f * size, reason, render::Note::Anchor::middle, room, false, seal_ink});
 }
 
 /// "starred" and the note, in the upper right corner.
@@ -227,7 +227,7 @@ void SheetMaker::add_star(const SheetLayout& layout, const Tile& tile, render::F
               top = static_cast<float>(tile.y) + (is_below ? 1.7f * size : 0);
   words.patches.push_back({left, top, width, 1.6f * size, {196, 146, 20, 255}});
   words.notes.push_back({left + 0.5f * width, top + 0.25f * size, text,
-                         render::Note::Anchor::middle, width - 0.6f * size, false, bright});
+                         render::Note::Anchor::middle, width - 0.6f * size, false, seal_ink});
 }
 
 void SheetMaker::add_seal(const SheetLayout& layout, const Tile& tile, render::Frame& words) const {
@@ -241,7 +241,7 @@ void SheetMaker::add_seal(const SheetLayout& layout, const Tile& tile, render::F
     words.patches.push_back(
         {right - width, static_cast<float>(tile.y), width, 1.6f * size, {c[0], c[1], c[2], 255}});
     words.notes.push_back({right - 0.5f * width, static_cast<float>(tile.y) + 0.25f * size,
-                           words_of_run, render::Note::Anchor::middle, width, false, bright});
+                           words_of_run, render::Note::Anchor::middle, width, false, seal_ink});
   }
   if (manifest_.tile_label == "none") return;
   draw_seal(seals_.of_points[manifest_.place_of(*tile.run)], seals_,
@@ -263,8 +263,9 @@ render::Frame SheetMaker::frame_of(const SheetLayout& layout, const std::string&
   const auto size = static_cast<float>(layout.font_size);
   const float room = static_cast<float>(layout.width) - 2 * size;
   words.notes.push_back(
-      {size, 0.7f * size, manifest_.title, render::Note::Anchor::left, room, true, bright});
-  words.notes.push_back({size, 2.3f * size, line, render::Note::Anchor::left, room, false, soft});
+      {size, 0.7f * size, manifest_.title, render::Note::Anchor::left, room, true, seal_ink});
+  words.notes.push_back(
+      {size, 2.3f * size, line, render::Note::Anchor::left, room, false, seal_grey});
   return words;
 }
 
@@ -376,7 +377,7 @@ void SheetMaker::add_state(const SheetLayout& layout, const Tile& tile,
                          static_cast<float>(tile.y) +
                              0.5f * static_cast<float>(layout.tile_height - layout.font_size),
                          state.empty() ? reason : state, render::Note::Anchor::middle, width, false,
-                         store::has_failed(tile.result->status.state) ? alarm : soft});
+                         store::has_failed(tile.result->status.state) ? alarm : seal_grey});
 }
 
 }  // namespace neve::app::sweep::sheet
