@@ -110,6 +110,7 @@ void check_frame(const Frame& frame, int max_size) {
   for (const Plot& plot : frame.plots) check_plot(plot);
 }
 
+/// Automatic remains on a GPU: see Impl::is_on_cpu.
 ParticlePath resolve_path(ParticlePath path, const gl::Context& context) {
   if (path != ParticlePath::automatic) return path;
   const char* wanted = std::getenv("NEVE_PARTICLES");
@@ -117,7 +118,7 @@ ParticlePath resolve_path(ParticlePath path, const gl::Context& context) {
   if (name == "gl") return ParticlePath::gl;
   if (name == "cpu") return ParticlePath::cpu;
   if (!name.empty()) throw ParticlePathError("NEVE_PARTICLES=" + name + "; expected gl or cpu");
-  return context.is_software ? ParticlePath::cpu : ParticlePath::gl;
+  return context.is_software ? ParticlePath::cpu : ParticlePath::automatic;
 }
 
 void check_picture(const Image& picture, const Frame& frame) {
@@ -191,9 +192,15 @@ struct Renderer::Impl {
     return std::min({texture, viewport[0], viewport[1]});
   }
 
+  /// The processor makes the surface of snow whatever the path; where it may choose it shades it,
+  /// too, as handing it to a GPU sample by sample takes longer.
+  bool is_on_cpu(const Frame& frame) const {
+    return path == ParticlePath::cpu || (path == ParticlePath::automatic && frame.has_snow_surface);
+  }
+
   void prepare_targets(const Frame& frame) {
     const bool has_samples =
-        frame.supersampling > 1 || (frame.has_smooth_edges && path == ParticlePath::gl);
+        frame.supersampling > 1 || (frame.has_smooth_edges && !is_on_cpu(frame));
     if (targets && targets->width == frame.width && targets->height == frame.height &&
         targets->supersampling == frame.supersampling && targets->has_samples == has_samples)
       return;
@@ -282,7 +289,7 @@ struct Renderer::Impl {
     clock.end("light");
 
     const View view = make_view(frame.camera, targets->sample_width(), targets->sample_height());
-    if (path == ParticlePath::cpu)
+    if (is_on_cpu(frame))
       draw_on_cpu(frame, view, smoke_grid, light, clock);
     else
       draw_by_gl(frame, view, smoke_grid, light, clock);
@@ -315,7 +322,7 @@ struct Renderer::Impl {
       surfaces.keep_points();
       tiles.draw(surfaces.kept(), surfaces.columns(), view);
     } else {
-      particles.draw(frame.points, view);
+      particles.draw(frame.points, view, pool);
     }
     clock.end("particles");
     ground.draw(frame, view);
@@ -550,7 +557,7 @@ Image Renderer::fetch() {
 }
 
 ParticlePath Renderer::particle_path() const {
-  return impl_->path;
+  return impl_->path == ParticlePath::cpu ? ParticlePath::cpu : ParticlePath::gl;
 }
 
 Image Renderer::draw_over(const Image& picture, const Frame& frame) {

@@ -17,8 +17,8 @@
 namespace neve::render {
 
 /// Renderer of particles, ground, smoke and the light on them: OpenGL, or the CPU (surfaces.h),
-/// which is several times faster if OpenGL itself runs on the CPU. Automatic: the faster one here,
-/// or the one named by the environment variable NEVE_PARTICLES: gl or cpu.
+/// which is several times faster if OpenGL itself runs on the CPU. Automatic: the faster one for
+/// each frame here, or the one named by the environment variable NEVE_PARTICLES: gl or cpu.
 enum class ParticlePath { automatic, gl, cpu };
 
 /// Way to read pictures back: through pixel buffers while the CPU works, or at once. Automatic:
@@ -70,7 +70,7 @@ class Renderer {
   /// @param x, y  px, lower left corner of the place
   void copy_picture(unsigned framebuffer, int x, int y, int width, int height);
 
-  /// Never automatic.
+  /// That of particles drawn as spheres. Never automatic.
   ParticlePath particle_path() const;
 
   /// Lays only caption, legends, plots and marks of the frame over an RGB picture of its size.

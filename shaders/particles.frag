@@ -1,8 +1,17 @@
 // Intersects the ray of the sample with the sphere: exact in perspective. In: sphere relative to the
 // eye (m). Writes the G-buffer; depth is that of the point that was hit.
 
+#ifdef GL_ARB_conservative_depth
+#extension GL_ARB_conservative_depth : enable
+#endif
+
 #include "view.glsl"
 #include "gbuffer.glsl"
+
+#ifdef GL_ARB_conservative_depth
+// The vertex lies before the whole sphere, so a fragment behind what is drawn already need not run.
+layout(depth_greater) out float gl_FragDepth;
+#endif
 
 flat in vec3 center;
 flat in vec3 root_color;

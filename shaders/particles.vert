@@ -4,6 +4,11 @@
 
 #include "view.glsl"
 
+// Before the surface of the sphere, by a little more than rounding.
+float front_depth(float z, float radius) {
+  return depth_of(max(z - 1.0001 * radius, near_distance));
+}
+
 layout(location = 0) in vec3 in_center;
 layout(location = 1) in vec4 in_color;
 
@@ -37,4 +42,5 @@ void main() {
   float stretch = sqrt(1.0 + dot(slope, slope)) * (1.0 + 2.0 * sphere_radius / z);
   gl_PointSize = 2.0 * sphere_radius / z * pixels_per_slope * stretch + 1.0;
 #endif
+  gl_Position.z = (2.0 * front_depth(z, sphere_radius) - 1.0) * gl_Position.w;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "render/frame/colormap.h"
 #include "render/frame/occlusion.h"
@@ -91,29 +92,37 @@ std::array<std::uint8_t, 256> root_table() {
   return table;
 }
 
-/// Sorts roughly front to back without breaking the order of ids among equals: one counting sort
-/// over slabs of distance.
+/// Slabs of distance, front to back, for a counting sort. Of equal ratio rather than width: one far
+/// stray must not squeeze the rest into one slab.
+class Slabs {
+ public:
+  static constexpr std::size_t count = 2048;
+  Slabs(float nearest, float farthest)
+      : nearest_(nearest),
+        scale_(static_cast<float>(count - 1) / std::log(std::max(farthest / nearest, 1.0001f))) {}
+  std::uint16_t of(float z) const {
+    return static_cast<std::uint16_t>(
+        std::min(scale_ * std::log(z / nearest_), static_cast<float>(count - 1)));
+  }
+
+ private:
+  float nearest_, scale_;
+};
+
+/// Sorts roughly front to back without breaking the order of ids among equals.
 std::vector<std::uint32_t> order_by_distance(const std::vector<std::uint32_t>& drawn,
                                              const std::vector<Disc>& discs) {
-  constexpr std::size_t slabs = 2048;
   float nearest = INFINITY, farthest = 0;
   for (const std::uint32_t p : drawn) {
     nearest = std::min(nearest, discs[p].z);
     farthest = std::max(farthest, discs[p].z);
   }
-  // Slabs of equal ratio rather than width: one far stray must not squeeze the rest into one slab.
-  const float scale =
-      static_cast<float>(slabs - 1) / std::log(std::max(farthest / nearest, 1.0001f));
-  std::vector<std::uint16_t> slab_of(drawn.size());
-  std::vector<std::uint32_t> start(slabs + 1);
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const float slab = scale * std::log(discs[drawn[i]].z / nearest);
-    slab_of[i] = static_cast<std::uint16_t>(std::min(slab, static_cast<float>(slabs - 1)));
-    ++start[slab_of[i] + 1u];
-  }
-  for (std::size_t s = 0; s < slabs; ++s) start[s + 1] += start[s];
+  const Slabs slabs(nearest, farthest);
+  std::vector<std::uint32_t> start(Slabs::count + 1);
+  for (const std::uint32_t p : drawn) ++start[slabs.of(discs[p].z) + 1u];
+  for (std::size_t s = 0; s < Slabs::count; ++s) start[s + 1] += start[s];
   std::vector<std::uint32_t> sorted(drawn.size());
-  for (std::size_t i = 0; i < drawn.size(); ++i) sorted[start[slab_of[i]]++] = drawn[i];
+  for (const std::uint32_t p : drawn) sorted[start[slabs.of(discs[p].z)]++] = p;
   return sorted;
 }
 
@@ -151,8 +160,17 @@ std::uint32_t PointColors::root_albedo(std::uint32_t point) const {
   return shades[scramble(points_.id.empty() ? point : points_.id[point]) & 63u];
 }
 
-PointList list_points(const Points& points, const View& view, float max_point_size,
-                      bool leave_out_hidden) {
+namespace {
+
+PointVertex vertex_of(const Points& points, const PointColors& color, const View& view,
+                      std::uint32_t p) {
+  const Rgb8 c = color.of(p);
+  return {points.position[p] - view.eye, {c.r, c.g, c.b, 255}};
+}
+
+/// All that may be seen, front to back, without those that nearer ones cover. On one thread: a
+/// sphere is left out because of those before it.
+PointList list_uncovered(const Points& points, const View& view, float max_point_size) {
   std::vector<Disc> discs(points.position.size());
   std::vector<std::uint32_t> drawn;
   drawn.reserve(discs.size());
@@ -171,12 +189,120 @@ PointList list_points(const Points& points, const View& view, float max_point_si
   OcclusionGrid grid(view, static_cast<float>(sum_of_radii / static_cast<double>(drawn.size())));
   const PointColors color(points);
   for (const std::uint32_t p : order_by_distance(drawn, discs)) {
-    if (leave_out_hidden && is_hidden(discs[p], view.pixels_per_slope, grid)) continue;
-    const Rgb8 c = color.of(p);
-    const PointVertex vertex = {points.position[p] - view.eye, {c.r, c.g, c.b, 255}};
-    (discs[p].drawn == Drawn::as_point ? list.small : list.large).push_back(vertex);
+    if (is_hidden(discs[p], view.pixels_per_slope, grid)) continue;
+    (discs[p].drawn == Drawn::as_point ? list.small : list.large)
+        .push_back(vertex_of(points, color, view, p));
   }
   return list;
+}
+
+/// All that may be seen, in the same order as list_uncovered has them, on all threads.
+class ListOfAll {
+ public:
+  ListOfAll(const Points& points, const View& view, float max_point_size, ThreadPool& team)
+      : points_(points),
+        view_(view),
+        max_point_size_(max_point_size),
+        team_(team),
+        order_(order_by_id(points)),
+        color_(points),
+        z_(points.position.size()),
+        parts_(std::clamp<std::size_t>(z_.size() / 4096, 1, 64)) {}
+
+  PointList make() {
+    for_each_part(
+        [&](Part& part, std::size_t begin, std::size_t end) { project(part, begin, end); });
+    float nearest = INFINITY, farthest = 0;
+    for (const Part& part : parts_) {
+      nearest = std::min(nearest, part.nearest);
+      farthest = std::max(farthest, part.farthest);
+    }
+    PointList list;
+    if (farthest == 0) return list;
+    const Slabs slabs(nearest, farthest);
+    for_each_part([&](Part& part, std::size_t begin, std::size_t end) {
+      part.start.assign(Slabs::count, 0);
+      for (std::size_t i = begin; i < end; ++i)
+        if (z_[i] > 0) ++part.start[slabs.of(z_[i])];
+    });
+    list.small.resize(start_parts());
+    for_each_part([&](Part& part, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (z_[i] > 0) list.small[part.start[slabs.of(z_[i])]++] = vertex(i);
+    });
+    list.large = list_large(slabs);
+    return list;
+  }
+
+ private:
+  struct Part {
+    float nearest = INFINITY, farthest = 0;  ///< of all that is drawn, m
+    std::vector<std::uint32_t> start;        ///< of each slab: how many, then where they begin
+    std::vector<std::pair<float, PointVertex>> large;  ///< behind the distance of each, m
+  };
+
+  template <class Body>
+  void for_each_part(const Body& body) {
+    const std::size_t count = z_.size(), of = parts_.size();
+    team_.run(team_.thread_count(), static_cast<int>(of), [&](int k) {
+      const auto part = static_cast<std::size_t>(k);
+      body(parts_[part], count * part / of, count * (part + 1) / of);
+    });
+  }
+
+  std::uint32_t point(std::size_t i) const {
+    return order_.empty() ? static_cast<std::uint32_t>(i) : order_[i];
+  }
+  PointVertex vertex(std::size_t i) const { return vertex_of(points_, color_, view_, point(i)); }
+
+  void project(Part& part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Disc disc =
+          disc_of(view_, points_.position[point(i)] - view_.eye, points_.radius, max_point_size_);
+      if (disc.drawn == Drawn::no) continue;
+      part.nearest = std::min(part.nearest, disc.z);
+      part.farthest = std::max(part.farthest, disc.z);
+      if (disc.drawn == Drawn::as_point)
+        z_[i] = disc.z;
+      else
+        part.large.emplace_back(disc.z, vertex(i));
+    }
+  }
+
+  /// Slab by slab, and in each part by part. @returns how many there are in all
+  std::size_t start_parts() {
+    std::uint32_t total = 0;
+    for (std::size_t slab = 0; slab < Slabs::count; ++slab)
+      for (Part& part : parts_) total += std::exchange(part.start[slab], total);
+    return total;
+  }
+
+  std::vector<PointVertex> list_large(const Slabs& slabs) const {
+    std::vector<std::pair<float, PointVertex>> all;
+    for (const Part& part : parts_) all.insert(all.end(), part.large.begin(), part.large.end());
+    std::ranges::stable_sort(all, {}, [&](const auto& one) { return slabs.of(one.first); });
+    std::vector<PointVertex> list;
+    for (const auto& [z, vertex] : all) list.push_back(vertex);
+    return list;
+  }
+
+  const Points& points_;
+  const View& view_;
+  float max_point_size_;
+  ThreadPool& team_;
+  std::vector<std::uint32_t> order_;
+  PointColors color_;
+  std::vector<float> z_;  ///< distance of what is drawn as a point, m; 0 of the others
+  std::vector<Part> parts_;
+};
+
+}  // namespace
+
+PointList list_points(const Points& points, const View& view, float max_point_size,
+                      bool leave_out_hidden, ThreadPool* pool) {
+  if (leave_out_hidden) return list_uncovered(points, view, max_point_size);
+  ThreadPool alone(1);
+  return ListOfAll(points, view, max_point_size, pool ? *pool : alone).make();
 }
 
 }  // namespace neve::render

@@ -8,6 +8,7 @@
 #include "render/frame/colormap.h"
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
+#include "sim/base/thread_pool.h"
 
 namespace neve::render {
 
@@ -18,8 +19,8 @@ struct PointVertex {
 };
 
 struct PointList {
-  std::vector<PointVertex> small;  ///< drawn as points, front to back, ties in the order of ids
-  std::vector<PointVertex> large;  ///< drawn as quads, same order
+  std::vector<PointVertex> small;  ///< drawn as points
+  std::vector<PointVertex> large;  ///< drawn as quads
 };
 
 /// Smallest radius on the picture, in samples, at which a sphere cannot fall between samples.
@@ -42,11 +43,13 @@ class PointColors {
   const Points& points_;
 };
 
-/// Leaves out points outside the picture, behind the eye, or at no finite position.
+/// Leaves out points outside the picture, behind the eye, or at no finite position. Front to back,
+/// equals in the order of ids: then nearer spheres keep fragments of those behind from being
+/// shaded.
 /// @param max_point_size largest point of the driver, pixels
 /// @param leave_out_hidden also leaves out spheres that nearer ones cover: the picture stays the
-/// same; pays where fragments are drawn on the CPU
+/// same; pays where fragments are drawn on the CPU @param pool may be null
 PointList list_points(const Points& points, const View& view, float max_point_size,
-                      bool leave_out_hidden);
+                      bool leave_out_hidden, ThreadPool* pool);
 
 }  // namespace neve::render

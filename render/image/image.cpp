@@ -231,6 +231,13 @@ Image decode_by_stb(std::span<const std::uint8_t> bytes, const std::string& form
   return image;
 }
 
+/// A channel as it is seen: colours by how much of the pixel they cover.
+int seen(const Image& image, std::size_t pixel, int channel) {
+  const std::uint8_t* at = &image.pixels[pixel * static_cast<std::size_t>(image.channels)];
+  if (image.channels < 4 || channel == 3) return at[channel];
+  return (int{at[channel]} * at[3] + 127) / 255;
+}
+
 }  // namespace
 
 Image decode_png(std::span<const std::uint8_t> bytes, double room) {
@@ -274,10 +281,10 @@ Difference compare(const Image& a, const Image& b) {
   int largest = 0;
   std::size_t i = 0;
   for (int y = 0; y < a.height; ++y)
-    for (int x = 0; x < a.width; ++x) {
+    for (int x = 0; x < a.width; ++x, ++i) {
       std::uint64_t of_pixel = 0;
-      for (int c = 0; c < a.channels; ++c, ++i) {
-        const int difference = std::abs(int{a.pixels[i]} - int{b.pixels[i]});
+      for (int c = 0; c < a.channels; ++c) {
+        const int difference = std::abs(seen(a, i, c) - seen(b, i, c));
         largest = std::max(largest, difference);
         of_pixel += static_cast<std::uint64_t>(difference);
       }
@@ -301,10 +308,15 @@ Difference compare(const Image& a, const Image& b) {
 Image difference_image(const Image& a, const Image& b) {
   check_comparable(a, b);
   constexpr int gain = 8;
-  Image out{a.width, a.height, a.channels, std::vector<std::uint8_t>(a.pixels.size())};
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const int difference = std::abs(int{a.pixels[i]} - int{b.pixels[i]});
-    out.pixels[i] = static_cast<std::uint8_t>(std::min(255, gain * difference));
+  const int channels = std::min(a.channels, 3);
+  Image out{a.width, a.height, channels, {}};
+  const std::size_t pixels = a.pixels.size() / static_cast<std::size_t>(a.channels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const int cover = a.channels < 4 ? 0 : std::abs(seen(a, i, 3) - seen(b, i, 3));
+    for (int c = 0; c < channels; ++c) {
+      const int difference = std::max(cover, std::abs(seen(a, i, c) - seen(b, i, c)));
+      out.pixels.push_back(static_cast<std::uint8_t>(std::min(255, gain * difference)));
+    }
   }
   return out;
 }

@@ -41,7 +41,8 @@ PngText read_png_text(std::span<const std::uint8_t> bytes);
 /// Exponent that made the samples of light, 1 for samples in linear light; 0 where the PNG says
 /// sRGB, another profile, or nothing. @throws ImageError when the bytes are no whole PNG
 double read_png_gamma(std::span<const std::uint8_t> bytes);
-/// Absolute difference over all channels, 0 to 255.
+/// Absolute difference over all channels, 0 to 255. Colours count by the alpha of their pixel: one
+/// that covers a two hundredth has any of three values, and is not seen.
 struct Difference {
   double max = 0, mean = 0;
   /// The largest mean over a square of 8x8 pixels: high where a part of the picture is another one,
@@ -50,7 +51,7 @@ struct Difference {
 };
 /// @throws ImageError when the sizes differ
 Difference compare(const Image& a, const Image& b);
-/// |a - b| amplified so that small differences can be seen.
+/// |a - b| amplified so that small differences can be seen; opaque, with the alpha in all colours.
 Image difference_image(const Image& a, const Image& b);
 
 }  // namespace neve::render

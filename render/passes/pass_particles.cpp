@@ -29,9 +29,9 @@ ParticlePass::ParticlePass(const gl::Gl& gl, const gl::ShaderLibrary& library, b
   gl.EnableVertexAttribArray(1);
 }
 
-void ParticlePass::draw(const Points& points, const View& view) {
+void ParticlePass::draw(const Points& points, const View& view, ThreadPool* pool) {
   if (points.position.empty()) return;
-  const PointList list = list_points(points, view, max_point_size_, is_software_);
+  const PointList list = list_points(points, view, max_point_size_, is_software_, pool);
   gl::set_solid_state(gl_);
   gl_.Enable(GL_PROGRAM_POINT_SIZE);
   draw_list(point_program_, false, points, view, list.small.data(), list.small.size());

@@ -22,7 +22,8 @@ class ParticlePass {
  public:
   /// @param is_software see list_points
   ParticlePass(const gl::Gl& gl, const gl::ShaderLibrary& library, bool is_software);
-  void draw(const Points& points, const View& view);
+  /// @param pool may be null
+  void draw(const Points& points, const View& view, ThreadPool* pool);
 
  private:
   void draw_list(const gl::Program& program, bool as_quads, const Points& points, const View& view,

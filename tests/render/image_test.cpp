@@ -174,6 +174,18 @@ TEST(Compare, ComparisonMeasuresLargestAndMeanDifference) {
   EXPECT_THROW(compare(a, noise(1, 2, 3)), ImageError);
 }
 
+TEST(Compare, ColoursCountByTheAlphaOfTheirPixel) {
+  const Image a{3, 1, 4, {255, 255, 255, 0, 0, 0, 255, 1, 200, 100, 50, 255}};
+  const Image b{3, 1, 4, {0, 0, 0, 0, 255, 0, 0, 1, 200, 100, 50, 255}};
+  EXPECT_EQ(compare(a, b).max, 1) << "a pixel that covers one part of 255";
+  Image c = b;
+  c.pixels[11] = 155;  // half as much of the last pixel
+  EXPECT_EQ(compare(b, c).max, 100);
+  const Image difference = difference_image(b, c);
+  ASSERT_EQ(difference.channels, 3) << "it can be seen";
+  EXPECT_EQ(difference.pixels[6], 255);
+}
+
 TEST(Compare, ComparisonFindsTheSquareThatDiffersMost) {
   Image a{40, 20, 3, std::vector<std::uint8_t>(40 * 20 * 3, 100)};
   Image b = a;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gl_test.h"
+#include "both_ways.h"
 #include "render/frame/colormap.h"
 #include "render/frame/point_list.h"
 #include "render/frame/view.h"
@@ -150,8 +150,33 @@ TEST(PointList, LeavingOutHiddenSpheresDoesNotChangeThePicture) {
     }
   }
   const View view = make_view(frame.camera, 320, 240);
-  EXPECT_LT(list_points(frame.points, view, 64, true).small.size(),
-            list_points(frame.points, view, 64, false).small.size() / 2);
+  EXPECT_LT(list_points(frame.points, view, 64, true, nullptr).small.size(),
+            list_points(frame.points, view, 64, false, nullptr).small.size() / 2);
+}
+
+TEST(PointList, IsTheSameOnAnyNumberOfThreads) {
+  Frame frame = small_frame(320, 240);
+  add_ball(frame, {0.2f, 0.1f, 0}, 0.4f, 0.008f);
+  frame.points.radius = 0.004f;
+  const std::size_t count = frame.points.position.size();
+  ASSERT_GT(count, 3 * 4096u);  // several parts
+  frame.points.position.edit()[7] = {0, 0, NAN};
+  frame.camera.target = {0.5f, 0.1f, 0};  // some outside
+  for (std::size_t i = 0; i < count; ++i)
+    frame.points.id.edit().push_back(static_cast<std::uint32_t>((i * 7919) % count));
+  const View view = make_view(frame.camera, 320, 240);
+  ThreadPool three(3);
+  for (const float max_point_size : {64.0f, 2.5f}) {
+    const PointList alone = list_points(frame.points, view, max_point_size, false, nullptr);
+    const PointList many = list_points(frame.points, view, max_point_size, false, &three);
+    EXPECT_GT(alone.small.size() + alone.large.size(), count / 4);
+    EXPECT_LT(alone.small.size() + alone.large.size(), count);
+    const auto same = [](const PointVertex& a, const PointVertex& b) {
+      return a.center == b.center && std::ranges::equal(a.color, b.color);
+    };
+    EXPECT_TRUE(std::ranges::equal(alone.small, many.small, same));
+    EXPECT_TRUE(std::ranges::equal(alone.large, many.large, same));
+  }
 }
 
 TEST_P(ParticlePass, ValuesAreShownInTheColoursOfTheMap) {
