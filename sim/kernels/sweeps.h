@@ -32,39 +32,67 @@ NEVE_INLINE void set_velocities(const SweepArgs<Real>& a, std::uint32_t block,
   }
 }
 
-/// Adds the used rows of the tiles that reach a node block, always in the order of
-/// NodeBlock::tile; only those of particle blocks that `takes` accepts. Rows go beyond the tile's
-/// overlap along z, filled with 0.
+/// The used rows of the tiles that reach a node block, always in the order of NodeBlock::tile.
+/// Listed first, and asked for: most tiles have left the cache, and how many rows one has cannot be
+/// guessed. Rows go beyond the tile's overlap along z, filled with 0.
+template <class Real, int K>
+struct RowsOfTiles {
+  const Quad<Real>* from[8 * block_side * block_side];  ///< of the first channel
+  std::uint8_t to[8 * block_side * block_side];         ///< row of the block, 4 x + y
+  int count = 0;
+  unsigned written = 0;  ///< rows of the block that get something, as bits
+
+  /// @param channels  that will be collected, from `channel` on
+  /// @param takes     which particle blocks
+  template <class Takes>
+  NEVE_INLINE RowsOfTiles(const SweepArgs<Real>& a, std::uint32_t block, int channel, int channels,
+                          const Takes& takes) {
+    for (int o = 0; o < 8; ++o) {
+      const std::int32_t source = a.node_blocks[block].tile[o];
+      if (source < 0 || !takes(source)) continue;
+      const int ox = o >> 2, oy = o >> 1 & 1, oz = o & 1;
+      int i, nx, first, ny;
+      used_rows<K>(a.blocks[source], 0, ox, i, nx);
+      used_rows<K>(a.blocks[source], 1, oy, first, ny);
+      const Quad<Real>* tile = tile_of<Real, K>(a, static_cast<std::uint32_t>(source), channel) +
+                               Tile<K>::node(4 * ox, 4 * oy, 4 * oz);
+      for (; i < nx; ++i)
+        for (int j = first; j < ny; ++j) {
+          const Quad<Real>* row = tile + Tile<K>::node(i, j, 0);
+          for (int k = 0; k < channels; ++k)
+            for (std::size_t byte = 0; byte < block_side * sizeof(Quad<Real>); byte += 64)
+              __builtin_prefetch(reinterpret_cast<const char*>(row + k * Tile<K>::nodes) + byte);
+          from[count] = row;
+          to[count++] = static_cast<std::uint8_t>(i * block_side + j);
+          written |= 1u << (i * block_side + j);
+        }
+    }
+  }
+
+  /// The sum of a channel after the first; the rows that get nothing are 0.
+  template <class Set>
+  NEVE_INLINE void add_up(int channel, Quad<Real>* sum) const {
+    using R = Row<Real, Set>;
+    for (int n = 0; n < block_nodes; n += block_side) R::zero().store(sum + n);
+    for (int k = 0; k < count; ++k)
+      R::load(from[k] + channel * Tile<K>::nodes).add_to(sum + to[k] * block_side);
+  }
+};
+
+/// Adds up one channel, only of the particle blocks that `takes` accepts.
 /// @return the rows of the block that got something, as bits 4 x + y; the others are 0
 template <class Real, int K, class Set, class Takes>
 NEVE_INLINE unsigned collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
                              Quad<Real>* sum, const Takes& takes) {
-  using R = Row<Real, Set>;
-  unsigned written = 0;
-  for (int n = 0; n < block_nodes; n += block_side) R::zero().store(sum + n);
-  for (int o = 0; o < 8; ++o) {
-    const std::int32_t source = a.node_blocks[block].tile[o];
-    if (source < 0 || !takes(source)) continue;
-    const int ox = o >> 2, oy = o >> 1 & 1, oz = o & 1;
-    int i, nx, first, ny;
-    used_rows<K>(a.blocks[source], 0, ox, i, nx);
-    used_rows<K>(a.blocks[source], 1, oy, first, ny);
-    const Quad<Real>* tile = tile_of<Real, K>(a, static_cast<std::uint32_t>(source), channel) +
-                             Tile<K>::node(4 * ox, 4 * oy, 4 * oz);
-    const unsigned line = first < ny ? (1u << ny) - (1u << first) : 0;
-    for (; i < nx; ++i) {
-      written |= line << (block_side * i);
-      for (int j = first; j < ny; ++j)
-        R::load(tile + Tile<K>::node(i, j, 0)).add_to(sum + (i * block_side + j) * block_side);
-    }
-  }
-  return written;
+  const RowsOfTiles<Real, K> rows(a, block, channel, 1, takes);
+  rows.template add_up<Set>(0, sum);
+  return rows.written;
 }
+constexpr auto takes_all = [](std::int32_t) NEVE_INLINE_BODY { return true; };
 template <class Real, int K, class Set>
 NEVE_INLINE unsigned collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
                              Quad<Real>* sum) {
-  return collect<Real, K, Set>(a, block, channel, sum,
-                               [](std::int32_t) NEVE_INLINE_BODY { return true; });
+  return collect<Real, K, Set>(a, block, channel, sum, takes_all);
 }
 
 /// The inverse: the used rows of a particle block's tile, filled from the node blocks around it.
@@ -272,11 +300,12 @@ struct SweepsFor {
     const StepConstants<Real>& c = a.constants;
     Quad<Real> v_old[block_nodes], force[has_change ? block_nodes : 4];
     for (Index b = begin; b < end; ++b) {
-      const unsigned rows = collect<Real, K, Set>(a, b, channel_momentum, v_old);
-      if constexpr (has_change) collect<Real, K, Set>(a, b, channel_force, force);
+      const RowsOfTiles<Real, K> tiles(a, b, channel_momentum, fused_channels, takes_all);
+      tiles.template add_up<Set>(0, v_old);
+      if constexpr (has_change) tiles.template add_up<Set>(channel_force - channel_momentum, force);
       Quad<Real>* v_new = nodes_of(a, b, channel_v_new);
       for (int n = 0; n < block_nodes; n += 4)
-        if (rows >> (n / 4) & 1)
+        if (tiles.written >> (n / 4) & 1)
           update_row(v_old + n, force + (has_change ? n : 0), v_new + n, c);
         else
           R::zero().store(v_new + n);
