@@ -58,6 +58,34 @@ bool is_at_the_top(const std::string& key) {
                      [&](const ParamInfo& info) { return info.address == key; });
 }
 
+/// The table of a scene that is spelt nearly so; "": none.
+std::string table_meant(const std::string& key) {
+  std::vector<std::string> tables;
+  for (const ParamInfo& info : params())
+    tables.push_back(info.address.substr(0, info.address.find('.')));
+  return advice::nearest_name(key, tables);
+}
+
+/// A parameter of the scene in a file of a sweep: its address, a table of it, or a key of it.
+std::string advice_on_set(const std::string& key) {
+  const auto as_setting = [](const std::string& address) {
+    return "parameters of the scene belong in [set], as in \"" + address + "\" = ...";
+  };
+  if (is_at_the_top(key)) return as_setting(key);
+  const std::string table = table_meant(key);
+  for (const ParamInfo& info : params())
+    if (!table.empty() && info.address.starts_with(table + ".")) return as_setting(info.address);
+  const std::string address = key.size() > 1 ? other_address(key, "") : "";
+  return address.empty() ? "" : as_setting(address);
+}
+
+/// The same in the table [sheet], which has a camera by another name.
+std::string advice_on_sheet(const std::string& key) {
+  for (const std::string& word : {key, table_meant(key)})
+    if (const advice::Entry* look = advice::entry_of("key of a sheet", word)) return look->sentence;
+  return advice_on_set(key);
+}
+
 /// Keys of the table that a kind of thing describes its shape in.
 std::vector<std::string> forms_of(const std::string& kind) {
   Keys forms;
@@ -106,6 +134,10 @@ std::string Reader::advice(const std::string& key, const std::vector<std::string
   for (const char* table : {"sheet", "axis", "set", "link", "run"})
     if (reading_.is_scene && address_.empty() && key == table)
       return "[" + key + "] belongs in the file of a sweep; neve params --sweep has its keys";
+  if (reading_.is_sweep) {
+    const std::string set = address_ == "sheet" ? advice_on_sheet(key) : advice_on_set(key);
+    return set.empty() ? "expected " + list_of(known) : set;
+  }
   if (!reading_.is_scene) return "expected " + list_of(known);
   if (!address_.empty() && is_at_the_top(key))
     return "it belongs at the top of the file, before the first [table]";

@@ -15,6 +15,7 @@ struct Reading {
   Source source;
   std::map<std::string, toml::Location> places;  ///< where each address was given
   bool is_scene = true;                          ///< its keys may be sought in all of a scene
+  bool is_sweep = false;                         ///< parameters of the scene belong in [set]
 
   /// Location of the address, or of the closest enclosing entry in the text.
   toml::Location place_of(std::string address) const;

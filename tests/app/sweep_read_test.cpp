@@ -251,6 +251,32 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
   for (const auto& c : cases) EXPECT_EQ(complaint(head + c.text), c.complaint) << c.text;
 }
 
+TEST_F(SweepFileTest, TheCameraOfASheetIsExplainedAsThatOfAScene) {
+  const std::string sheet_camera =
+      "framing = \"sheet\", \"fall\" or \"each\" says what the camera holds; a place is of the "
+      "scene: \"camera.eye\" = [0, 1, 3], \"camera.target\" = [0, 0, 0] or \"camera.orbit\" = 30 "
+      "in [set]";
+  const std::pair<std::string, std::string> cases[] = {
+      {"[sheet]\nframing = \"eech\"\n[axis]\n\"fps\" = [1]\n",
+       "4:11 sheet.framing = \"eech\"; expected \"sheet\", \"fall\" or \"each\"; did you mean "
+       "\"each\"?"},
+      {"[sheet]\ncamera = { eye = [0, 1] }\n",
+       "4:1 unknown key \"camera\" in [sheet]; " + sheet_camera},
+      {"[sheet.camra]\norbit = 3\n", "3:8 unknown key \"camra\" in [sheet]; " + sheet_camera},
+      {"[sheet]\norbit = 3\n", "4:1 unknown key \"orbit\" in [sheet]; " + sheet_camera},
+      {"[set]\ncamera = { orbit = \"left\" }\n[axis]\n\"fps\" = [1]\n",
+       "4:20 camera.orbit = \"left\"; expected a number"},
+      {"[set.camera]\nobrit = 30\n[axis]\n\"fps\" = [1]\n",
+       "4:1 unknown parameter \"camera.obrit\"; did you mean \"camera.orbit\"?"},
+      {"[camera]\norbit = 3\n",
+       "3:2 unknown key \"camera\"; parameters of the scene belong in "
+       "[set], as in \"camera.eye\" = ..."},
+      {"[sheet]\nhardening = 3\n",
+       "4:1 unknown key \"hardening\" in [sheet]; parameters of the "
+       "scene belong in [set], as in \"material.NAME.hardening\" = ..."}};
+  for (const auto& [text, wanted] : cases) EXPECT_EQ(complaint(head + text), wanted) << text;
+}
+
 TEST_F(SweepFileTest, FramesAreGivenForAllRunsOrVaried) {
   EXPECT_EQ(complaint(head + "frames = \"0-2\"\n[axis]\n\"frames\" = [1, 2]\n"),
             "3:10 sweep.frames is for all runs, and the sweep varies frames; remove one of them");

@@ -37,7 +37,7 @@ std::optional<scene::toml::Value> take(scene::toml::Table& table, const char* ke
 class SweepReader {
  public:
   explicit SweepReader(const std::string& file)
-      : reading_{{file, scene::base_dir_of(file), {}}, {}} {}
+      : reading_{{file, scene::base_dir_of(file), {}}, {}, true, true} {}
 
   Sweep read(const scene::toml::Table& root) {
     SweepFile file;
