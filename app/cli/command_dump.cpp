@@ -232,6 +232,7 @@ int run_dump(const dump::DumpOptions& given) {
   dump::DumpOptions options = given;
   options.run.is_start_only = true;  // the times are those of who asks
   const run::RenderJob job = run::make_job(options.run);
+  timeline::require_before_end("--at", options.at.back(), job);
   const setup::Plan plan =
       setup::make_plan(job.scene, job.frames, job.quality, options.run.threads);
   setup::check_limits(job.scene, plan, job.coarsening);
@@ -239,8 +240,6 @@ int run_dump(const dump::DumpOptions& given) {
   catch_interrupts();
   Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
                     options.run.progress);
-  timeline::warn_of_late_time("--at " + rough_text(options.at.back()) + " s", options.at.back(),
-                              job.scene, progress);
   timeline::Timeline timeline = timeline::open(job, options.run.threads, progress);
   const sim::Simulation& simulation = timeline.simulation();
   progress.start(timeline::frame_at(options.at.back(), job.scene.fps));

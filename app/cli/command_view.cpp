@@ -124,6 +124,7 @@ int run_view(const view::ViewOptions& given) {
           << "neve: warning: " << changes
           << " changes were made while the run of this picture ran; the view starts without them"
           << std::endl;
+  if (options.at) timeline::require_before_end("--at", *options.at, timeline::Origin::of(file, {}));
   reading.reset();
   devices::Place place = devices::open_place(place_options(options));
   devices::announce(place, options.run.is_json, options.run.verbosity == Verbosity::quiet);

@@ -79,6 +79,18 @@ std::string attributes_text(const scene::Export& e) {
   return joined(names, ",");
 }
 
+/// neve dump J_P, or --histogram J_P: the first word without a dash is the scene.
+void refuse_field_as_scene(const dump::DumpOptions& o) {
+  std::error_code error;
+  if (o.run.scene.find_first_of("./") != std::string::npos ||
+      std::filesystem::exists(o.run.scene, error))
+    return;
+  const std::string advice = dump::field_advice(o.run.scene);
+  if (!advice.empty())
+    throw UsageError("SCENE", "there is no file \"" + o.run.scene + "\"",
+                     o.is_histogram ? dump::field_advice(o.run.scene, true) : advice);
+}
+
 void describe_formats(Command& visit, ExportCommand& o) {
   const options::Language<scene::ExportFormat> format =
       options::choice<scene::ExportFormat>("F", "format of an export");
@@ -139,7 +151,7 @@ void describe_dump(Command& visit, dump::DumpOptions& o) {
   describe_scene(visit, o.run, run::origin_help);
   visit("--at", o.at, options::times(),
         "Times in seconds, as in 0.1,0.2, in one simulation; neve shows the step that contains "
-        "each time. A run continues from its nearest kept moment")
+        "each time, up to the last frame. A run continues from its nearest kept moment")
       .with_default();
   visit("--stage", o.stage,
         options::language("NAME", "advection", dump::parse_stage,
@@ -162,6 +174,10 @@ void describe_dump(Command& visit, dump::DumpOptions& o) {
   visit("--json", o.run.is_json, "Print summary and probes as JSON");
   options::describe_progress(visit, o.run.progress);
   options::describe_verbosity(visit, o.run.verbosity);
+  visit.word_advice = [](const Command& command, const std::string& word) {
+    return dump::field_advice(word, command.has_given("--histogram"));
+  };
+  visit.check([&o] { refuse_field_as_scene(o); });
 }
 
 void describe_export(Command& visit, ExportCommand& o) {

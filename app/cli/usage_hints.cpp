@@ -129,7 +129,8 @@ void refuse_leftover(const Entry& entry, const std::string& word) {
         word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
     throw UsageError("", "unknown option " + flag, flag_advice(flag, flags, help));
   }
-  const std::string hint = stray_word_advice(word, flags);
+  std::string hint = entry.command.advice_for(word);
+  if (hint.empty()) hint = stray_word_advice(word, flags);
   throw UsageError("", "unexpected argument \"" + word + "\"", hint.empty() ? help : hint);
 }
 

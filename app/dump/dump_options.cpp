@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/advice/suggest.h"
+#include "app/dump/quantities.h"
 #include "app/scene/names.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
@@ -26,13 +27,31 @@ std::string stage_meant(const std::string& text, const std::vector<std::string>&
   return longer.size() == 1 ? longer.front() : advice::meant_name(text, {"stage", names});
 }
 
+/// What was expected, or --field where the value of another option names a quantity.
+std::string or_field(const std::string& text, bool is_nothing_nearer, const std::string& expected) {
+  const std::string advice = is_nothing_nearer ? field_advice(text) : "";
+  return advice.empty() ? expected : advice;
+}
+
 }  // namespace
+
+std::string field_advice(const std::string& word, bool is_histogram) {
+  const std::vector<std::string>& names = quantity_names();
+  const bool is_name = std::find(names.begin(), names.end(), word) != names.end();
+  const std::string meant = is_name ? word : advice::meant_name(word, {"attribute", names});
+  if (meant.empty() && !is_histogram) return {};
+  const std::string named = "--field " + (meant.empty() ? "J_P" : meant);
+  if (!is_histogram) return meant + " is a quantity: " + named;
+  return "--field names the quantity" + std::string(meant.empty() ? ", as in " : ": ") + named +
+         " --histogram";
+}
 
 sim::Stage parse_stage(const std::string& text) {
   if (const auto stage = scene::value_named<sim::Stage>(text)) return *stage;
   const std::vector<std::string> names(sim::stage_names.begin(), sim::stage_names.end());
+  const std::string meant = stage_meant(text, names);
   throw UsageError("--stage", "there is no stage \"" + text + "\"",
-                   advice::expected_one_of(names, stage_meant(text, names)));
+                   or_field(text, meant.empty(), advice::expected_one_of(names, meant)));
 }
 
 Probe parse_probe(const std::string& text) {
@@ -47,8 +66,9 @@ Probe parse_probe(const std::string& text) {
     begin = comma + 1;
   }
   if (begin <= text.size() || numbers.size() != 3)
-    throw UsageError("--probe", "cannot use \"" + text + "\"",
-                     "expected the id of a particle, or a place as in --probe 0,0.5,0");
+    throw UsageError(
+        "--probe", "cannot use \"" + text + "\"",
+        or_field(text, true, "expected the id of a particle, or a place as in --probe 0,0.5,0"));
   return sim::Vec3d(numbers[0], numbers[1], numbers[2]);
 }
 
@@ -65,7 +85,9 @@ DumpFormat parse_format(const std::string& text) {
   if (text == "table") return DumpFormat::table;
   if (text == "vtk") return DumpFormat::vtk;
   throw UsageError("--format", "cannot use \"" + text + "\"",
-                   "expected table or vtk; neve export writes ply, vtp, bgeo, usda, npz and csv");
+                   or_field(text, true,
+                            "expected table or vtk; neve export writes ply, vtp, bgeo, usda, npz "
+                            "and csv"));
 }
 
 }  // namespace neve::app::dump

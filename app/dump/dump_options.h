@@ -29,6 +29,10 @@ struct DumpOptions {
   std::string file;  ///< empty: standard output; of several times each has its number in the name
 };
 
+/// Where a word that names a quantity belongs: "J_P is a quantity: --field J_P"; "": it names none.
+/// @param is_histogram  of a word beside --histogram, which is right with every quantity
+std::string field_advice(const std::string& word, bool is_histogram = false);
+
 /// A stage of the step by its name. @throws UsageError with the nearest
 sim::Stage parse_stage(const std::string& text);
 

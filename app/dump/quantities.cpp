@@ -255,6 +255,16 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage) {
   return listing;
 }
 
+const std::vector<std::string>& quantity_names() {
+  static const std::vector<std::string> names{
+      "id",       "x",           "v",           "m",       "V0",        "volume",
+      "F_E",      "J_E",         "stretch_min", "J_P",     "kirchhoff", "elastic_energy",
+      "C",        "stretch_max", "node",        "mass",    "v_old",     "momentum",
+      "force",    "v_free",      "dv",          "v_star",  "v_new",     "moved",
+      "dv_solve", "grad_v",      "F_E_trial",   "v_before"};
+  return names;
+}
+
 void keep_only(Listing& listing, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::vector<std::string> known;

@@ -70,6 +70,9 @@ Listing list_state(const StepInspection& inside);
 /// then particles.
 Listing list_stage(const StepInspection& inside, sim::Stage stage);
 
+/// Names of the quantities of all stages and of the state before the step.
+const std::vector<std::string>& quantity_names();
+
 /// Keeps the named ones.
 /// @throws UsageError with the nearest name
 void keep_only(Listing& listing, const std::vector<std::string>& names);

@@ -75,6 +75,9 @@ struct Command {
   std::string name, help;  ///< "sweep run"
   std::vector<Option> options;
   std::vector<std::function<void()>> checks;  ///< called when all words have been read
+  /// What to write instead of a word that no option takes, or that a flag without a value was given
+  /// as one; "": nothing is known.
+  std::function<std::string(const Command&, const std::string& word)> word_advice{};
 
   void about(const std::string& command, const std::string& sentence);
 
@@ -99,6 +102,14 @@ struct Command {
   Option* find(const std::string& name);
   const Option* find(const std::string& name) const {
     return const_cast<Command*>(this)->find(name);
+  }
+  bool has_given(const std::string& name) const {
+    const Option* option = find(name);
+    return option && option->is_given();
+  }
+  /// See word_advice.
+  std::string advice_for(const std::string& word) const {
+    return word_advice ? word_advice(*this, word) : "";
   }
   /// Names of all flags: "--frames".
   std::vector<std::string> flags() const;

@@ -49,8 +49,7 @@ class Parser {
     Option* option = command_.find(word.substr(0, equals));
     if (!option) return leftovers_.push_back(word);
     if (equals == word.size()) return take_value(*option);
-    if (option->is_flag)
-      throw UsageError(option->name(), "takes no value", "the flag alone turns it on" + help_);
+    if (option->is_flag) refuse_value(*option, word.substr(equals + 1));
     if (equals + 1 == word.size()) refuse_missing(*option, "");
     option->given.push_back(word.substr(equals + 1));
   }
@@ -81,6 +80,13 @@ class Parser {
         option.example.empty() ? "" : ", as in " + option.name() + " " + option.example;
     throw UsageError(option.name(), "has no value" + why,
                      "expected " + option.type + example + help_);
+  }
+
+  [[noreturn]] void refuse_value(Option& option, const std::string& value) const {
+    option.given.emplace_back();
+    const std::string advice = command_.advice_for(value);
+    throw UsageError(option.name(), "takes no value",
+                     advice.empty() ? "the flag alone turns it on" + help_ : advice);
   }
 
   void read_values() {

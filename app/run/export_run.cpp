@@ -136,6 +136,7 @@ ExportJob make_export_job(const ExportOptions& options) {
   job.are_frames = options.at.empty();
   if (!job.are_frames) {
     job.times = options.at;
+    timeline::require_before_end("--at", job.times.back(), job.run);
     const double last = std::ceil(job.times.back() * job.run.scene.fps);
     job.run.frames = {0, static_cast<int>(std::min(last, 1e9))};
     return job;
@@ -155,11 +156,7 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
       progress.warning(
           "vdb has mass, density and velocity of the nodes of the grid, and none of the attributes "
           "of particles that are asked for; another format has them, as in --format vdb,npz");
-  const double last = job.times.back();
-  timeline::warn_of_late_time(
-      job.are_frames ? "frame " + std::to_string(scene::number_of(run.scene, job.run.frames.last))
-                     : "--at " + rough_text(last) + " s",
-      last, run.scene, progress);
+  timeline::warn_of_late_frame(job.times.back(), run, progress);
   timeline::Timeline timeline = timeline::open(run, threads, progress);
   const sim::Simulation& simulation = timeline.simulation();
   if (job.run.folder == job.lock_folder)

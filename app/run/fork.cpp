@@ -26,13 +26,6 @@ scene::Scene with_all_changes(const RenderJob& job) {
   return timeline::with_changes(job.scene, timeline::changes_of(job.scene, job.changes));
 }
 
-/// A time that would be right as the number of a frame.
-std::string advice_on_frame(const RenderJob& job, int last) {
-  const double frame = job.fork->time;
-  if (frame != std::floor(frame) || frame > last) return {};
-  return fmt::format("; frame {} is at {} s", frame, rough_text(frame / job.scene.fps));
-}
-
 /// The numbers that a preset sets and that can change while a run runs; others stay, with a note.
 void take_live_numbers(const scene::Scene& before, Fork& fork) {
   std::vector<scene::Override> changes;
@@ -89,11 +82,11 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
       options.frames ? std::optional(setup::frames_of(job.scene, *options.frames)) : std::nullopt;
   const int last = frames ? frames->last : scene::last_frame(forked);
   if (last < first)
-    throw UsageError(
-        "--from",
-        fmt::format("{} s is at or after frame {}, the last one", rough_text(job.fork->time),
-                    scene::number_of(job.scene, last)),
-        "expected an earlier time, or a later frame with --frames" + advice_on_frame(job, last));
+    throw UsageError("--from",
+                     fmt::format("{} s is at or after frame {}, the last one",
+                                 rough_text(job.fork->time), scene::number_of(job.scene, last)),
+                     "expected an earlier time, or a later frame with --frames" +
+                         timeline::advice_on_frame(job.fork->time, last, job.scene.fps));
   job.frames = {frames ? std::max(frames->first, first) : first, last};
   if (options.out.empty())
     job.folder = out_folder() / fmt::format("{}-from-{}s", job.name(), rough_text(job.fork->time));

@@ -222,6 +222,7 @@ StripJob make_strip_job(const StripOptions& options) {
   const bool is_picture_of_one = job.run.picture && !run.frames && job.run.frames.first > 0;
   const setup::FrameRange frames =
       is_picture_of_one ? setup::FrameRange{0, job.run.frames.last} : job.run.frames;
+  if (!options.at.empty()) timeline::require_before_end("--at", options.at.back(), job.run);
   const bool has_moments = !options.at.empty() || options.tiles || options.run.frames;
   if (made_again && !has_moments)
     job.times = made_again->times;
@@ -252,8 +253,7 @@ StripResult run_strip(const StripJob& job, const RenderOptions& options, Progres
     progress.warning("the strip has " + std::to_string(columns) +
                      " columns: one below the other, its tiles would be higher than the " +
                      std::to_string(renderer.max_size()) + " pixels that this backend draws");
-  timeline::warn_of_late_time(rough_text(job.times.back()) + " s", job.times.back(), job.run.scene,
-                              progress);
+  timeline::warn_of_late_frame(job.times.back(), job.run, progress);
   timeline::Timeline timeline = timeline::open(job.run, options.threads, progress);
   scene::Scene resolved = job.run.scene;
   place_cameras(job, resolved);

@@ -1,5 +1,7 @@
 #include "app/timeline/origin.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <system_error>
@@ -16,6 +18,7 @@
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
+#include "app/timeline/times.h"
 
 namespace neve::app::timeline {
 
@@ -177,6 +180,43 @@ std::string Origin::name() const {
   const bool ends_in_slash = !fs::path(scene_file).has_filename();
   return scene::name_of_scene(ends_in_slash ? fs::path(scene_file).parent_path().string()
                                             : scene_file);
+}
+
+int Origin::last_frame() const {
+  int last = scene::last_frame(scene);
+  if (picture) last = std::max(last, frames.last);
+  if (!run_frames.empty()) last = std::max(last, run_frames.back().frame);
+  return last;
+}
+
+void require_before_end(const char* flag, double time, const Origin& origin) {
+  const scene::Scene& scene = origin.scene;
+  const int end = origin.last_frame();
+  // Decimals round: 0.167 s means the fourth frame of 24 a second.
+  if (is_not_after(time, (end + 0.5) / scene.fps)) return;
+  const bool is_run = !origin.run.empty();
+  std::string more;
+  const int before = frame_at(time, scene.fps);
+  const int wanted = is_not_after(time, before / scene.fps) ? before : before + 1;
+  if (wanted < 1'000'000)
+    more = is_run ? fmt::format("; neve render {} --resume --frames {}-{} continues it",
+                                origin.run.string(), scene::number_of(scene, 0),
+                                scene::number_of(scene, wanted))
+                  : fmt::format("; --set frames={} makes it longer", wanted - 2 * scene.handles);
+  throw UsageError(flag,
+                   fmt::format("{} s is after the end of the {}, {} s (frame {})", rough_text(time),
+                               is_run ? "run" : "scene", rough_text(end / scene.fps),
+                               scene::number_of(scene, end)),
+                   "expected an earlier time" + advice_on_frame(time, end, scene.fps) + more);
+}
+
+void warn_of_late_frame(double time, const Origin& origin, Progress& progress) {
+  const int frame = frame_at(time, origin.scene.fps), end = origin.last_frame();
+  if (frame > end)
+    progress.warning(
+        fmt::format("frame {} is after the last frame, {}, and is simulated; Ctrl-C "
+                    "stops",
+                    scene::number_of(origin.scene, frame), scene::number_of(origin.scene, end)));
 }
 
 void write_origin(const fs::path& folder, record::RunRecord run, Moment moment) {

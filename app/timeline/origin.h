@@ -49,7 +49,16 @@ struct Origin {
 
   /// "snowball_drop" for scenes/snowball_drop.toml and out/snowball_drop.
   std::string name() const;
+  /// The last one that it has pictures of, or that is in its scene.
+  int last_frame() const;
 };
+
+/// A moment of --at lies in the film: nothing is simulated on behind its back.
+/// @param flag  with the time: "--at" @throws UsageError for a time after the last frame
+void require_before_end(const char* flag, double time, const Origin& origin);
+
+/// Warns where --frames goes on after the last frame, which is simulated. @param time  of its last
+void warn_of_late_frame(double time, const Origin& origin, Progress& progress);
 
 /// True for the path of a folder that exists.
 bool is_folder(const std::string& path);

@@ -6,10 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "app/scene/scene.h"
-#include "app/support/progress.h"
-#include "app/support/text.h"
-
 namespace neve::app::timeline {
 
 inline constexpr double typed_rounding = 1 + 1e-12;
@@ -23,14 +19,8 @@ inline int frame_at(double time, double fps) {
   return static_cast<int>(std::min(std::floor(time * fps * typed_rounding), 1e9));
 }
 
-/// Warns of a last time behind the last frame of the scene: it is simulated, and was a mistake of
-/// units more often than not. @param what  as it was typed: "--at 5 s"
-inline void warn_of_late_time(const std::string& what, double time, const scene::Scene& scene,
-                              Progress& progress) {
-  const double end = scene::duration(scene);
-  if (!is_not_after(time, end))
-    progress.warning(what + " is after the end of the scene, " + rough_text(end) +
-                     " s; Ctrl-C stops");
-}
+/// "; frame 24 is at 1 s" of a time in seconds that would be right as the number of a frame.
+/// @param last  frame; "" for later ones
+std::string advice_on_frame(double time, int last, double fps);
 
 }  // namespace neve::app::timeline

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <sstream>
 
+#include "app/dump/quantities.h"
 #include "app/output/atomic_file.h"
 #include "tests/cli/run_neve.h"
 
@@ -201,6 +203,70 @@ TEST_F(Dump, MistakesAreExplained) {
   wrong({"--probe", "3", "--stage", "rasterize"}, "nodes have no id");
   wrong({"--field", "vv"}, "expected id, x, v");
   wrong({"--format", "csv"}, "table or vtk");
+}
+
+TEST_F(Dump, AFieldWithoutItsFlagIsKnown) {
+  const auto wrong = [&](std::vector<std::string> arguments, const std::string& hint) {
+    arguments.insert(arguments.begin(), "dump");
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, 2) << hint;
+    EXPECT_TRUE(contains(result.errors, hint)) << result.errors;
+  };
+  const std::string right = "--field names the quantity: --field J_P --histogram";
+  for (const char* field : {"J_P", "j_p", "J_PP", "Jp"}) {
+    wrong({"scene.toml", "--histogram", field}, right);
+    wrong({"scene.toml", std::string("--histogram=") + field}, right);
+    wrong({"--histogram", field}, right);
+    wrong({"scene.toml", field}, "J_P is a quantity: --field J_P");
+  }
+  wrong({"scene.toml", "--histogram", "humidity"}, ", as in --field J_P --histogram");
+  wrong({"J_P"}, "J_P is a quantity: --field J_P");
+  wrong({"scene.toml", "--stage", "J_P"}, "J_P is a quantity: --field J_P");
+  wrong({"scene.toml", "--probe", "v_star"}, "v_star is a quantity: --field v_star");
+  wrong({"scene.toml", "--format", "mass"}, "mass is a quantity: --field mass");
+  wrong({"scene.toml", "--quantity", "mass"}, "did you mean --field?");
+  wrong({"scene.toml", "other"}, "neve dump --help lists its arguments");
+}
+
+TEST_F(Dump, ATimeAfterTheEndIsRefusedByAllThatTakeOne) {
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& message) {
+    const auto result = neve(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments[0];
+    EXPECT_TRUE(contains(result.errors, message)) << result.errors;
+  };
+  const std::string scene = "--at: 0.5 s is after the end of the scene, 0.167 s (frame 4); ";
+  const std::string longer = scene + "expected an earlier time; --set frames=12 makes it longer";
+  refused({"dump", "scene.toml", "--at", "0,0.5"}, longer);
+  refused({"export", "scene.toml", "--format", "ply", "--at", "0.5"}, longer);
+  refused({"strip", "scene.toml", "--at", "0.1,0.5"}, longer);
+  EXPECT_EQ(neve({"dump", "scene.toml", "--at", "0.167"}).exit_code, 0);  // as the end is written
+  refused({"dump", "scene.toml", "--at", "2"}, "; frame 2 is at 0.0833 s");
+  EXPECT_EQ(neve({"dump", "scene.toml", "--at", "0.5", "--set", "frames=12"}).exit_code, 0);
+  // Of a run that was made longer than its scene the end is that of the run.
+  const std::vector<std::string> render{"render", "scene.toml", "--out", "a", "--no-movie"};
+  ASSERT_EQ(neve(render).exit_code, 0);
+  const std::string run = "--at: 0.25 s is after the end of the run, 0.167 s (frame 4); ";
+  const std::string more = run + "expected an earlier time; neve render a --resume --frames 0-6";
+  const std::vector<std::string> dump{"dump", "a", "--at", "0.25"};
+  refused(dump, more);
+  folder.write("none.json", "[]");
+  refused({"view", "a", "--at", "0.25", "--replay", "none.json"}, more);
+  ASSERT_EQ(neve({"render", "a", "--resume", "--frames", "0-6", "--no-movie"}).exit_code, 0);
+  const auto seen = neve(dump);
+  EXPECT_EQ(seen.exit_code, 0) << seen.errors;
+  EXPECT_TRUE(contains(seen.errors, "continues from the checkpoint")) << seen.errors;
+}
+
+TEST_F(Dump, EveryQuantityOfEveryStageIsKnownByName) {
+  std::set<std::string> listed;
+  const auto add = [&](const app::Json& dump) {
+    for (const app::Json& q : dump["quantities"]) listed.insert(q["name"].get<std::string>());
+  };
+  add(json({}));
+  for (const char* stage : sim::stage_names)
+    add(json({"--stage", stage, "--set", "solver.beta=1"}));
+  const std::vector<std::string>& names = app::dump::quantity_names();
+  EXPECT_EQ(listed, std::set<std::string>(names.begin(), names.end()));
 }
 
 TEST_F(Dump, ABrokenStateIsShownToo) {
