@@ -433,7 +433,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   const sweep::plan::Refinement refinement = sweep::plan::refinement_of(options, plan);
   choose_runs(options, plan, progress);
   if (options.is_dry_run) {
-    sweep::plan::print_sweep_plan(plan, refinement, cores, options.is_json);
+    sweep::plan::print_sweep_plan(plan, refinement, options.rounds, cores, options.is_json);
     return exit_ok;
   }
   const output::MovieStyle movie = output::available_movie(options.movie, plan.base.fps);

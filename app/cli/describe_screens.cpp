@@ -134,6 +134,8 @@ void describe_pick(Command& visit, PickCommand& o) {
         "With --coarsen N: at the end make the pick at full resolution as well, with all --seeds, "
         "and "
         "show both beside each other in DIR/picked_pair.cdb/sheet.png");
+  visit("--dry-run", runs.is_dry_run,
+        "Print the runs of the next round, and the cost of all rounds; start nothing");
   visit("--out", runs.out, options::folder("round.html"),
         "Output folder instead of out/<name of the scene>.pick");
   options::describe_threads(visit, runs.threads, "Number of cores; 0: all");

@@ -71,16 +71,31 @@ void Game::check_is_beginning_of(const std::vector<Click>& list) const {
 }
 
 sweep::plan::SweepOptions Game::begin_round() {
-  if (tiles_.empty()) tiles_ = search::next_tiles(rounds_, dimension(), options_.seed);
+  sweep::plan::SweepOptions runs = next_round();
   output::make_folder(folder_);
-  const fs::path file = folder_ / fmt::format("round_{}.toml", answered() + 1);
-  output::write_file(file, round_sweep(scene_, folder_, answered() + 1, tiles_));
+  output::write_file(runs.file, runs.text);
+  runs.text.clear();
+  runs.is_json = false;
+  return runs;
+}
+
+sweep::plan::SweepOptions Game::next_round() {
+  if (tiles_.empty()) tiles_ = search::next_tiles(rounds_, dimension(), options_.seed);
   sweep::plan::SweepOptions runs = options_.runs;
-  runs.file = file.string();
+  runs.file = (folder_ / fmt::format("round_{}.toml", answered() + 1)).string();
+  runs.text = round_sweep(scene_, folder_, answered() + 1, tiles_);
   runs.axes.clear();
   runs.overrides.clear();
   runs.out = folder_.string();
-  runs.is_json = false;
+  return runs;
+}
+
+sweep::plan::SweepOptions Game::plan() {
+  sweep::plan::SweepOptions runs = next_round();
+  runs.is_dry_run = true;
+  runs.rounds = options_.rounds - answered();
+  // The pick, for --refine: which it will be is as open as which points of a sweep are the best.
+  runs.refine = options_.refines ? 1 : 0;
   return runs;
 }
 

@@ -50,6 +50,8 @@ class Game {
   const std::vector<search::Point>& tiles() const { return tiles_; }
   /// Chooses the tiles and writes their sweep file. @return the sweep to make
   sweep::plan::SweepOptions begin_round();
+  /// The next round, with the number of those that are left: for a plan. Writes nothing.
+  sweep::plan::SweepOptions plan();
   /// Writes the page of the tiles, once they are made.
   void write_page(const sweep::jobs::SweepProgress& runs) const;
 
@@ -73,6 +75,8 @@ class Game {
 
  private:
   int dimension() const { return static_cast<int>(scene_.axes.size()); }
+  /// With the text of its file, which is not written.
+  sweep::plan::SweepOptions next_round();
   void take(const Click& click);
   std::vector<std::string> comment() const;
   void write_clicks() const;

@@ -34,6 +34,32 @@ class PickCli : public Cli {
   }
 };
 
+TEST_F(PickCli, ADryRunSaysWhatTheRoundsCostAndWritesNothing) {
+  const std::vector<std::string> dry{"--dry-run", "--coarsen", "2",        "--seeds",
+                                     "2",         "--refine",  "--rounds", "3"};
+  const auto planned = pick("1\n", "a", dry);
+  ASSERT_EQ(planned.exit_code, 0) << planned.errors;
+  EXPECT_FALSE(exists("a"));
+  const app::Json plan = app::parse_json(std::string_view(planned.output));
+  EXPECT_EQ(plan["runs"].size(), 18u);
+  EXPECT_EQ(plan["rounds"], 3);
+  EXPECT_EQ(plan["runs_in_all"], 54);
+  EXPECT_EQ(plan["refinement"]["runs"], 2);
+  EXPECT_GE(plan["seconds_in_all"].get<double>(), 3 * plan["seconds"].get<double>());
+  // Of a search that has an answer the next round is told, as it will be.
+  ASSERT_EQ(pick("1\n", "b", {"--rounds", "2"}).exit_code, 0);
+  const auto next = neve({"pick", "scene.toml", "--out", "b", "--frames", "2", "--size", "64x36",
+                          "--rounds", "3", "-p", "material.snow.hardening=2,20", "-p",
+                          "material.snow.youngs_modulus=2e4,1e6", "--dry-run"});
+  ASSERT_EQ(next.exit_code, 0) << next.errors;
+  EXPECT_TRUE(contains(next.output, "9 runs of scene.toml")) << next.output;
+  EXPECT_TRUE(contains(next.output, "this is the next of 2 rounds: 18 runs, about")) << next.output;
+  EXPECT_FALSE(exists("b/round_2.toml"));
+  const auto over = pick("1\n", "b", {"--rounds", "1", "--dry-run"});
+  EXPECT_EQ(over.exit_code, 0);
+  EXPECT_TRUE(contains(over.errors, "all 1 rounds are answered")) << over.errors;
+}
+
 TEST_F(PickCli, ReplayedClicksGiveTheSamePickToTheBit) {
   const auto first = pick("# a comment\n3\n2 7\n", "a");
   ASSERT_EQ(first.exit_code, 0) << first.errors;

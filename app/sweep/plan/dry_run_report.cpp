@@ -50,10 +50,10 @@ double seconds_of_copies(const SweepPlan& plan, const StudyForecast& forecast) {
   return seconds;
 }
 
-/// s on these cores, of the runs and of what is made besides them.
+/// s on these cores, of the runs of all rounds and of what is made besides them.
 double seconds_in_all(const SweepPlan& plan, const Refinement& refinement,
-                      const StudyForecast& forecast, double of_runs, int cores) {
-  return of_runs +
+                      const StudyForecast& forecast, double of_runs, int rounds, int cores) {
+  return rounds * of_runs +
          (seconds_of_copies(plan, forecast) + cost_of(refinement, plan, forecast).seconds) / cores;
 }
 
@@ -68,7 +68,8 @@ Json refinement_json(const SweepPlan& plan, const Refinement& refinement,
 }
 
 void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
-                const forecast::Cost& seconds_of_all, const Refinement& refinement, int cores) {
+                const forecast::Cost& seconds_of_all, const Refinement& refinement, int rounds,
+                int cores) {
   Json json;
   json["title"] = plan.title;
   json["scene"] = plan.sweep.scene_file;
@@ -99,12 +100,16 @@ void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
   if (!plan.variants.empty())
     json["prediction"] = {{"copies", plan.variants.size()},
                           {"seconds", seconds_of_copies(plan, foreseen)}};
+  if (rounds > 1) {
+    json["rounds"] = rounds;
+    json["runs_in_all"] = static_cast<std::size_t>(rounds) * plan.runs.size();
+  }
   if (refinement.is_wanted()) json["refinement"] = refinement_json(plan, refinement, foreseen);
   json["memory_bytes"] = whole_bytes(totals_of(plan).largest);
   json["seconds"] = seconds_of_all.expected;
   json["seconds_range"] = {seconds_of_all.least, seconds_of_all.most};
   json["seconds_in_all"] =
-      seconds_in_all(plan, refinement, foreseen, seconds_of_all.expected, cores);
+      seconds_in_all(plan, refinement, foreseen, seconds_of_all.expected, rounds, cores);
   std::cout << to_text(json) << "\n";
 }
 
@@ -146,6 +151,15 @@ void print_table(const SweepPlan& plan, const StudyForecast& forecast) {
   }
 }
 
+/// Rounds of a search, of which the table has the first.
+std::string rounds_text(const SweepPlan& plan, int rounds, double seconds) {
+  if (rounds == 1) return "";
+  return fmt::format(
+      "this is the next of {} rounds: {} runs, about {} if the others cost as much; the search may "
+      "end after any of them\n",
+      rounds, static_cast<std::size_t>(rounds) * plan.runs.size(), duration_text(rounds * seconds));
+}
+
 std::string copies_text(const SweepPlan& plan, const StudyForecast& forecast, int cores) {
   if (plan.variants.empty()) return "";
   return fmt::format(
@@ -169,14 +183,14 @@ std::string full_runs_text(const SweepPlan& plan, const Refinement& refinement,
 
 }  // namespace
 
-void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int cores,
+void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int rounds, int cores,
                       bool is_json) {
   std::vector<std::size_t> all(plan.runs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const StudyForecast forecast = foresee_study(plan, all, whole_effort(cores), cores);
   const Totals totals = totals_of(plan);
   const auto seconds = forecast.seconds_of_all(all, cores);
-  if (is_json) return print_json(plan, forecast, seconds, refinement, cores);
+  if (is_json) return print_json(plan, forecast, seconds, refinement, rounds, cores);
   print_table(plan, forecast);
   const std::string longest = longest_text(plan, all, forecast);
   if (plan.source)
@@ -198,13 +212,13 @@ void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int c
                    "a run\n",
                    duration_text(seconds.expected), cores, cores == 1 ? "core" : "cores",
                    bytes_text(whole_bytes(totals.largest)))
-            << copies_text(plan, forecast, cores)
+            << rounds_text(plan, rounds, seconds.expected) << copies_text(plan, forecast, cores)
             << full_runs_text(plan, refinement, forecast, cores)
-            << (plan.variants.empty() && !refinement.is_wanted()
+            << (plan.variants.empty() && !refinement.is_wanted() && rounds == 1
                     ? ""
                     : fmt::format("in all about {}\n",
                                   duration_text(seconds_in_all(plan, refinement, forecast,
-                                                               seconds.expected, cores))))
+                                                               seconds.expected, rounds, cores))))
             << (longest.empty() ? "" : longest + "\n")
             << (plan.keeps_states ? fmt::format("kept states take about {} on disk\n",
                                                 bytes_text(whole_bytes(bytes_of_states(plan))))

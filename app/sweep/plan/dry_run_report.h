@@ -8,6 +8,8 @@ namespace neve::app::sweep::plan {
 
 /// On stdout; measures some steps of the costliest run to foresee seconds.
 /// @param refinement  points that are made at full resolution as well, counted apart
-void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int cores, bool is_json);
+/// @param rounds      of a search, each of so many runs
+void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int rounds, int cores,
+                      bool is_json);
 
 }  // namespace neve::app::sweep::plan

@@ -16,6 +16,7 @@ namespace neve::app::sweep::plan {
 
 struct SweepOptions {
   std::string file;                    ///< a sweep file or a scene
+  std::string text;                    ///< of the file, where it is not written; "": it is read
   std::vector<std::string> axes;       ///< -p
   std::vector<std::string> overrides;  ///< --set
   std::optional<setup::FrameRange> frames;
@@ -51,6 +52,7 @@ struct SweepOptions {
   ProgressOptions progress{};
   bool is_agreed = false;  ///< to what a picture that came alone costs and reads
   bool is_dry_run = false;
+  int rounds = 1;  ///< of a search that are to come, each of so many runs
   bool is_json = false;
 };
 

@@ -221,6 +221,8 @@ run::RenderJob source_job(const SweepOptions& options) {
 read::Sweep sweep_of(const SweepOptions& options, const std::optional<run::RenderJob>& source) {
   const read::SweepChanges changes{options.axes, options.overrides,
                                    options.fork.has_value() || source.has_value(), options.seeds};
+  if (!source && !options.text.empty())
+    return read::parse_sweep(options.text, options.file, changes);
   if (!source) return read::read_sweep(options.file, changes);
   read::Sweep sweep = read::parse_sweep("", options.file, changes);
   sweep.name = source->folder.filename().string();
