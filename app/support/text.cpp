@@ -98,6 +98,17 @@ std::string trimmed(std::string_view text, std::string_view blanks) {
   return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
 }
 
+std::vector<std::string> broken_lines(const std::string& text, std::size_t most) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+    if (lines.empty() || lines.back().size() + 1 + word.size() > most)
+      lines.push_back(word);
+    else
+      lines.back() += " " + word;
+  return lines;
+}
+
 std::string last_line(std::string_view text) {
   const std::string whole = trimmed(text, " \t\r\n");
   return whole.substr(whole.find_last_of("\r\n") + 1);

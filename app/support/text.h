@@ -38,6 +38,8 @@ std::optional<Number> number_of(std::string_view text) {
 std::optional<double> finite_number(std::string_view text);
 /// Without the blanks around it.
 std::string trimmed(std::string_view text, std::string_view blanks = " \t");
+/// Its words in lines of at most so many bytes, but for longer words; none of a text without words.
+std::vector<std::string> broken_lines(const std::string& text, std::size_t most);
 /// The last line that has more than blanks; "" if none has.
 std::string last_line(std::string_view text);
 /// "a,b" without empty words.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/output/read_picture.h"
 #include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/cinema.h"
@@ -73,6 +74,29 @@ TEST_F(SweepResults, ResultsNameTheMissingRuns) {
   EXPECT_EQ(neve({"sweep", "collect", "out"}).exit_code, 6);
   folder.write("out/study.cdb/manifest.json", "{}");
   EXPECT_EQ(neve({"sweep", "collect", "out/study.cdb"}).exit_code, 3);
+}
+
+/// Pixels of a picture that are lighter than a tile without a picture.
+std::size_t lettered(const std::filesystem::path& file) {
+  const render::Image image = app::output::read_picture(file);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < image.pixels.size(); k += static_cast<std::size_t>(image.channels))
+    count += image.pixels[k] > 150;
+  return count;
+}
+
+TEST_F(Cli, ASheetWithoutAnyPictureSaysWhyThereIsNone) {
+  const auto sweep = [&](const char* limit, const char* out) {
+    return neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,10", "--set",
+                 std::string("limits.particles=") + limit, "--size", "480x270", "--frames", "0-1",
+                 "--out", out, "--quiet"});
+  };
+  EXPECT_EQ(sweep("10", "none").exit_code, 7);
+  for (const char* file : {"sheet.png", "sheet/0000.png", "report.html"})
+    EXPECT_TRUE(exists(std::string("none/") + file)) << file;
+  EXPECT_FALSE(exists("none/strips.png")) << "moments of nothing";
+  // "no picture", the state and its reason, on both tiles, besides the head and the edge.
+  EXPECT_GT(lettered(folder / "none/sheet.png"), 2500u);
 }
 
 /// A browser without a window, if there is one.

@@ -169,7 +169,10 @@ void write_sheets(const fs::path& folder, const store::Manifest& manifest, Sheet
                   int last, const output::MovieStyle& movie, Progress& progress) {
   for (std::size_t page = 0; page < maker.pages().size(); ++page)
     write_sheet_page(folder, manifest, maker, page, last, movie, progress);
-  if (is_interrupted() || manifest.last_frame() == manifest.first_frame()) return;
+}
+
+void write_strips(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
+                  int last) {
   output::PictureWriter writer;
   std::size_t page = 0;
   for (render::Image& image : maker.strips())
@@ -304,13 +307,13 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   ThreadPool pool(threads);
   render::Renderer renderer(*context, {}, &pool);
   SheetMaker maker(folder, manifest, results, predictions, legends, renderer);
-  std::vector<std::uint8_t> sheet;
   write_starred(folder, manifest, results, legends, renderer);
-  if (has_pictures(results)) {
-    write_sheets(folder, manifest, maker, last_drawn(manifest, results), movie, progress);
-    if (is_interrupted()) return;
-    sheet = output::read_file(folder / "sheet.png");
-  }
+  write_sheets(folder, manifest, maker, last_drawn(manifest, results), movie, progress);
+  const bool has_moments = manifest.last_frame() > manifest.first_frame();
+  if (!is_interrupted() && has_moments && has_pictures(results))
+    write_strips(folder, manifest, maker, last_drawn(manifest, results));
+  if (is_interrupted()) return;
+  const std::vector<std::uint8_t> sheet = output::read_file(folder / "sheet.png");
   output::write_file(folder / "report.html",
                      report_html(folder.string(), manifest, results, maker.pages().front().layout,
                                  sheet, maker.pages().size(), predictions));

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "app/support/text.h"
 #include "app/sweep/sheet/marks.h"
 #include "app/sweep/sheet/sheet_layout.h"
 
@@ -53,15 +53,11 @@ std::vector<KeyLine> wrapped_key(const std::vector<KeyLine>& key, int width, int
   const auto letters = static_cast<std::size_t>(std::max(10.0, room / letter_width));
   std::vector<KeyLine> lines;
   for (const KeyLine& entry : key) {
-    lines.push_back({entry.mark, ""});
-    std::istringstream words(entry.text);
-    for (std::string word; words >> word;) {
-      std::string& text = lines.back().text;
-      if (!text.empty() && text.size() + 1 + word.size() > letters)
-        lines.push_back({Mark::none, word});
-      else
-        text += (text.empty() ? "" : " ") + word;
-    }
+    const std::size_t first = lines.size();
+    for (std::string& text : broken_lines(entry.text, letters))
+      lines.push_back({Mark::none, std::move(text)});
+    if (lines.size() == first) lines.push_back({});
+    lines[first].mark = entry.mark;
   }
   return lines;
 }

@@ -197,6 +197,7 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
                                                                 : seal_grey});
   add_seal(layout, tile, words);
   add_star(layout, tile, words);
+  if (tile.result->frames.empty()) return add_missing(layout, tile, words);
   if (!is_dark) return;
   const auto [state, reason] = split_state(jobs::tile_text(tile.result->status));
   const bool is_alarm = store::has_failed(tile.result->status.state);
@@ -210,6 +211,31 @@ void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, boo
   if (!state.empty() && !reason.empty())
     words.notes.push_back(
         {middle, y + 1.6f * size, reason, render::Note::Anchor::middle, room, false, seal_ink});
+}
+
+/// "no picture", the state of the run, and why it is so, in lines.
+void SheetMaker::add_missing(const SheetLayout& layout, const Tile& tile,
+                             render::Frame& words) const {
+  constexpr std::size_t max_lines = 4;
+  const store::RunStatus& status = tile.result->status;
+  const auto size = static_cast<float>(layout.font_size);
+  const auto width = static_cast<float>(layout.tile_width), room = width - 1.2f * size;
+  std::vector<std::string> lines =
+      broken_lines(status.reason, static_cast<std::size_t>(room / (letter_width * size)));
+  if (lines.size() > max_lines) {
+    lines.resize(max_lines);
+    lines.back() += " ...";
+  }
+  const std::string state = jobs::tile_text(status);
+  lines.insert(lines.begin(), {"no picture", state});
+  const float x = static_cast<float>(tile.x) + 0.5f * width;
+  float y = static_cast<float>(tile.y) + 0.5f * (static_cast<float>(layout.tile_height) -
+                                                 1.4f * size * static_cast<float>(lines.size()));
+  for (std::size_t k = 0; k < lines.size(); ++k, y += 1.4f * size)
+    words.notes.push_back({x, y, lines[k], render::Note::Anchor::middle, room, false,
+                           k == 1 && store::has_failed(status.state) ? alarm
+                           : k == 0                                  ? seal_ink
+                                                                     : seal_grey});
 }
 
 /// "starred" and the note, in the upper right corner.
@@ -299,7 +325,8 @@ render::Image SheetMaker::sheet(int frame, std::size_t page) {
 }
 
 std::vector<render::Image> SheetMaker::strips() {
-  const std::vector<int> frames = moments();
+  const SnowInPictures snow(folder_, manifest_, results_);
+  const std::vector<int> frames = snow.moments(max_moments);
   const int largest = renderer_.max_size();
   const auto layout_of = [&](std::size_t first, std::size_t count) {
     return layout_sheet(strip_grid(frames, first, count), !legends_.empty(), largest);
@@ -309,16 +336,18 @@ std::vector<render::Image> SheetMaker::strips() {
   while (count > 1 && !fits(layout_of(0, count), largest)) count = (count + 1) / 2;
   std::vector<render::Image> images;
   for (std::size_t first = 0; first < runs; first += count)
-    images.push_back(strips_of(frames, first, layout_of(first, std::min(count, runs - first))));
+    images.push_back(
+        strips_of(frames, snow, first, layout_of(first, std::min(count, runs - first))));
   return images;
 }
 
-render::Image SheetMaker::strips_of(const std::vector<int>& frames, std::size_t first,
-                                    const SheetLayout& layout) {
+render::Image SheetMaker::strips_of(const std::vector<int>& frames, const SnowInPictures& snow,
+                                    std::size_t first, const SheetLayout& layout) {
+  const bool is_part = frames.front() > manifest_.first_frame();
   render::Frame words = frame_of(
       layout,
       (manifest_.seeds == 1 ? "moments of every run" : "moments of every point, first seed") +
-          std::string(dot) + counts_);
+          std::string(is_part ? ", from the first with snow in a picture on" : "") + dot + counts_);
   std::vector<render::Tile> pictures;
   for (const SheetTile& place : layout.tiles) {
     const std::size_t run = first + place.run / frames.size();
@@ -327,20 +356,14 @@ render::Image SheetMaker::strips_of(const std::vector<int>& frames, std::size_t 
     const bool is_dark = is_late(*tile.run, *tile.result, tile.frame);
     pictures.push_back(
         {tile.x, tile.y, tile_picture(tile, layout.tile_width, layout.tile_height, is_dark)});
-    if (is_dark) add_state(layout, tile, words);
+    if (tile.result->frames.empty())
+      add_missing(layout, tile, words);
+    else if (is_dark)
+      add_state(layout, tile, words);
+    else if (!snow.has_snow(run, tile.frame))
+      add_middle(layout, tile, "no snow in the picture", seal_grey, words);
   }
   return renderer_.draw_over(render::compose(layout.width, layout.height, paper, pictures), words);
-}
-
-std::vector<int> SheetMaker::moments() const {
-  const int first = manifest_.first_frame(), last = manifest_.last_frame();
-  const std::size_t count = std::min(max_moments, static_cast<std::size_t>(last - first + 1));
-  std::vector<int> frames;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double part = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 1;
-    frames.push_back(first + static_cast<int>(std::lround(part * (last - first))));
-  }
-  return frames;
 }
 
 /// Runs as rows and moments as columns: a sheet of two axes.
@@ -368,16 +391,21 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames, std::size
   return grid;
 }
 
-/// Reason why a run has ended, in few words.
-void SheetMaker::add_state(const SheetLayout& layout, const Tile& tile,
-                           render::Frame& words) const {
-  const auto [state, reason] = split_state(jobs::tile_text(tile.result->status));
+void SheetMaker::add_middle(const SheetLayout& layout, const Tile& tile, const std::string& text,
+                            const std::array<std::uint8_t, 3>& color, render::Frame& words) const {
   const auto width = static_cast<float>(layout.tile_width);
   words.notes.push_back({static_cast<float>(tile.x) + 0.5f * width,
                          static_cast<float>(tile.y) +
                              0.5f * static_cast<float>(layout.tile_height - layout.font_size),
-                         state.empty() ? reason : state, render::Note::Anchor::middle, width, false,
-                         store::has_failed(tile.result->status.state) ? alarm : seal_grey});
+                         text, render::Note::Anchor::middle, width, false, color});
+}
+
+/// Reason why a run has ended, in few words.
+void SheetMaker::add_state(const SheetLayout& layout, const Tile& tile,
+                           render::Frame& words) const {
+  const auto [state, reason] = split_state(jobs::tile_text(tile.result->status));
+  add_middle(layout, tile, state.empty() ? reason : state,
+             store::has_failed(tile.result->status.state) ? alarm : seal_grey, words);
 }
 
 }  // namespace neve::app::sweep::sheet

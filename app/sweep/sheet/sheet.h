@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/sweep/sheet/moments.h"
 #include "app/sweep/sheet/seals.h"
 #include "app/sweep/sheet/sheet_layout.h"
 #include "app/sweep/store/results.h"
@@ -24,7 +25,7 @@ class SheetMaker {
              const std::vector<render::Legend>& legends, render::Renderer& renderer);
 
   /// Every run of a page at a frame. A run that got less far shows where it stopped, dark, and says
-  /// why.
+  /// why; one without a picture says that and why.
   render::Image sheet(int frame, std::size_t page);
 
   const std::vector<SheetPage>& pages() const { return pages_; }
@@ -48,16 +49,18 @@ class SheetMaker {
   render::Image tile_picture(const Tile& tile, int width, int height, bool is_late) const;
   void add_tile_words(const SheetLayout& layout, const Tile& tile, bool is_late,
                       render::Frame& words) const;
+  void add_missing(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
   void add_seal(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
   void add_star(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
   void add_state(const SheetLayout& layout, const Tile& tile, render::Frame& words) const;
-  /// Frames that strips show.
-  std::vector<int> moments() const;
+  /// A line in the middle of a tile.
+  void add_middle(const SheetLayout& layout, const Tile& tile, const std::string& text,
+                  const std::array<std::uint8_t, 3>& color, render::Frame& words) const;
   /// @param first, count  runs
   store::Manifest strip_grid(const std::vector<int>& frames, std::size_t first,
                              std::size_t count) const;
-  render::Image strips_of(const std::vector<int>& frames, std::size_t first,
-                          const SheetLayout& layout);
+  render::Image strips_of(const std::vector<int>& frames, const SnowInPictures& snow,
+                          std::size_t first, const SheetLayout& layout);
   render::Frame frame_of(const SheetLayout& layout, const std::string& line) const;
 
   std::filesystem::path folder_;

@@ -150,8 +150,13 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   std::error_code error;
   // run.json lists a frame before its pictures are written: a run that was killed lacks the last.
   for (const record::FrameRecord& frame : frames)
-    if (std::filesystem::is_regular_file(output::frame_path(run_folder, view, frame.frame), error))
+    if (std::filesystem::is_regular_file(output::frame_path(run_folder, view, frame.frame),
+                                         error)) {
       result.frames.push_back(frame.frame);
+      result.places.push_back({frame.frame, frame.time, frame.summary.particles,
+                               frame.summary.centre_of_mass, frame.metrics.spread,
+                               frame.metrics.height});
+    }
   if (is_damaged)
     result.flaws = "status.json is damaged";
   else if (result.status.key == run.key)

@@ -21,6 +21,15 @@ struct MetricInfo {
 /// In the order in which they are listed everywhere.
 const std::vector<MetricInfo>& metric_infos();
 
+/// Where the snow of a run is at a frame.
+struct SnowPlace {
+  int frame = 0;
+  double time = 0;  ///< s
+  std::size_t particles = 0;
+  sim::Vec3d centre;              ///< of mass, m
+  double spread = 0, height = 0;  ///< m, see record::Metrics
+};
+
 struct RunResult {
   RunStatus status;
   std::vector<int> frames;  ///< that have a picture, in order
@@ -31,7 +40,8 @@ struct RunResult {
   std::string flaws{};  ///< see flaws_of_run
   /// Of a run that got to its last frame, against its first picture; see record::has_broken.
   std::optional<bool> has_broken{};
-  std::optional<double> whole{};  ///< its largest piece as a share of that of its first picture
+  std::optional<double> whole{};    ///< its largest piece as a share of that of its first picture
+  std::vector<SnowPlace> places{};  ///< of the frames that have a picture
 
   std::optional<int> last_frame() const {
     return frames.empty() ? std::nullopt : std::optional(frames.back());
