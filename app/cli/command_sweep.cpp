@@ -523,6 +523,7 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   sweep::jobs::LocalOptions engine;
   engine.cores = core_count(options.threads);
   engine.jobs = 1;
+  engine.is_one_of_many = true;
   engine.backend = options.backend;
   engine.retry_failed = retry_of(options.retry_failed);
   engine.program = this_program();

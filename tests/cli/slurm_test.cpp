@@ -191,5 +191,17 @@ TEST_F(SlurmForks, RunsOfABeginningThatFailsAreFailedAndTheOthersAreMade) {
       << "its job tries it again, and not each run once more";
 }
 
+TEST_F(SlurmForks, AFirstSubmissionThatRetriesTriesABeginningOnce) {
+  folder.write("before_job", "echo 'no scene' > array/beginning_2/scene.toml\n");
+  const auto done = forks("array", "--engine slurm --retry-failed");
+  EXPECT_EQ(done.exit_code, app::exit_runs_failed) << done.errors;
+  EXPECT_EQ(json_of("array/beginning_2/status.json")["attempts"], 1);
+  // By hand a run that failed with it is asked for, and its beginning with it, once.
+  fs::remove(folder / "before_job");
+  const std::vector<std::string> run{"sweep", "run", "array", "--index", "1", "--retry-failed"};
+  EXPECT_EQ(neve(run).exit_code, app::exit_runs_failed) << "its scene is still none";
+  EXPECT_EQ(json_of("array/beginning_2/status.json")["attempts"], 2);
+}
+
 }  // namespace
 }  // namespace neve::test

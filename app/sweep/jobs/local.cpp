@@ -166,14 +166,14 @@ class LocalJobs {
     }
   }
 
-  /// False of a beginning that was tried again since all runs that wait failed with it: on Slurm
-  /// each is a process that was asked to repeat what failed.
+  /// False of a beginning that was tried again since all runs that wait failed with it, or that
+  /// failed before any of them: on Slurm each is a process that was asked to repeat what failed.
   bool is_retried(const Run& beginning, const store::RunStatus& status) const {
     if (is_asked_for(beginning)) return true;
     return std::ranges::any_of(queue_, [&](const Run* run) {
       if (&manifest_.beginning->run_of(*run) != &beginning) return false;
       const int known = store::read_status(folder_of(*run)).failed_beginning;
-      return known == 0 || known >= status.attempts;
+      return known == 0 ? !options_.is_one_of_many : known >= status.attempts;
     });
   }
 

@@ -19,6 +19,8 @@ struct LocalOptions {
   double budget = 0;              ///< s for all of them; 0: as long as they take
   std::vector<int> beginnings{};  ///< indices of common beginnings to make, whatever runs need
   store::Retry retry_failed;      ///< states of runs that are made once more
+  /// One run of a sweep whose others are processes too: its common beginning was tried for all.
+  bool is_one_of_many = false;
   double grace = 20;              ///< s that a run has to end when it is asked to
   std::filesystem::path program;  ///< whose `render` makes the runs
 };
