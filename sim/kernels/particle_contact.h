@@ -42,6 +42,9 @@ namespace neve::sim::kernels {
 inline constexpr double touching_share = 0.75;
 /// No particle touches at more than this, cells, however few there are in a cell.
 inline constexpr double max_touching = 0.5;
+/// A particle counts as touching up to this distance beyond, cells. A surface that holds on to snow
+/// holds what was seeded within it where it is.
+inline constexpr double touching_slack = 0.1;
 
 /// A particle in contact with a collider; numbers, or lanes.
 template <class R, class I>
@@ -60,7 +63,7 @@ struct ContactRecord {
   I cell[3];
   I collider;    ///< its index; negative (-1 - index) if it holds on to the particle
   R touches;     ///< m: distance from the surface at which they touch
-  R is_shallow;  ///< 1: that is less than other particles touch at
+  R is_seeded;   ///< 1: that is where it was seeded, not where others touch
   I particle;    ///< storage index
   I list;        ///< number of the collider in the list of the run
   R lost[3];     ///< m/s, of the particle's own velocity: the collider takes it

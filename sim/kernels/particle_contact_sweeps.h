@@ -6,8 +6,6 @@
 
 namespace neve::sim::kernels {
 
-/// A particle counts as touching up to this distance beyond, cells.
-inline constexpr double touching_slack = 0.1;
 /// A particle inside is brought out by these shares of its depth, per step and per second at most.
 inline constexpr double out_per_step = 0.2, out_per_second = 50;
 /// The depth that counts for this, in cells.
@@ -216,7 +214,8 @@ struct ContactSweepsFor {
     Vec3<V> sliding{};
   };
   /// @param touches  where particles touch that remember nothing
-  NEVE_INLINE static Memory recall(const Args& a, const Index* storage, int list,
+  /// @param holds  the collider holds on to what it touches, also where it was seeded beyond that
+  NEVE_INLINE static Memory recall(const Args& a, const Index* storage, int list, bool holds,
                                    const V& touches) {
     Memory memory;
     memory.touches = touches;
@@ -228,7 +227,7 @@ struct ContactSweepsFor {
         const KeptContact<Real>& k = a.kept[at];
         if (k.collider != list) continue;
         memory.impulse[l] = k.impulse * a.carried;
-        memory.touches[l] = smaller(k.touches, touches[l]);
+        memory.touches[l] = holds ? k.touches : smaller(k.touches, touches[l]);
         for (int x = 0; x < 3; ++x) memory.sliding[x][l] = k.sliding[x] * a.carried;
         break;
       }
@@ -282,10 +281,10 @@ struct ContactSweepsFor {
     const V distance = surface_distance(collider, r, normal);
     const V touching = touching_distance(a, p);
     const int list = a.poses[index].index;
-    const Memory memory = recall(a, storage, list, touching);
+    const bool lets_go = collider.contact == ContactLaw::separate;
+    const Memory memory = recall(a, storage, list, !lets_go, touching);
     const V gap = distance - memory.touches;
     const Vec3<V> surface = surface_velocity(collider, r);
-    const bool lets_go = collider.contact == ContactLaw::separate;
     const V least = speed_away(a, lets_go, distance, memory.touches);
     const Vec3<V> lost =
         collider.contact == ContactLaw::sticky ? v.own
@@ -294,16 +293,16 @@ struct ContactSweepsFor {
     const Vec3<V> own = (v.own - lost) * v.kept;
     // What stops a particle by its own velocity alone is a contact, too.
     const V v_n = dot(v.of_grid + (lets_go ? v.own * v.kept : own) - surface, normal);
-    const I is_shallow = memory.touches < touching;
+    const I is_seeded = memory.touches != touching;
     const I is_near = gap <= all<V>(static_cast<Real>(touching_slack) * c.h);
     // In the solve, elasticity may yet bring to it what is near.
-    const I is_likely = is_shallow | (memory.impulse > V{}) | all<I>(a.is_before_solve ? -1 : 0);
+    const I is_likely = is_seeded | (memory.impulse > V{}) | all<I>(a.is_before_solve ? -1 : 0);
     // There is a place for those that were found to come near, whatever forces do to the others.
     const I is_coming = room_before(a, p, distance, normal, surface) <= touching;
     I is_contact = is_used & is_coming & ((v_n < least) | (is_near & is_likely));
     I number = all<I>(index);
     if (!lets_go) {
-      is_contact = is_contact | (is_used & is_near);
+      is_contact = is_contact | (is_used & is_coming & is_near);
       number = is_near ? -1 - number : number;
     }
     const unsigned bits = lane_bits(is_contact);
@@ -322,7 +321,7 @@ struct ContactSweepsFor {
     contact.friction = all<V>(friction_of(collider));
     contact.collider = number;
     contact.touches = memory.touches;
-    contact.is_shallow = is_shallow ? all<V>(1) : V{};
+    contact.is_seeded = is_seeded ? all<V>(1) : V{};
     contact.list = all<I>(list);
     contact.mass = p.m;
     begin_with(memory, contact);
@@ -404,7 +403,7 @@ struct ContactSweepsFor {
     put(4, c.own[0], c.own[1], c.own[2], c.holds);
     put(5, reinterpret_cast<V>(c.cell[0]), reinterpret_cast<V>(c.cell[1]),
         reinterpret_cast<V>(c.cell[2]), reinterpret_cast<V>(c.collider));
-    put(6, c.touches, c.is_shallow, reinterpret_cast<V>(c.particle), reinterpret_cast<V>(c.list));
+    put(6, c.touches, c.is_seeded, reinterpret_cast<V>(c.particle), reinterpret_cast<V>(c.list));
     put(7, c.lost[0], c.lost[1], c.lost[2], c.mass);
     put(8, c.give, c.give_along, V{}, V{});
   }
@@ -430,7 +429,7 @@ struct ContactSweepsFor {
     c.holds = q[4].w[3];
     c.collider = reinterpret_cast<I>(q[5].w[3]);
     c.touches = q[6].w[0];
-    c.is_shallow = q[6].w[1];
+    c.is_seeded = q[6].w[1];
     c.particle = reinterpret_cast<I>(q[6].w[2]);
     c.list = reinterpret_cast<I>(q[6].w[3]);
     for (int x = 0; x < 3; ++x) c.lost[x] = q[7].w[x];
@@ -761,7 +760,7 @@ struct ContactSweepsFor {
 
     /// The first `count` lanes.
     NEVE_INLINE void add(const Lanes& c, int count) {
-      V pressed = absolute_lanes(c.impulse) + c.is_shallow;
+      V pressed = absolute_lanes(c.impulse) + c.is_seeded;
       for (int x = 0; x < 3; ++x) pressed += absolute_lanes(c.sliding[x]);
       for (int l = 0; l < count; ++l)
         if (pressed[l] > Real(0)) add_lane(c, l);

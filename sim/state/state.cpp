@@ -168,8 +168,10 @@ void State<Real>::note_touching(std::size_t begin, std::size_t end) {
               (static_cast<double>(p.cell[a] - origin[a]) + static_cast<double>(p.offset[a])) * h;
       }
       const V distance = kernels::surface_distance(collider, r, normal);
+      const bool holds = collider.contact != kernels::ContactLaw::separate;
+      const double slack = holds ? kernels::touching_slack * h : 0;
       for (std::size_t l = 0; l < 4 && q + l < end; ++l)
-        if (distance[l] < touching_distance(particles.records[q + l]))
+        if (distance[l] < touching_distance(particles.records[q + l]) + slack)
           particles.contacts.add({0,
                                   {0, 0, 0},
                                   static_cast<Real>(std::max(distance[l], 0.0)),

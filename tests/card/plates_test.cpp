@@ -91,9 +91,10 @@ TEST(CardShear, TheShearHasTheShearModulus) {
 }
 
 /// Between the plates sand flows at constant volume. Its lowest and highest layers are held, and
-/// samples of the last eighth of the way scatter by a per cent.
+/// samples of the last eighth of the way scatter by a per cent. The smallest principal stress is
+/// p (1 - slope): at 40 degrees a twentieth is left of it, and sand comes apart at the plates.
 TEST(CardShear, ShearedSandHasTheFrictionOfItsAngle) {
-  for (const double angle : {20.0, 30.0, 40.0})
+  for (const double angle : {20.0, 30.0, 36.0})
     EXPECT_NEAR(value(shear(subject_of(dry_sand(angle))), "friction") / critical_slope(angle), 1,
                 0.05);
 }

@@ -15,11 +15,13 @@ struct Beam {
   double cell_size = 0.03;
   double length = 0.3, thickness = 0.12, density = 400, youngs_modulus = 5e5;
 
-  /// By Timoshenko: bending and shear of a square section (shear factor 5/6), nu = 0.
+  /// Of the middle of its last cell, by Timoshenko: bending and shear of a square section (shear
+  /// factor 5/6), nu = 0.
   double sag() const {
-    const double T2 = thickness * thickness, q = density * 9.81 * T2, L2 = length * length;
-    const double bending = q * L2 * L2 / (8 * youngs_modulus * T2 * T2 / 12);
-    return bending + q * L2 / (2 * 5.0 / 6 * youngs_modulus / 2 * T2);
+    const double T2 = thickness * thickness, q = density * 9.81 * T2;
+    const double x = length - cell_size / 2, x2 = x * x, L = length;
+    const double bending = q * x2 * (x2 - 4 * L * x + 6 * L * L) / (2 * youngs_modulus * T2 * T2);
+    return bending + q * x * (L - x / 2) / (5.0 / 6 * youngs_modulus / 2 * T2);
   }
 };
 
