@@ -217,7 +217,7 @@ void check_axes(const std::string& file, const std::vector<std::string>& axes) {
 }
 
 /// Nothing is made and no folder is locked: answers that it has count.
-int print_plan(pick::Game& game) {
+int print_rounds_ahead(pick::Game& game) {
   game.resume();
   if (!game.is_over()) return run_sweep(game.plan());
   std::cerr << fmt::format("all {} rounds are answered; --rounds N asks for more\n",
@@ -232,7 +232,7 @@ int run_pick(const PickCommand& command) {
   const view::ScreenOptions& screen = command.screen;
   check_axes(options.runs.file, options.runs.axes);
   pick::Game game(options);
-  if (options.runs.is_dry_run) return print_plan(game);
+  if (options.runs.is_dry_run) return print_rounds_ahead(game);
   if (options.clicks.empty() && !wants_screen(options, screen) &&
       !devices::TerminalLines::is_there())
     throw UsageError("pick", "there is no terminal to ask for the best tile",

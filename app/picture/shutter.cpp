@@ -13,6 +13,15 @@ namespace {
 
 using render::channels::Thing;
 
+/// Moments for a motion of so many pixels. Where a pixel has several samples, a few moments share
+/// them, one each: drawing all samples again for each because one crumb still rolls would be dear.
+int count_of(float pixels, int supersampling) {
+  const int count = std::clamp(static_cast<int>(std::ceil(pixels)), 2, max_moments);
+  const int samples = supersampling * supersampling;
+  if (supersampling == 1 || count > 2 * samples) return count;
+  return count <= samples ? samples : 2 * samples;
+}
+
 /// Moves the colliders and the camera of a frame to another time.
 void move_solids(const MotionSource& source, double seconds, render::Frame& frame) {
   const float spacing = !frame.grounds.empty()         ? frame.grounds.front().line_spacing
@@ -135,7 +144,7 @@ std::vector<render::Frame> shutter_moments(const MotionSource& source, const ren
   render::Frame blurred = frame;
   add_blur(ends, velocity, blurred.points);
   if (blurred.points.cut) add_blur(ends, cut_velocity, *blurred.points.cut);
-  const int count = std::clamp(static_cast<int>(std::ceil(pixels)), 2, max_moments);
+  const int count = count_of(pixels, frame.supersampling);
   for (int k = 0; k < count; ++k) {
     render::Frame& moment = moments.emplace_back(blurred);
     move_solids(source, open * time_of_share((k + 0.5) / count), moment);
@@ -153,16 +162,19 @@ std::vector<render::Frame> shutter_moments(const MotionSource& source, const ren
 }
 
 std::vector<render::Frame> with_shared_samples(std::vector<render::Frame> moments) {
-  constexpr std::size_t enough = 8;
-  if (moments.size() < enough) return moments;
+  const int side = moments.empty() ? 1 : moments.front().supersampling, samples = side * side;
+  if (side == 1 || static_cast<int>(moments.size()) < samples) return moments;
+  // As few as samples have their places in a pixel, so that what rests looks as it does alone.
+  const bool is_grid = static_cast<int>(moments.size()) == samples;
   int n = 0;
   for (render::Frame& moment : moments) {
-    if (moment.supersampling == 1) return moments;
-    moment.grain_detail = moment.supersampling;
+    moment.grain_detail = side;
     moment.supersampling = 1;
     if (moment.smoke.samples_per_ray > 0) moment.smoke.samples_per_ray = 1;
+    const double right = is_grid ? (n % side + 0.5) / side : radical_inverse(n + 1, 2);
+    const double up = is_grid ? (n / side + 0.5) / side : radical_inverse(n + 1, 3);
+    turn_by_pixels(right - 0.5, up - 0.5, moment);
     ++n;
-    turn_by_pixels(radical_inverse(n, 2) - 0.5, radical_inverse(n, 3) - 0.5, moment);
   }
   return moments;
 }

@@ -216,6 +216,34 @@ TEST(Noise, GrainRemainsWhereSnowIsBlurredByItsMotion) {
   EXPECT_NEAR(brightness_of(with.mean()), brightness_of(without.mean()), 3);
 }
 
+/// A crumb that still rolls by some pixels costs no second drawing of all that rests.
+TEST(Noise, SlowMotionSharesTheSamplesOfAPixelAndLeavesRestAsItIs) {
+  OPEN_OR_SKIP(context, "auto");
+  render::Renderer renderer(*context);
+  const auto moments_at = [](const char* velocity, int supersampling) {
+    const Shaded moving(velocity);
+    render::Frame frame = moving.frame();
+    frame.supersampling = supersampling;
+    return picture::with_shared_samples(moving.moments(frame));
+  };
+  EXPECT_EQ(moments_at("0.2", 1).size(), 2u);  // 1.5 pixels
+  EXPECT_EQ(moments_at("0.2", 2).size(), 4u);
+  EXPECT_EQ(moments_at("0.6", 2).size(), 8u);  // 4.7 pixels
+  for (const char* velocity : {"0.2", "0.6"})
+    for (const render::Frame& moment : moments_at(velocity, 2)) {
+      EXPECT_EQ(moment.supersampling, 1);
+      EXPECT_EQ(moment.grain_detail, 2);
+    }
+  const render::Frame still = Shaded("0").frame();
+  render::MeanImage mean;
+  for (const render::Frame& moment :
+       picture::with_shared_samples(std::vector<render::Frame>(4, still)))
+    mean.add(renderer.draw(moment));
+  const double difference = noise_of(mean.mean(), renderer.draw(still));
+  RecordProperty("difference", std::to_string(difference));
+  EXPECT_LT(difference, 0.5 * visible);
+}
+
 /// What stands still beside fast snow is as sharp as without motion blur.
 TEST(Noise, SnowAtRestKeepsItsGrainWhereMomentsShareSamples) {
   OPEN_OR_SKIP(context, "auto");
