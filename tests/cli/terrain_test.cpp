@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 
 #include "tests/cli/run_neve.h"
@@ -57,6 +58,25 @@ TEST_F(Terrain, CheckSaysMassAndDepthOfACover) {
   EXPECT_TRUE(contains(said, "17 x 13 posts, 0.5 m apart, at heights from 1798 m to 1802 m"))
       << said;
   EXPECT_FALSE(contains(said, "starts inside")) << said;
+}
+
+/// The curve of docs/scenes.md: snow on a roof settles, held by friction, and then slides.
+TEST_F(Terrain, ACoverMaySettleBeforeItSlides) {
+  std::string scene = read_text(NEVE_SOURCE_DIR "/scenes/roof.toml");
+  const std::string page = read_text(NEVE_SOURCE_DIR "/docs/scenes.md"), start = "[[curve]]  ";
+  const std::size_t from = page.find(start);
+  ASSERT_NE(from, std::string::npos);
+  scene += "\n" + page.substr(from, page.find("```", from) - from);
+  scene.replace(scene.find("friction = 0.12"), 15, "");
+  std::filesystem::create_directory_symlink(NEVE_SOURCE_DIR "/scenes/meshes", folder / "meshes");
+  folder.write("roof.toml", scene);
+  const auto result = neve({"render", "roof.toml", "--coarsen", "2", "--frames", "0-20", "--size",
+                            "64x36", "--no-movie", "--out", "a"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const app::Json frames = json_of("a/run.json")["frames"];
+  EXPECT_LT(frames[12]["max_speed"].get<double>(), 0.5);  // 0.13 m/s
+  EXPECT_GT(frames[20]["max_speed"].get<double>(), 0.8);  // 1.27 m/s
+  EXPECT_NEAR(frames[12]["height"].get<double>(), frames[0]["height"].get<double>(), 0.05);
 }
 
 TEST_F(Terrain, ExportsHaveTheCoordinatesOfTheMap) {
