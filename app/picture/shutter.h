@@ -10,14 +10,13 @@ inline constexpr int max_moments = 32;
 
 /// Frames around the moment of the state: half of them before it. Each particle has its own phase
 /// between two moments, so that fast snow leaves a streak and no row of copies. As many as pixels
-/// that anything moves by, or as samples of a pixel, or twice as many as these; none if nothing
-/// moves by half a pixel. Smoke, slices and lines stay.
+/// that anything moves by; none if nothing moves by half a pixel. Smoke, slices and lines stay.
 /// @param frame  of the source @param degrees  the shutter is open, of 360 for a whole frame
 std::vector<render::Frame> shutter_moments(const MotionSource& source, const render::Frame& frame,
                                            double degrees);
 
-/// The same moments for their mean: each has one sample of a pixel instead of four, and together
-/// they have them all over the pixel.
+/// The same moments for their mean: where there are many, each has one sample of a pixel instead of
+/// four, and together they have them all over the pixel.
 std::vector<render::Frame> with_shared_samples(std::vector<render::Frame> moments);
 
 }  // namespace neve::app::picture
