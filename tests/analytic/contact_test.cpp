@@ -53,6 +53,35 @@ double exact_acceleration(double degrees, double friction) {
   return std::max(0.0, 9.81 * (std::sin(t) - friction * std::cos(t)));
 }
 
+/// A block of snow is let down on a slope that friction holds it on, from a millimetre above where
+/// it touches. It slides while it bounces on its own elasticity, and stays when that has died away:
+/// friction is bounded by the impulse along the normal, which rattling snow has no less of on
+/// average.
+TEST(SlidingBlock, BelowTheAngleOfFrictionABlockThatIsLetDownComesToRest) {
+  const double angle = 24 * std::numbers::pi / 180, mu = 0.5;  // up to 26.6 degrees
+  for (const Transfer transfer :
+       {Transfer::flip, Transfer::apic, Transfer::mls, Transfer::aflip, Transfer::asflip}) {
+    SolverSettings s;
+    s.cell_size = 0.02;
+    s.transfer = transfer;
+    s.gravity = 9.81 * Vec3d(std::sin(angle), -std::cos(angle), 0);
+    const double touching = 0.375 * s.cell_size / 2;
+    const Vec3d low{0.003, touching + 0.001, 0.005}, high = low + Vec3d(0.2, 0.2, 0.2);
+    Simulation simulation(s, {Material{}}, {plane({0, 0, 0}, {0, 1, 0}, mu)},
+                          box_of_snow(low, high, s.cell_size / 2), 1);
+    const auto place_at = [&](double time) {
+      simulation.advance_to(time);
+      return 1e3 * simulation.summary().centre_of_mass[0];
+    };
+    const double start = simulation.summary().centre_of_mass[0] * 1e3;
+    const double middle = place_at(0.5), end = place_at(1);
+    const std::string line = "block let down on 24°, mu = 0.5, " + name(transfer);
+    keep_number({"incline", line, "way in the first half second, mm"}, middle - start);
+    // A hundredth of a cell is the last of its swinging.
+    verify_near({"incline", line, "way in the second, mm"}, 0, end - middle, 0.2);
+  }
+}
+
 /// One particle comes down through loose snow that rests on the floor. The floor takes what it
 /// comes with: it must not throw back the snow around it, which got 13 times its energy. Without
 /// friction of the grid flip keeps its energy to rounding, which is of what it began with; aflip

@@ -56,19 +56,50 @@ TEST(SlippingBallLong, SlippingBallAcceleratesByGravityLessFriction) {
               (b.spin - a.spin) / (b.time - a.time) / (5 * mu * 9.81 * std::cos(t) / (2 * R)));
 }
 
+constexpr double rolling_cell = 0.02;
+
+/// Eight particles in a cell, at random.
+ParticleArrays rough_ball(double cells, unsigned seed) {
+  const double h = rolling_cell, R = cells * h;
+  return ball_of_snow({0.003, R + 0.375 * h / 2, 0.004}, R, h / 2, Vec3d::Zero(), seed);
+}
+
+/// The same in shells, the outermost as far from the centre everywhere. Particles of a shell lie on
+/// a spiral that the golden angle winds.
+ParticleArrays smooth_ball(double cells) {
+  const double d = rolling_cell / 2, R = cells * rolling_cell;
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  const Vec3d center{0.003, R - 0.125 * d, 0.004};
+  ParticleArrays p;
+  for (double r = R - d / 2; r > 0; r -= d) {
+    const double count = std::round(4 * std::numbers::pi * r * r / (d * d));
+    const double volume =
+        4 * std::numbers::pi / 3 * (std::pow(r + d / 2, 3) - std::pow(r - d / 2, 3)) / count;
+    for (double k = 0; k < count; ++k) {
+      const double z = 1 - (2 * k + 1) / count, around = std::sqrt(1 - z * z);
+      p.x.push_back(center +
+                    r * Vec3d(around * std::cos(golden * k), around * std::sin(golden * k), z));
+      p.v.push_back(Vec3d::Zero());
+      p.m.push_back(400 * volume);
+      p.V0.push_back(volume);
+    }
+  }
+  return p;
+}
+
 /// Way and spin of a ball that rolls down a slope for 0.8 s, of a rigid one.
 struct Rolling {
   double way, spin_over_speed;
   double slipping_spin;  ///< of that which friction gives a ball that slips
 };
-Rolling roll(double cells, double friction, unsigned seed) {
-  const double t = 20 * std::numbers::pi / 180, h = 0.02, R = cells * h, seconds = 0.8;
+Rolling roll(double cells, double friction, const ParticleArrays& ball,
+             Transfer transfer = Transfer::asflip) {
+  const double t = 20 * std::numbers::pi / 180, R = cells * rolling_cell, seconds = 0.8;
   SolverSettings s;
-  s.cell_size = h;
+  s.cell_size = rolling_cell;
+  s.transfer = transfer;
   s.gravity = 9.81 * Vec3d(std::sin(t), -std::cos(t), 0);
-  const double x = 0.003;
-  Simulation simulation(s, {elastic(1e6, 0.2, 400)}, {plane({0, 0, 0}, {0, 1, 0}, friction)},
-                        ball_of_snow({x, R + 0.375 * h / 2, 0.004}, R, h / 2, Vec3d::Zero(), seed),
+  Simulation simulation(s, {elastic(1e6, 0.2, 400)}, {plane({0, 0, 0}, {0, 1, 0}, friction)}, ball,
                         2);
   const double begin = simulation.summary().centre_of_mass[0];
   simulation.advance_to(seconds);
@@ -85,7 +116,7 @@ Rolling roll(double cells, double friction, unsigned seed) {
 /// a resistance of a fifth of a cell over the radius, which shrinks with the cells.
 TEST(RollingBallLong, ABallRollsTheBetterTheFinerItsCells) {
   for (const double cells : {6.0, 12.0}) {
-    const Rolling found = roll(cells, 0.3, 1);
+    const Rolling found = roll(cells, 0.3, rough_ball(cells, 1));
     const std::string line = "ball rolling down 20°, radius of " + in_digits(cells) + " cells";
     verify_ratio({"incline", line, "way in 0.8 s / that of a rigid ball"}, 1, found.way,
                  0.8 / cells);
@@ -95,8 +126,9 @@ TEST(RollingBallLong, ABallRollsTheBetterTheFinerItsCells) {
 }
 
 /// A shortcoming, kept in numbers: from nothing to half of the spin at six cells, by how the
-/// particles lie, nearly half at twelve (seeds 1 and 2: 0.46 and 0.43). The resistance above would
-/// leave a third and two thirds.
+/// particles lie, nearly half at twelve (seeds 1 and 2: 0.46 and 0.43). The ball is pressed in by
+/// 0.07 cells, its outermost particles are up to half a cell uneven: it lies on a few of them, and
+/// friction, whose lever is mu R = 0.3 cells, has to tilt it over them.
 TEST(RollingBallLong, ABallAtLowFrictionSlipsAsItShouldAndSpinsUpByHalf) {
   const auto line = [](double cells, unsigned seed) {
     return "ball slipping down 20°, mu = 0.05, radius of " + in_digits(cells) + " cells, seed " +
@@ -106,15 +138,33 @@ TEST(RollingBallLong, ABallAtLowFrictionSlipsAsItShouldAndSpinsUpByHalf) {
                     spin = "spin after 0.8 s / that of a rigid ball";
   double coarse = 0;
   for (const unsigned seed : {1u, 2u, 3u}) {
-    const Rolling found = roll(6, 0.05, seed);
+    const Rolling found = roll(6, 0.05, rough_ball(6, seed));
     verify_ratio({"incline", line(6, seed), way}, 1, found.way, 0.02);
     keep_number({"incline", line(6, seed), spin}, found.slipping_spin);
     coarse += found.slipping_spin / 3;
   }
-  const Rolling fine = roll(12, 0.05, 1);
+  const Rolling fine = roll(12, 0.05, rough_ball(12, 1));
   verify_ratio({"incline", line(12, 1), way}, 1, fine.way, 0.02);
   verify_near({"incline", line(12, 1), spin}, 0.46, fine.slipping_spin, 0.1);
   EXPECT_GT(fine.slipping_spin, coarse + 0.1);
+}
+
+/// What is left of a ball with a smooth surface is a resistance of a twelfth of a cell, where mu R
+/// is 0.3 cells (twelve cells: 0.89 with APIC). With asflip particles that nothing presses move by
+/// their own velocity, which does not strain them: the elastic ball gets a dent of 0.27 cells where
+/// it touches (0.05 with the others) and rocks on it.
+TEST(RollingBallLong, ABallWithASmoothSurfaceSpinsUp) {
+  const std::string spin = "spin after 0.8 s / that of a rigid ball";
+  for (const Transfer transfer :
+       {Transfer::apic, Transfer::mls, Transfer::aflip, Transfer::asflip}) {
+    const Rolling found = roll(6, 0.05, smooth_ball(6), transfer);
+    const std::string line =
+        "smooth ball slipping down 20°, mu = 0.05, radius of 6 cells, " + name(transfer);
+    if (transfer == Transfer::asflip)
+      keep_number({"incline", line, spin}, found.slipping_spin);
+    else
+      verify_near({"incline", line, spin}, 0.72, found.slipping_spin, 0.1);
+  }
 }
 
 }  // namespace
