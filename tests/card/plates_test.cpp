@@ -7,6 +7,7 @@
 
 #include "app/card/plates.h"
 #include "tests/card/subject.h"
+#include "tests/support/compression.h"
 
 namespace {
 
@@ -52,6 +53,16 @@ TEST(CardPress, SnowYieldsAtItsCriticalCompression) {
   for (const Preset preset : {Preset::paper, Preset::powder, Preset::wet}) {
     const Material m = preset_snow(preset);
     EXPECT_NEAR(value(press(subject_of(m)), "yield_strain") / m.critical_compression, 1.07, 0.08);
+  }
+}
+
+/// By the strain of the snow in the middle: a hundredth more of it is a tenth more stress.
+TEST(CardPress, ThePressFollowsTheLawToAFifth) {
+  for (const Preset preset : {Preset::paper, Preset::powder, Preset::packed}) {
+    const Material m = preset_snow(preset);
+    EXPECT_NEAR(
+        value(press(subject_of(m)), "stress_at_20_percent") / -uniaxial_formula(m, 0.8).sigma, 1,
+        0.05);
   }
 }
 
