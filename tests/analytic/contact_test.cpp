@@ -77,8 +77,8 @@ TEST(SlidingBlock, BelowTheAngleOfFrictionABlockThatIsLetDownComesToRest) {
     const double middle = place_at(0.5), end = place_at(1);
     const std::string line = "block let down on 24°, mu = 0.5, " + name(transfer);
     keep_number({"incline", line, "way in the first half second, mm"}, middle - start);
-    // A hundredth of a cell is the last of its swinging.
-    verify_near({"incline", line, "way in the second, mm"}, 0, end - middle, 0.2);
+    // The last of its swinging, by rounding; a block that hops on would slide by 15 mm.
+    verify_near({"incline", line, "way in the second, mm"}, 0, end - middle, 0.5);
   }
 }
 
