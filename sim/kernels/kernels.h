@@ -44,6 +44,9 @@ struct StepConstants {
   /// from separating_J_E on. FLIP's are equal.
   Real beta_min, beta_max;
   Real separating_J_E;
+  /// Bits of the laws of which no piece comes off: their beta is 0, or F and places part ways. None
+  /// where all keep theirs, as FLIP's do.
+  Integer<Real> whole_laws;
   Real shock_quadratic, shock_linear;  ///< coefficients of the shock viscosity, see shock_pressure
   Real gravity[3];
   bool moves_with_grid;  ///< advect = pic

@@ -137,10 +137,11 @@ struct ContactSweepsFor {
     RecordReader<V, I> read(record, p);
     read.place();
     read.motion();
-    if (a.kept_min == a.kept_max) return all<V>(a.kept_max);
+    const StepConstants<Real>& c = a.step.constants;
+    if (a.kept_min == a.kept_max && c.whole_laws == 0) return all<V>(a.kept_max);
     read.deformation();
     read.volume();
-    return separation_share(determinant(p.F_E), a.step.constants) * a.step.constants.alpha;
+    return separation_share(p, c) * c.alpha;
   }
 
   template <int G>

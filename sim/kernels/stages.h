@@ -479,10 +479,14 @@ NEVE_INLINE Vec3<V> own_velocity(const Record<V, I>& p, const Gathered<V>& g, El
 
 /// beta of particles: of the paper below, between beta_min in compressed snow and beta_max. The
 /// paper asks whether det F grows in the step; here J_E before the step decides, so that contact,
-/// which comes before the deformation, knows how particles will move.
-template <class V>
-NEVE_INLINE V separation_share(const V& J_E, const StepConstants<ElementOf<V>>& c) {
-  return J_E >= all<V>(c.separating_J_E) ? all<V>(c.beta_max) : all<V>(c.beta_min);
+/// which comes before the deformation, knows how particles will move. Laws that never yield have
+/// none: what moves by a velocity of its own is not strained by it, and only what breaks may part.
+template <class V, class I>
+NEVE_INLINE V separation_share(const Record<V, I>& p, const StepConstants<ElementOf<V>>& c) {
+  const V beta =
+      determinant(p.F_E) >= all<V>(c.separating_J_E) ? all<V>(c.beta_max) : all<V>(c.beta_min);
+  const I is_whole = ((all<I>(c.whole_laws) >> p.model()) & 1) != 0;
+  return is_whole ? V{} : beta;
 }
 
 /// Step 10, AFLIP and ASFLIP: the velocity that moves a particle, sum w_ip v_new + beta own.
@@ -493,7 +497,7 @@ NEVE_INLINE V separation_share(const V& J_E, const StepConstants<ElementOf<V>>& 
 template <class V, class I>
 NEVE_INLINE Vec3<V> carrier_velocity(const Record<V, I>& p, const Gathered<V>& g,
                                      const StepConstants<ElementOf<V>>& c) {
-  const V beta = separation_share(determinant(p.F_E), c);
+  const V beta = separation_share(p, c);
   const Vec3<V> own = own_velocity(p, g, c.alpha);
   Vec3<V> v;
   for (int a = 0; a < 3; ++a) v[a] = fused(beta, own[a], g.v[a]);

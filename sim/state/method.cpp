@@ -132,6 +132,9 @@ kernels::StepConstants<Real> Method<Real>::step_constants(double dt) const {
   c.beta_min = static_cast<Real>(shares.compressed);
   c.beta_max = static_cast<Real>(shares.separating);
   c.separating_J_E = static_cast<Real>(settings.separation_J_E);
+  if (settings.transfer == Transfer::asflip)
+    for (const laws::Law& law : laws::every())
+      if (!law.is_plastic) c.whole_laws |= Integer<Real>{1} << static_cast<int>(law.model);
   c.shock_quadratic = static_cast<Real>(health::shock_quadratic * settings.shock_viscosity);
   c.shock_linear = static_cast<Real>(health::shock_linear * settings.shock_viscosity);
   for (int axis = 0; axis < 3; ++axis) c.gravity[axis] = static_cast<Real>(settings.gravity[axis]);

@@ -93,7 +93,7 @@ assert neve._scene_flags({"collider.floor": None}, None, None) == ["--set", "col
 with warnings.catch_warnings(record=True) as said:
     warnings.simplefilter("always")
     neve.export("scene.toml", "late", frames=9)
-assert any("after the end" in str(one.message) for one in said), said
+assert any("after the last frame" in str(one.message) for one in said), said
 # Mistakes in Python.
 for mistake, kind, part in (
     (lambda: run.force("flor"), KeyError, "floor"),
