@@ -125,10 +125,11 @@ TEST(RollingBallLong, ABallRollsTheBetterTheFinerItsCells) {
   }
 }
 
-/// By how the particles lie, from a tenth to two thirds of the spin at six cells. The ball is pressed
-/// in by 0.07 cells, its outermost particles are up to half a cell uneven: it lies on a few of them,
-/// and friction, whose lever is mu R = 0.3 cells, has to tilt it over them. At twelve cells, with
-/// twice the lever, what is left is the resistance of a smooth surface, a twelfth of a cell: 0.89.
+/// By how the particles lie, from a tenth to two thirds of the spin at six cells. The ball is
+/// pressed in by 0.07 cells, its outermost particles are up to half a cell uneven: it lies on a few
+/// of them, and friction, whose lever is mu R = 0.3 cells, has to tilt it over them. At twelve
+/// cells, with twice the lever, what is left is the resistance of a smooth surface, a twelfth of a
+/// cell: 0.89.
 TEST(RollingBallLong, ABallAtLowFrictionSpinsUpTheBetterTheFinerItsCells) {
   const auto line = [](double cells, unsigned seed) {
     return "ball slipping down 20°, mu = 0.05, radius of " + in_digits(cells) + " cells, seed " +
