@@ -52,7 +52,7 @@ def scene(kind):
     return name, last, [f"solver.cell_size={cell}", "solver.acoustic_cfl=0.85"] + words
 
 
-print(f"# Made by draw.py.\n\n[{group}]\ncoarsen = [1.5, 2]\npowers  = [[0.5, 0.25, 0.5, 0]]\nseeds = [1]\nmore_seeds = [2]\n")
+print(f"# Made by draw.py.\n\n[{group}]\ncoarsen = [1.5, 2]\npowers  = [[0.5, 0.25, 0.5, 0]]\nseeds = [1]\nmore_seeds = [2]\nfull_seeds = [2]\n")
 for number in range(count):
     kind = draw.choice(["snowball_drop", "snowball_wedge", "two_snowballs", "slope_slide"])
     name, last, words = scene(kind)

@@ -116,6 +116,9 @@ def main():
                 for seed in case.get("seeds", plan.get("seeds", [1])):
                     wanted = source.get("all", {}) | {"more_seeds": plan.get("more_seeds", [])} | case
                     jobs.append(pool.submit(work, neve, plan.get("set", []), group, wanted, seed, copies, known))
+                for seed in plan.get("full_seeds", []):  # without copies
+                    wanted = source.get("all", {}) | case
+                    jobs.append(pool.submit(work, neve, plan.get("set", []), group, wanted, seed, copies[:1], known))
         for job in jobs:
             job.result()
 
