@@ -50,7 +50,7 @@ std::string modulus_words(const Measure& modulus) {
          (modulus.formula ? " (law: " + pressure_text(*modulus.formula) + ")" : "");
 }
 
-/// Where x is above `at` for the first time: it may shake.
+/// y where x first exceeds `at`: x may shake.
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
   const auto next = std::find_if(x.begin(), x.end(), [&](double v) { return v > at; }) - x.begin();
   if (next == 0 || next == static_cast<std::ptrdiff_t>(x.size())) return NAN;
@@ -73,8 +73,8 @@ Experiment press(const Subject& subject) {
   PlateSample sample;
   while (plates.next(sample)) {
     const double strain = -sample.strain.y(), stress = -sample.stress.y();
-    // Of the snow, not of the plates: each holds a layer of particles before it, so what is between
-    // them is half a cell shorter, and a tenth of its stress at 20 % more.
+    // The snow is strained more than the plates move: each holds a layer of particles before it, so
+    // what lies between them is half a cell shorter, and bears a fifth more at a strain of 20 %.
     e.x.push_back(strain);
     e.y.push_back(stress);
     slope.add(strain, stress);

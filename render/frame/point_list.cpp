@@ -109,23 +109,6 @@ class Slabs {
   float nearest_, scale_;
 };
 
-/// Sorts roughly front to back without breaking the order of ids among equals.
-std::vector<std::uint32_t> order_by_distance(const std::vector<std::uint32_t>& drawn,
-                                             const std::vector<Disc>& discs) {
-  float nearest = INFINITY, farthest = 0;
-  for (const std::uint32_t p : drawn) {
-    nearest = std::min(nearest, discs[p].z);
-    farthest = std::max(farthest, discs[p].z);
-  }
-  const Slabs slabs(nearest, farthest);
-  std::vector<std::uint32_t> start(Slabs::count + 1);
-  for (const std::uint32_t p : drawn) ++start[slabs.of(discs[p].z) + 1u];
-  for (std::size_t s = 0; s < Slabs::count; ++s) start[s + 1] += start[s];
-  std::vector<std::uint32_t> sorted(drawn.size());
-  for (const std::uint32_t p : drawn) sorted[start[slabs.of(discs[p].z)]++] = p;
-  return sorted;
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> order_by_id(const Points& points) {
@@ -168,35 +151,7 @@ PointVertex vertex_of(const Points& points, const PointColors& color, const View
   return {points.position[p] - view.eye, {c.r, c.g, c.b, 255}};
 }
 
-/// All that may be seen, front to back, without those that nearer ones cover. On one thread: a
-/// sphere is left out because of those before it.
-PointList list_uncovered(const Points& points, const View& view, float max_point_size) {
-  std::vector<Disc> discs(points.position.size());
-  std::vector<std::uint32_t> drawn;
-  drawn.reserve(discs.size());
-  double sum_of_radii = 0;
-  const std::vector<std::uint32_t> order = order_by_id(points);
-  for (std::size_t i = 0; i < discs.size(); ++i) {
-    const std::uint32_t p = order.empty() ? static_cast<std::uint32_t>(i) : order[i];
-    discs[p] = disc_of(view, points.position[p] - view.eye, points.radius, max_point_size);
-    if (discs[p].drawn == Drawn::no) continue;
-    drawn.push_back(p);
-    sum_of_radii += static_cast<double>(discs[p].on_picture);
-  }
-  PointList list;
-  if (drawn.empty()) return list;
-
-  OcclusionGrid grid(view, static_cast<float>(sum_of_radii / static_cast<double>(drawn.size())));
-  const PointColors color(points);
-  for (const std::uint32_t p : order_by_distance(drawn, discs)) {
-    if (is_hidden(discs[p], view.pixels_per_slope, grid)) continue;
-    (discs[p].drawn == Drawn::as_point ? list.small : list.large)
-        .push_back(vertex_of(points, color, view, p));
-  }
-  return list;
-}
-
-/// All that may be seen, in the same order as list_uncovered has them, on all threads.
+/// Lists all that may be seen, on all threads: one counting sort over slabs of distance.
 class ListOfAll {
  public:
   ListOfAll(const Points& points, const View& view, float max_point_size, ThreadPool& team)
@@ -296,13 +251,31 @@ class ListOfAll {
   std::vector<Part> parts_;
 };
 
+/// Leaves out what nearer spheres cover. On one thread: a sphere goes because of those before it.
+void leave_out_hidden(const View& view, float radius, float max_point_size, PointList& list) {
+  const auto disc = [&](const PointVertex& vertex) {
+    return disc_of(view, vertex.center, radius, max_point_size);
+  };
+  double sum = 0;
+  for (const auto* some : {&list.small, &list.large})
+    for (const PointVertex& vertex : *some) sum += static_cast<double>(disc(vertex).on_picture);
+  const std::size_t count = list.small.size() + list.large.size();
+  if (count == 0) return;
+  OcclusionGrid grid(view, static_cast<float>(sum / static_cast<double>(count)));
+  for (auto* some : {&list.large, &list.small})
+    std::erase_if(*some, [&](const PointVertex& vertex) {
+      return is_hidden(disc(vertex), view.pixels_per_slope, grid);
+    });
+}
+
 }  // namespace
 
 PointList list_points(const Points& points, const View& view, float max_point_size,
-                      bool leave_out_hidden, ThreadPool* pool) {
-  if (leave_out_hidden) return list_uncovered(points, view, max_point_size);
+                      bool is_without_hidden, ThreadPool* pool) {
   ThreadPool alone(1);
-  return ListOfAll(points, view, max_point_size, pool ? *pool : alone).make();
+  PointList list = ListOfAll(points, view, max_point_size, pool ? *pool : alone).make();
+  if (is_without_hidden) leave_out_hidden(view, points.radius, max_point_size, list);
+  return list;
 }
 
 }  // namespace neve::render

@@ -47,9 +47,9 @@ class PointColors {
 /// equals in the order of ids: then nearer spheres keep fragments of those behind from being
 /// shaded.
 /// @param max_point_size largest point of the driver, pixels
-/// @param leave_out_hidden also leaves out spheres that nearer ones cover: the picture stays the
+/// @param is_without_hidden also leaves out spheres that nearer ones cover: the picture stays the
 /// same; pays where fragments are drawn on the CPU @param pool may be null
 PointList list_points(const Points& points, const View& view, float max_point_size,
-                      bool leave_out_hidden, ThreadPool* pool);
+                      bool is_without_hidden, ThreadPool* pool);
 
 }  // namespace neve::render
