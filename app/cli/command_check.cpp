@@ -78,7 +78,7 @@ Json check_json(const health::Check& check, const run::RenderJob& job,
   // What is not known is null, and not a run that takes no time.
   const bool has_steps = !check.foreseen.frames.empty(),
              has_time = has_steps && check.seconds_per_step > 0;
-  const auto known = [](bool is_known, Json value) { return is_known ? value : Json(); };
+  const auto known = [](bool is_known, const Json& value) { return is_known ? value : Json(); };
   json["steps"] = known(has_steps, count_json(steps.expected));
   json["steps_range"] = known(has_steps, range_json(steps));
   json["steps_per_frame"] = known(has_steps, steps.expected / frames);

@@ -137,7 +137,7 @@ Json go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress
   scene::Scene next = scene::apply(before, job.fork->changes, job.scene_file);
   setup::resolve_ranges(next, simulation.particle_count());
   timeline::require_live(before, next, "--from");
-  timeline.change(std::make_shared<const scene::Scene>(std::move(next)));
+  timeline.change(next);
   job.changes = timeline.changes();
   job.scene = timeline.start();
   return record;

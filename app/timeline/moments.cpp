@@ -140,12 +140,11 @@ void Moments::keep_on_disk(Moment moment) {
   thin_states(moment.state.size(), frame);
   if (!wants(frame)) return;
   written_frame_ = frame;
-  writing_ = std::async(
-      std::launch::async,
-      [folder = states_.folder,
-       state = to_checkpoint(std::move(moment), states_.identity, states_.simd)]() mutable {
-        return output::write_state(folder, std::move(state));
-      });
+  writing_ = std::async(std::launch::async,
+                        [folder = states_.folder,
+                         state = to_checkpoint(std::move(moment), states_.identity, states_.simd)] {
+                          return output::write_state(folder, state);
+                        });
 }
 
 void Moments::settle() {

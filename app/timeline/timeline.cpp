@@ -134,9 +134,9 @@ void Timeline::make_due() {
   }
 }
 
-void Timeline::change(std::shared_ptr<const scene::Scene> changed) {
+void Timeline::change(const scene::Scene& changed) {
   const std::shared_ptr<const scene::Scene> before = here_.scene;
-  auto scene = std::make_shared<const scene::Scene>(in_order_of(*before, *changed));
+  auto scene = std::make_shared<const scene::Scene>(in_order_of(*before, changed));
   // A curve goes on whatever else gives a value to its parameter.
   if (!scene->curves.empty())
     scene = std::make_shared<const scene::Scene>(setup::with_curves(*scene, curves_at_));

@@ -84,7 +84,7 @@ class Timeline {
 
   /// Makes the changes that lead from the scene here to this one, and lists them; the run forks
   /// then. Throws like sim::Simulation::apply; nothing has changed then.
-  void change(std::shared_ptr<const scene::Scene> changed);
+  void change(const scene::Scene& changed);
   /// Forks the run here: forgets later changes and later moments.
   void fork();
 

@@ -30,7 +30,8 @@ void read_header(std::string_view bytes, const std::string& name, HeightGrid& gr
     refuse_input(name, "the PNG is damaged: it does not begin with its size");
   grid.columns = number_at(bytes, 16);
   grid.rows = number_at(bytes, 20);
-  const int bits = bytes[24], colour = bytes[25], interlace = bytes[28];
+  const auto byte_at = [&](std::size_t at) -> int { return static_cast<unsigned char>(bytes[at]); };
+  const int bits = byte_at(24), colour = byte_at(25), interlace = byte_at(28);
   const double posts = static_cast<double>(grid.columns) * static_cast<double>(grid.rows);
   if (grid.columns < 2 || grid.rows < 2 || posts > max_posts)
     refuse_input(name, std::to_string(grid.columns) + " x " + std::to_string(grid.rows) +

@@ -366,8 +366,7 @@ TEST(ComingAndGoing, ARunIsMadeAgainFromItsChanges) {
   const auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(scene));
   timeline::Timeline live(scene, {}, seeded, 1);
   const auto set = [&](const std::string& address, const std::string& value) {
-    live.change(std::make_shared<const scene::Scene>(
-        scene::apply(*live.here().scene, {{address, value}}, "s.toml")));
+    live.change(scene::apply(*live.here().scene, {{address, value}}, "s.toml"));
   };
   const std::string thrown =
       "{ shape = { sphere = { center = [-0.3, 0.4, 0], radius = 0.08 } }, density = 700, velocity "

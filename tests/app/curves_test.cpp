@@ -140,7 +140,7 @@ TEST(Curves, GoOnWhenAnotherParameterIsChanged) {
   scene::Scene edited = scene;
   edited.materials.front().youngs_modulus *= 0.5;
   edited.solver.gravity = {0, 0, 0};
-  run.change(std::make_shared<const scene::Scene>(edited));
+  run.change(edited);
   ASSERT_EQ(run.changes().size(), 1u);
   EXPECT_EQ(run.changes().front().address, "material.snow.youngs_modulus");
   ASSERT_TRUE(run.go_to(5 / 24.0));

@@ -149,8 +149,7 @@ TEST(Timeline, PlaysAgainTheChangesThatItMadeBetweenSteps) {
   Counted live(scene);
   Timeline& timeline = live.timeline;
   const auto set = [&](const std::string& address, const std::string& value) {
-    timeline.change(std::make_shared<const scene::Scene>(
-        timeline::with_changes(*timeline.here().scene, {{0, address, value}})));
+    timeline.change(timeline::with_changes(*timeline.here().scene, {{0, address, value}}));
   };
   set("material.snow.youngs_modulus", "2e5");
   timeline.advance_step();

@@ -15,7 +15,7 @@ class Inspector {
   std::optional<sim::Stage> stage{};
 
   void set_probe(std::optional<dump::Probe> probe) {
-    probe_ = probe;
+    probe_ = std::move(probe);
     probed_at_ = {};
   }
   const std::optional<dump::Probe>& probe() const { return probe_; }

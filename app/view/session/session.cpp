@@ -111,7 +111,7 @@ void Session::apply(std::shared_ptr<const scene::Scene> scene) {
       throw std::runtime_error(
           "this run has diverged: the change takes effect at Reset, or after going back to an "
           "earlier frame");
-    timeline_->change(scene);
+    timeline_->change(*scene);
     // The kept copy of this moment must include the change.
     if (timeline_->here().is_frame_end()) timeline_->keep();
   });
@@ -164,7 +164,7 @@ void Session::continue_anyway(std::shared_ptr<const scene::Scene> scene) {
     inspector_.stage.reset();
     load(*kept);
     fork_here();
-    timeline_->change(scene);
+    timeline_->change(*scene);
     timeline_->keep();
     set_goal(Goal::end);
   });
