@@ -1,37 +1,23 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "sim/files/mesh_reader.h"
-#include "sim/files/ply_types.h"
-#include "sim/files/point_table.h"
+#include "sim/files/ply_header.h"
 
 namespace neve::sim::files {
 namespace {
 
-struct MeshProperty {
-  std::string name;
-  PlyType type;
-  std::optional<PlyType> count;  ///< of a list
-};
-
-struct MeshElement {
-  std::string name;
-  std::uint64_t count = 0;  ///< as the header claims
-  std::vector<MeshProperty> properties;
-};
-
 /// The numbers behind the header, one after the other.
 class PlyNumbers {
  public:
-  enum class Form { none, ascii, little, big };
-
-  PlyNumbers(std::string_view bytes, Form form, const std::string& name)
-      : bytes_(bytes), form_(form), name_(name) {}
+  PlyNumbers(std::string_view bytes, PlyFormat format, const std::string& name)
+      : bytes_(bytes), format_(format), name_(name) {}
 
   std::size_t left() const { return bytes_.size(); }
 
-  double next(PlyType type) { return form_ == Form::ascii ? next_text() : next_binary(type); }
+  double next(PlyType type) {
+    return format_ == PlyFormat::ascii ? next_text() : next_binary(type);
+  }
 
  private:
   double next_text() {
@@ -48,17 +34,13 @@ class PlyNumbers {
 
   double next_binary(PlyType type) {
     if (bytes_.size() < type.size) refuse_input(name_, "truncated: the mesh is incomplete");
-    std::uint64_t bits = 0;
-    for (std::size_t k = 0; k < type.size; ++k) {
-      const std::size_t place = form_ == Form::little ? k : type.size - 1 - k;
-      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes_[k])) << (8 * place);
-    }
+    const double value = binary_number(bytes_, type, format_);
     bytes_.remove_prefix(type.size);
-    return number_of(bits, type);
+    return value;
   }
 
   std::string_view bytes_;
-  Form form_;
+  PlyFormat format_;
   const std::string& name_;
 };
 
@@ -67,68 +49,15 @@ class MeshPly {
   MeshPly(std::string_view bytes, const std::string& name) : lines_(bytes), name_(name) {}
 
   PolygonMesh read() {
-    while (read_header_line()) {
-    }
-    if (form_ == PlyNumbers::Form::none)
-      refuse_input(name_, "the header of the PLY names no format");
-    PlyNumbers numbers(lines_.rest(), form_, name_);
-    for (const MeshElement& element : elements_) read_element(element, numbers);
+    const PlyHeader header = read_ply_header(lines_, name_);
+    PlyNumbers numbers(lines_.rest(), header.format, name_);
+    for (const PlyElement& element : header.elements) read_element(element, numbers);
     check();
     return std::move(mesh_);
   }
 
  private:
-  std::string here() const { return name_ + ":" + std::to_string(lines_.number()); }
-
-  /// @return whether more follows
-  bool read_header_line() {
-    if (lines_.at_end()) refuse_input(name_, "the header of the PLY ends without end_header");
-    std::string_view line = lines_.next();
-    const std::string_view keyword = next_ply_word(line);
-    if (keyword == "end_header") return false;
-    if (keyword == "format") {
-      const std::string_view word = next_ply_word(line);
-      if (word == "ascii") form_ = PlyNumbers::Form::ascii;
-      if (word == "binary_little_endian") form_ = PlyNumbers::Form::little;
-      if (word == "binary_big_endian") form_ = PlyNumbers::Form::big;
-    }
-    if (keyword == "element") begin_element(line);
-    if (keyword == "property") add_property(line);
-    return true;
-  }
-
-  void begin_element(std::string_view line) {
-    if (elements_.size() == max_columns) refuse_input(here(), "more than 256 elements");
-    MeshElement& element = elements_.emplace_back();
-    element.name = next_ply_word(line);
-    const std::string_view count = next_ply_word(line);
-    const char* end = count.data() + count.size();
-    const auto [stop, error] = std::from_chars(count.data(), end, element.count);
-    if (count.empty() || error != std::errc{} || stop != end)
-      refuse_input(here(), quoted_input(count) + " is not a number of elements");
-  }
-
-  PlyType type_in(std::string_view& line) const {
-    const std::string_view word = next_ply_word(line);
-    const std::optional<PlyType> type = type_called(word);
-    if (!type) refuse_input(here(), quoted_input(word) + " is not a type of PLY");
-    return *type;
-  }
-
-  void add_property(std::string_view line) {
-    if (elements_.empty()) refuse_input(here(), "a property before the first element");
-    if (elements_.back().properties.size() == max_columns)
-      refuse_input(here(), "more than 256 properties");
-    std::string_view rest = line;
-    const bool is_list = next_ply_word(rest) == "list";
-    if (is_list) line = rest;
-    std::optional<PlyType> count;
-    if (is_list) count = type_in(line);
-    const PlyType type = type_in(line);
-    elements_.back().properties.push_back({std::string(next_ply_word(line)), type, count});
-  }
-
-  void read_element(const MeshElement& element, PlyNumbers& numbers) {
+  void read_element(const PlyElement& element, PlyNumbers& numbers) {
     if (element.properties.empty()) return;
     // Each has a byte at least.
     if (element.count > numbers.left())
@@ -136,13 +65,12 @@ class MeshPly {
                               " of " + quoted_input(element.name));
     for (std::uint64_t k = 0; k < element.count; ++k) {
       if (element.name == "vertex") mesh_.vertices.emplace_back(Vec3d::Zero());
-      for (const MeshProperty& property : element.properties)
+      for (const PlyProperty& property : element.properties)
         read_property(element, property, numbers);
     }
   }
 
-  void read_property(const MeshElement& element, const MeshProperty& property,
-                     PlyNumbers& numbers) {
+  void read_property(const PlyElement& element, const PlyProperty& property, PlyNumbers& numbers) {
     if (!property.count) {
       const double value = numbers.next(property.type);
       const std::size_t axis = std::string_view("xyz").find(property.name);
@@ -209,8 +137,6 @@ class MeshPly {
 
   TableLines lines_;
   const std::string& name_;
-  PlyNumbers::Form form_ = PlyNumbers::Form::none;
-  std::vector<MeshElement> elements_;
   std::vector<std::uint32_t> strip_;  ///< corners of the present one
   PolygonMesh mesh_;
 };

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "sim/files/ply_types.h"
+#include "sim/files/ply_header.h"
 #include "sim/files/point_table.h"
 
 namespace neve::sim::files {

@@ -186,6 +186,8 @@ TEST(MeshReader, MistakesAreNamed) {
   expect(head + "200 0 1\n", "m", "longer than the file");
   expect("ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n1\n",
          "m", "truncated: the header promises 99999999999");
+  expect("ply\nformat ascii 1.0\nelement vertex 3\nproprty float x\nend_header\n", "m",
+         "m:4: \"proprty\" is not a keyword");
   expect("ply\nend_header\n", "m", "names no format");
   expect("ply\nformat ascii 1.0\n", "m", "without end_header");
 }

@@ -113,6 +113,15 @@ TEST(PointReader, PointReaderReadsAsciiPly) {
   EXPECT_EQ(cloud.V, (std::vector<double>{0.5, 0.25}));
 }
 
+TEST(PointReader, RemarksBeforeTheFirstElementOfAPlyArePassedOver) {
+  const sim::files::PointCloud cloud = sim::files::parse_points(
+      "ply\nformat ascii 1.0\nCreated by Blender3D 247, source file: x\n\nelement vertex 1\n"
+      "property float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n",
+      "p");
+  ASSERT_EQ(cloud.x.size(), 1u);
+  EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
+}
+
 TEST(PointReader, PointReaderReadsBinaryPlyOfBothByteOrders) {
   for (const bool is_little : {true, false}) {
     const sim::files::PointCloud cloud = sim::files::parse_points(binary_ply(is_little), "p");
@@ -150,7 +159,7 @@ TEST(PointReader, PointReaderNamesThePlaceAndKindOfAnError) {
   const std::string ply = "ply\nformat ascii 1.0\nelement vertex ";
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   expect("ply\n", "without end_header");
-  expect("ply\nformat ascii 2.0\nsnow\n", "p:3: \"snow\" is not a keyword");
+  expect(ply + "1\nproprty float x\n", "p:4: \"proprty\" is not a keyword");
   expect("ply\nformat zip 1.0\n", "p:2: the format \"zip\"");
   expect("ply\nend_header\n", "names no format");
   expect("ply\nformat ascii 1.0\nend_header\n", "no element vertex");
