@@ -99,6 +99,27 @@ TEST_F(Cli, ASheetWithoutAnyPictureSaysWhyThereIsNone) {
   EXPECT_GT(lettered(folder / "none/sheet.png"), 2500u);
 }
 
+/// Pixels of the orange that names a failure.
+std::size_t alarmed(const std::filesystem::path& sheet) {
+  const render::Image image = app::output::read_picture(sheet);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < image.pixels.size(); k += static_cast<std::size_t>(image.channels))
+    count += image.pixels[k] > 230 && image.pixels[k + 1] > 110 && image.pixels[k + 1] < 160 &&
+             image.pixels[k + 2] < 110;
+  return count;
+}
+
+TEST_F(Cli, ASheetOfRunsThatAllDivergedInOneFrameSaysSoOnTheLastPicture) {
+  const auto result =
+      neve({"sweep", "scene.toml", "-p", "solver.dt=2e-3,2.1e-3", "--set",
+            "solver.time_step=\"fixed\"", "--set", "material.snow.youngs_modulus=5e7", "--set",
+            "material.snow.model=\"corotated\"", "--set", "body.ball.velocity=[0, -8, 0]", "--size",
+            "480x270", "--frames", "0-4", "--out", "burst", "--quiet"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_TRUE(exists("burst/sheet.png"));
+  EXPECT_GT(alarmed(folder / "burst/sheet.png"), 200u) << "\"diverged\", on both tiles";
+}
+
 /// A browser without a window, if there is one.
 std::optional<std::filesystem::path> browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"})

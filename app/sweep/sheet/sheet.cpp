@@ -51,8 +51,11 @@ std::optional<int> newest_frame(const store::RunResult& result, int frame) {
   return newest;
 }
 
-/// True if the run has stopped before this frame, or has not reached it yet.
-bool is_late(const Run& run, const store::RunResult& result, int frame) {
+/// True if the run has stopped before this frame, or has not reached it yet; in the newest frame of
+/// all runs also if it failed there.
+bool is_late(const Run& run, const store::RunResult& result, int frame, int newest) {
+  if (frame == newest && frame < run.frames.last && store::has_failed(result.status.state))
+    return true;
   const bool has_frame = std::binary_search(result.frames.begin(), result.frames.end(), frame);
   // A run whose plan ends at an earlier frame keeps its last picture.
   const bool is_over = result.status.state == store::RunState::ok && frame > run.frames.last;
@@ -136,6 +139,8 @@ SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& mani
                           {seals_.key, manifest_.tile_label == "none" ? 0 : rows_of(seals_)})) {
   head_.runs.clear();
   show_full_runs(manifest);
+  for (const store::RunResult& result : results_)
+    if (!result.frames.empty()) newest_ = std::max(newest_, result.frames.back());
   const auto full = std::count_if(predictions.begin(), predictions.end(),
                                   [](const predict::Prediction& p) { return p.is_run; });
   if (full > 0)
@@ -299,7 +304,7 @@ render::Image SheetMaker::compose(const SheetLayout& layout, const std::vector<T
                                   render::Frame& words) const {
   std::vector<render::Tile> pictures;
   for (const Tile& tile : tiles) {
-    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame);
+    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame, newest_);
     add_tile_words(layout, tile, is_dark, words);
     pictures.push_back(
         {tile.x, tile.y, tile_picture(tile, layout.tile_width, layout.tile_height, is_dark)});
@@ -353,7 +358,7 @@ render::Image SheetMaker::strips_of(const std::vector<int>& frames, const SnowIn
     const std::size_t run = first + place.run / frames.size();
     const Tile tile{&manifest_.runs[run], &results_[run], frames[place.run % frames.size()],
                     place.x, place.y};
-    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame);
+    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame, newest_);
     pictures.push_back(
         {tile.x, tile.y, tile_picture(tile, layout.tile_width, layout.tile_height, is_dark)});
     if (tile.result->frames.empty())

@@ -66,6 +66,7 @@ class SheetMaker {
   std::filesystem::path folder_;
   store::Manifest manifest_;               ///< of the runs that have a tile
   std::vector<store::RunResult> results_;  ///< theirs
+  int newest_ = 0;                         ///< the last frame that one of them has a picture of
   Seals seals_;
   std::string counts_;  ///< "12 runs, 1 failed", of all runs
   const std::vector<render::Legend>& legends_;
