@@ -52,8 +52,7 @@ double densest_snow(const scene::Scene& scene) {
 double load_speed(const scene::Scene& scene) {
   double speed = setup::impact_speed(scene);
   for (const scene::Collider& collider : scene.colliders)
-    speed = std::max(speed, collider.body.moves() ? setup::body_speed(scene, collider)
-                                                  : sim::shapes::largest_speed(collider));
+    speed = std::max(speed, setup::collider_speed(scene, collider));
   return speed;
 }
 

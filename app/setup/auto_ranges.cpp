@@ -182,6 +182,15 @@ scene::Range rounded_range(double low, double high) {
   return {step * std::floor(low / step), step * std::ceil(high / step)};
 }
 
+/// m/s, of a collider that moves by itself
+double body_speed(const scene::Scene& scene, const sim::shapes::Collider& body) {
+  const double size = radius_around(sim::shapes::bounds_at(body, 0));
+  const double fall = std::max(fall_of(scene, body, down_in(scene)), size);
+  const double falling =
+      std::sqrt(body.velocity.squaredNorm() + 2 * scene.solver.gravity.norm() * fall);
+  return std::max(setup::impact_speed(scene), falling);
+}
+
 }  // namespace
 
 double impact_speed(const scene::Scene& scene) {
@@ -191,12 +200,9 @@ double impact_speed(const scene::Scene& scene) {
   return speed;
 }
 
-double body_speed(const scene::Scene& scene, const sim::shapes::Collider& body) {
-  const double size = radius_around(sim::shapes::bounds_at(body, 0));
-  const double fall = std::max(fall_of(scene, body, down_in(scene)), size);
-  const double falling =
-      std::sqrt(body.velocity.squaredNorm() + 2 * scene.solver.gravity.norm() * fall);
-  return std::max(impact_speed(scene), falling);
+double collider_speed(const scene::Scene& scene, const sim::shapes::Collider& collider) {
+  const double speed = sim::shapes::largest_speed(collider);
+  return collider.body.moves() ? std::max(speed, body_speed(scene, collider)) : speed;
 }
 
 double largest_speed(const scene::Scene& scene) {

@@ -13,9 +13,9 @@ scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
 /// m/s: speed of the quickest body when it meets the surface below it, or at the end of the scene.
 double impact_speed(const scene::Scene& scene);
 
-/// m/s, of a collider that moves by itself: until it falls on something; at most about as fast as
-/// the snow that hits it.
-double body_speed(const scene::Scene& scene, const sim::shapes::Collider& body);
+/// m/s, of the fastest point of a collider. One that moves by itself falls until something is
+/// below; snow that hits it makes it at most about as fast as itself.
+double collider_speed(const scene::Scene& scene, const sim::shapes::Collider& collider);
 
 /// m/s, that snow may have: its own at impact, or that of a body that hits it.
 double largest_speed(const scene::Scene& scene);
