@@ -9,6 +9,7 @@
 #include "app/output/sequence.h"
 #include "app/record/verify.h"
 #include "app/support/errors.h"
+#include "app/support/out_folder.h"
 #include "app/support/text.h"
 #include "app/sweep/store/manifest.h"
 #include "app/sweep/store/store.h"
@@ -154,7 +155,7 @@ int run_verify(const PlainOptions& options) {
   if (!fs::is_directory(folder, error))
     throw IoError(folder + ": is not a folder", folder,
                   "name the output folder of a run or a sweep");
-  const bool is_sweep = fs::exists(fs::path(folder) / "manifest.json", error);
+  const bool is_sweep = is_sweep_folder(folder);
   if (!is_sweep) require_run(folder);
   const Findings findings = is_sweep ? verify_sweep_folder(folder) : verify_folder(folder);
   if (options.is_json)

@@ -7,6 +7,7 @@
 #include "app/output/sequence.h"
 #include "app/record/picture_record.h"
 #include "app/support/errors.h"
+#include "app/support/out_folder.h"
 #include "app/support/text.h"
 
 namespace neve::app::cli {
@@ -28,7 +29,7 @@ std::vector<std::string> runs_below(const fs::path& folder) {
   std::size_t read = 0;
   for (fs::directory_iterator at(folder, error), end; !error && at != end && read < max_read;
        at.increment(error), ++read)
-    if (has_file(at->path(), "run.json") || has_file(at->path(), "manifest.json"))
+    if (has_file(at->path(), "run.json") || is_sweep_folder(at->path()))
       found.push_back(at->path().lexically_normal().string());
   std::sort(found.begin(), found.end());
   if (found.size() > max_named) found.resize(max_named);
@@ -55,7 +56,7 @@ FolderAdvice advice_on_folder(const fs::path& typed) {
   // Of "a/particles/" too.
   const fs::path folder = typed.has_filename() ? typed : typed.parent_path();
   const fs::path around = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
-  if (has_file(folder, "manifest.json"))
+  if (is_sweep_folder(folder))
     return {"is the folder of a sweep, not of a run",
             "name one of its runs, as in " + (folder / "runs" / "0000").string()};
   std::error_code error;

@@ -13,6 +13,7 @@
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/support/errors.h"
+#include "app/support/out_folder.h"
 #include "app/support/text.h"
 
 namespace neve::app::run {
@@ -223,8 +224,7 @@ std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
 
 void refuse_sweep_folder(const RenderJob& job) {
   std::error_code error;
-  if (std::filesystem::is_regular_file(job.folder / "manifest.json", error) &&
-      std::filesystem::is_directory(job.folder / "runs", error))
+  if (is_sweep_folder(job.folder) && std::filesystem::is_directory(job.folder / "runs", error))
     refuse(job, "is the folder of a sweep", "", "choose another folder with --out");
 }
 

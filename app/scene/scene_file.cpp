@@ -16,6 +16,7 @@
 #include "app/support/errors.h"
 #include "app/support/lower_text.h"
 #include "app/support/machine.h"
+#include "app/support/out_folder.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {
@@ -162,7 +163,7 @@ std::string name_of_scene(const std::string& file) {
 std::string read_toml_file(const std::string& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) {
-    const bool is_sweep = fs::is_directory(fs::path(file) / "runs", error);
+    const bool is_sweep = is_sweep_folder(file);
     throw toml::SceneError(file, 0, 0, "is a directory",
                            is_sweep ? "it has the runs of a sweep: name one, as in " +
                                           (fs::path(file) / "runs/0000").string()

@@ -1,8 +1,9 @@
 #pragma once
-/// The folder that outputs go into where no --out names one.
+/// The folder that outputs go into where no --out names one, and what a folder holds.
 
 #include <cstdlib>
 #include <filesystem>
+#include <system_error>
 
 namespace neve::app {
 
@@ -10,6 +11,12 @@ namespace neve::app {
 inline std::filesystem::path out_folder() {
   const char* chosen = std::getenv("NEVE_OUT");
   return chosen && *chosen ? std::filesystem::path(chosen) : std::filesystem::path("out");
+}
+
+/// It holds a sweep, with its manifest.
+inline bool is_sweep_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(folder / "manifest.json", error);
 }
 
 }  // namespace neve::app
