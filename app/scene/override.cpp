@@ -116,7 +116,7 @@ std::string advice_on_table(const Override& change, const Path& known) {
   if (nearest.empty() && !same.empty()) nearest = same.front();
   if (nearest.empty()) nearest = our_address(word, known);
   if (nearest.empty()) nearest = advice::nearest_name(change.address, known);
-  if (nearest.empty() && word == change.address) nearest = address_of_nearest_name(word, known);
+  if (nearest.empty()) nearest = address_of_nearest_name(word, known);
   std::string hint = nearest.empty() ? "" : advice::did_you_mean(nearest, true);
   if (hint.empty()) hint = advice::suggest(word, {"key", {}}, "neve params lists all of them");
   change.fail(change.key, "unknown parameter " + toml::toml_string(change.address), hint);
