@@ -59,8 +59,6 @@ kernels::ContactArgs<Real> ParticleContact<Real>::contact_args(
   a.poses = step.constants.colliders;
   a.half_spacing = state.method.half_spacing.data();
   a.max_touching_gap = static_cast<Real>(max_touching_gap(state));
-  a.kept_min = step.constants.alpha * step.constants.beta_min;
-  a.kept_max = step.constants.alpha * step.constants.beta_max;
   a.max_speed = static_cast<Real>(state.progress.limits.max_speed);
   a.candidates = candidates_.data();
   a.near_counts = near_counts_.data();

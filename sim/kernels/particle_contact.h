@@ -110,11 +110,8 @@ struct ContactArgs {
   const ColliderPose* poses;  ///< those of `step`, which the solve does not show to the nodes
   const Real* half_spacing;   ///< per material: of particles of 1 kg, m
   Real max_touching_gap;      ///< m: no particle touches at more
-  /// Shares of its own velocity that a particle moves with, compressed and separating: alpha beta,
-  /// see StepConstants.
-  Real kept_min, kept_max;
-  Real max_speed;  ///< m/s, of all particles before the step
-  Real apart;      ///< 1/s: share of what a particle outside is too near by that it moves away by
+  Real max_speed;             ///< m/s, of all particles before the step
+  Real apart;  ///< 1/s: share of what a particle outside is too near by that it moves away by
   std::uint32_t* candidates;    ///< per sorted position: those of a block come first in its range
   std::uint32_t* near_counts;   ///< per particle block: candidates
   std::uint32_t* counts;        ///< per particle block: contacts; until `start`, the most there are

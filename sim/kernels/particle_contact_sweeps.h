@@ -138,7 +138,7 @@ struct ContactSweepsFor {
     read.place();
     read.motion();
     const StepConstants<Real>& c = a.step.constants;
-    if (a.kept_min == a.kept_max && c.whole_laws == 0) return all<V>(a.kept_max);
+    if (c.beta_min == c.beta_max && c.whole_laws == 0) return all<V>(c.beta_max * c.alpha);
     read.deformation();
     read.volume();
     return separation_share(p, c) * c.alpha;
@@ -165,7 +165,8 @@ struct ContactSweepsFor {
   }
 
   static void start(const Args& a, Index begin, Index end) {
-    const bool keeps = a.kept_min > Real(0) || a.kept_max > Real(0);
+    const StepConstants<Real>& c = a.step.constants;
+    const bool keeps = c.alpha > Real(0) && (c.beta_min > Real(0) || c.beta_max > Real(0));
     Quad<Real> v_free[Tile<K>::nodes], change[Tile<K>::nodes];
     Stencils<Real, K, W> s;
     for (Index n = begin; n < end; ++n) {

@@ -88,7 +88,7 @@ NEVE_INLINE unsigned collect(const SweepArgs<Real>& a, std::uint32_t block, int 
   rows.template add_up<Set>(0, sum);
   return rows.written;
 }
-constexpr auto takes_all = [](std::int32_t) NEVE_INLINE_BODY { return true; };
+inline constexpr auto takes_all = [](std::int32_t) NEVE_INLINE_BODY { return true; };
 template <class Real, int K, class Set>
 NEVE_INLINE unsigned collect(const SweepArgs<Real>& a, std::uint32_t block, int channel,
                              Quad<Real>* sum) {
