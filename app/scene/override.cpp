@@ -83,12 +83,19 @@ std::string our_address(const std::string& address, const Path& known) {
              : known[static_cast<std::size_t>(found - anywhere.known.begin())];
 }
 
-/// "hardning": the address of hardening.
-std::string address_of_nearest_name(const std::string& word, const Path& known) {
-  Path names;
-  for (const std::string& address : known) names.push_back(last_word(address));
-  const auto at = std::find(names.begin(), names.end(), advice::nearest_name(word, names));
-  return at == names.end() ? "" : known[static_cast<std::size_t>(at - names.begin())];
+/// "hardning": the address of hardening, in its own table before others.
+std::string address_of_nearest_name(const std::string& wrong, const Path& known) {
+  const std::string word = last_word(wrong);
+  const std::string table = wrong.substr(0, wrong.size() - word.size());
+  Path near, all;
+  for (const std::string& address : known) {
+    all.push_back(last_word(address));
+    if (address == table + all.back()) near.push_back(all.back());
+  }
+  if (const std::string name = advice::nearest_name(word, near); !name.empty()) return table + name;
+  const Path same = addresses_with(advice::nearest_name(word, all), known);
+  const std::string nearest = advice::nearest_name(wrong, same);
+  return nearest.empty() && !same.empty() ? same.front() : nearest;
 }
 
 /// "material.snow" holds others: "it is a table: ..."; "" of what is none.
@@ -115,8 +122,8 @@ std::string advice_on_table(const Override& change, const Path& known) {
   if (nearest.empty()) nearest = advice::nearest_name(change.address, same);
   if (nearest.empty() && !same.empty()) nearest = same.front();
   if (nearest.empty()) nearest = our_address(word, known);
+  if (nearest.empty()) nearest = address_of_nearest_name(change.address, known);
   if (nearest.empty()) nearest = advice::nearest_name(change.address, known);
-  if (nearest.empty()) nearest = address_of_nearest_name(word, known);
   std::string hint = nearest.empty() ? "" : advice::did_you_mean(nearest, true);
   if (hint.empty()) hint = advice::suggest(word, {"key", {}}, "neve params lists all of them");
   change.fail(change.key, "unknown parameter " + toml::toml_string(change.address), hint);

@@ -113,6 +113,11 @@ TEST(Set, UnknownAddressesNameTheNearest) {
   EXPECT_EQ(override_error("hardening=5"),
             "--set hardening=5: error: unknown parameter \"hardening\"; did you mean "
             "\"material.snow.hardening\"?");
+  // Of another table, and misspelt.
+  EXPECT_EQ(
+      override_error("body.ball.densty=300"),
+      "--set body.ball.densty=300: error: unknown parameter \"body.ball.densty\"; did you mean "
+      "\"material.snow.density\"?");
   EXPECT_EQ(override_error("body.bull.velocity=[0,0,0]"),
             "--set body.bull.velocity=[0,0,0]: error: there is no body \"bull\"; expected "
             "\"ball\" or \"2\"");
