@@ -1,5 +1,6 @@
 /// docs/reports/look/compare.py, which sets pictures of neve beside pictures of VTK.
 
+#include <algorithm>
 #include <set>
 
 #include "app/output/atomic_file.h"
@@ -48,7 +49,8 @@ TEST_F(LookPage, ItsScriptDrawsOneStateInFourWays) {
     if (first.empty()) first = here;
     std::size_t both = 0;
     for (const std::size_t pixel : here) both += first.contains(pixel);
-    EXPECT_GT(both, first.size() / 2) << way;
+    // The light of VTK leaves a third of its surface darker than the particles of neve are.
+    EXPECT_GT(both, std::min(first.size(), here.size()) * 6 / 10) << way;
   }
   for (std::size_t a = 0; a < pictures.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
