@@ -34,7 +34,7 @@ class PublicSolids : public Cli {
   void expect_drawn(const std::string& mesh, double scale, double cell_size) {
     write_scene(mesh, scale, cell_size);
     const auto drawn = neve({"render", "solid.toml", "--view", "snow", "--no-caption", "--no-movie",
-                             "--quiet", "--out", "drawn"});
+                             "--quiet", "--out", "drawn", "--replace"});
     ASSERT_EQ(drawn.exit_code, 0) << mesh << drawn.errors;
     for (const char* frame : {"drawn/snow/0000.png", "drawn/snow/0001.png"}) {
       const render::Image image = render::decode_png(app::output::read_file(folder / frame));
