@@ -17,7 +17,8 @@ bool is_below(const std::filesystem::path& folder, const std::filesystem::path& 
 bool has_hash(const std::filesystem::path& file, const std::string& hash);
 
 /// Removes the files of a list that are below the folder and have the bytes that it gives the hash
-/// of, and folders that are empty then. @return how many files @throws IoError
+/// of, and folders that are empty then. @return how many files @throws IoError, also where one
+/// cannot be read
 std::size_t remove_listed(const std::filesystem::path& folder, const FileHashes& files);
 
 /// Removes what DIR/run.json lists: files with their hashes, and pictures without one that say that
