@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <random>
 #include <sstream>
@@ -49,7 +48,9 @@ struct Life {
 /// Empty if the system does not say. Source: proc(5), /proc/PID/stat, fields 3 and 22.
 std::optional<Life> life_of(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/stat");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text(4096, '\0');  // about 300 are used
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
   // The name of a program may hold anything, a parenthesis too.
   const std::size_t end_of_name = text.rfind(')');
   if (end_of_name == std::string::npos) return std::nullopt;

@@ -7,7 +7,6 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "app/output/json_file.h"
 #include "app/output/sequence.h"
@@ -129,7 +128,10 @@ std::string last_error(const fs::path& log) {
   if (!in) return {};
   const std::streamoff size = in.tellg(), most = 1 << 16;
   in.seekg(std::max<std::streamoff>(0, size - most));
-  std::string line = last_line(std::string(std::istreambuf_iterator<char>(in), {}));
+  std::string text(static_cast<std::size_t>(std::clamp<std::streamoff>(size, 0, most)), '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  const std::string line = last_line(text);
   const Json event = Json::parse(line, nullptr, false);
   if (event.is_object()) {
     if (event.value("event", "") != "error") return {};
