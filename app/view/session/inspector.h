@@ -2,6 +2,7 @@
 /// Looks inside the next step, on a copy: after a stage, and at a probe.
 
 #include <optional>
+#include <utility>
 
 #include "app/support/clock.h"
 #include "app/timeline/timeline.h"
