@@ -1,6 +1,9 @@
 #pragma once
-/// A Slurm of one machine, started by hand, for tests: no systemd, no cgroups, no accounting.
+/// A Slurm of one machine, started by hand, for tests: no systemd, no cgroups, no accounting. Its
+/// ports and munged are the machine's, so there is one at a time.
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -27,7 +30,9 @@ class Slurm {
     return "";
   }
 
-  Slurm() {
+  Slurm() : turn_(::open(turns().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
+    // Another test that waits for the jobs of this one's controller would wait for ever.
+    ::flock(turn_, LOCK_EX);
     const std::string dir = folder_.path().string();
     folder_.write("slurm.conf", config(dir));
     ::setenv("SLURM_CONF", (dir + "/slurm.conf").c_str(), 1);
@@ -51,6 +56,7 @@ class Slurm {
           "/run/$f.pid); done; sleep 1; "
           "[ -e run/started_munge ] && kill $(cat /run/munge/munged.pid)");
     ::unsetenv("SLURM_CONF");
+    ::close(turn_);
   }
   Slurm(const Slurm&) = delete;
   Slurm& operator=(const Slurm&) = delete;
@@ -63,6 +69,10 @@ class Slurm {
     return app::output::run_process("/bin/bash", {"-c", "exec >/dev/null 2>&1\n" + script},
                                     folder_.path())
                .exit_code == 0;
+  }
+
+  static std::filesystem::path turns() {
+    return std::filesystem::temp_directory_path() / "neve_tests_slurm.lock";
   }
 
   static std::string config(const std::string& dir) {
@@ -106,6 +116,7 @@ class Slurm {
   }
 
   TemporaryFolder folder_;
+  int turn_;  ///< of this test; held while the file is open
   bool is_up_ = false;
 };
 
