@@ -41,7 +41,7 @@ std::string plain_host() {
 struct Life {
   char state = 0;
   /// Ticks from the start of the machine to that of the process: a number is given again, but not
-  /// with the same start.
+  /// with the same start. 0: the system did not say.
   std::uint64_t start = 0;
 };
 
@@ -96,7 +96,9 @@ std::optional<Owner> owner_of(std::string_view name) {
 bool is_alive(const Owner& owner) {
   if (::kill(owner.process, 0) != 0 && errno == ESRCH) return false;
   const std::optional<Life> life = life_of(owner.process);
-  return !life || (life->state != 'Z' && life->state != 'X' && life->start == owner.start);
+  if (!life) return true;
+  const bool is_same = owner.start == 0 || life->start == owner.start;
+  return is_same && life->state != 'Z' && life->state != 'X';
 }
 
 bool is_abandoned(const fs::path& file, const Owner& owner) {

@@ -131,20 +131,26 @@ TEST(Temporary, WhatAProcessLeftThatNobodyHasWaitedForIsRemoved) {
   test::wait_for(dead);
 }
 
+/// A temporary name of this process, as one with another start would have it.
+std::string named_with_start(const std::filesystem::path& file, const std::string& other) {
+  const std::string mine = app::output::temporary_name(file).filename().string();
+  const std::string process = '.' + std::to_string(::getpid()) + '.';
+  const std::size_t start = mine.find(process) + process.size();
+  return std::string(mine).replace(start, mine.find('.', start) - start, other);
+}
+
 /// Numbers of processes are given again: this one has that of another that began before it.
 TEST(Temporary, WhatAProcessLeftWhoseNumberAnotherHasIsRemoved) {
   const TemporaryFolder folder;
-  const std::string mine = app::output::temporary_name(folder / "a").filename().string();
-  const std::string process = '.' + std::to_string(::getpid()) + '.';
-  const std::size_t start = mine.find(process) + process.size();
-  ASSERT_NE(mine.find('.', start), std::string::npos);
-  const std::string others = std::string(mine).replace(start, mine.find('.', start) - start, "1");
-  ASSERT_NE(others, mine);
-  folder.write(mine, "half");
-  folder.write(others, "half");
+  const std::string mine = app::output::temporary_name(folder / "a").filename().string(),
+                    others = named_with_start(folder / "a", "1"),
+                    unknown = named_with_start(folder / "a", "0");
+  for (const std::string& name : {mine, others, unknown}) folder.write(name, "half");
   app::output::remove_abandoned(folder.path());
   EXPECT_TRUE(std::filesystem::exists(folder / mine));
   EXPECT_FALSE(std::filesystem::exists(folder / others));
+  EXPECT_TRUE(std::filesystem::exists(folder / unknown))
+      << "the system did not tell its process when it began, and it may still write";
 }
 
 TEST(Temporary, TemporaryNamesDifferAndFitIntoAFolder) {
