@@ -69,7 +69,7 @@ Json check_json(const health::Check& check, const run::RenderJob& job,
       json["dt_limits"][sim::name(static_cast<sim::DtLimit>(k))] = dt;
   json["frames"] = Json::array();
   for (const forecast::FrameForecast& frame : check.foreseen.frames)
-    json["frames"].push_back({{"frame", frame.frame},
+    json["frames"].push_back({{"frame", scene::number_of(job.scene, frame.frame)},
                               {"dt", frame.dt},
                               {"steps", count_json(frame.steps)},
                               {"limit", sim::name(frame.limit)}});
@@ -116,7 +116,7 @@ void print_limits(const health::Check& check) {
   std::cout << "\n";
 }
 
-void print_forecast(const health::Check& check) {
+void print_forecast(const scene::Scene& scene, const health::Check& check) {
   const std::vector<forecast::FrameForecast>& frames = check.foreseen.frames;
   if (frames.empty()) return;
   const forecast::FrameForecast& worst = busiest(frames);
@@ -124,9 +124,12 @@ void print_forecast(const health::Check& check) {
   std::cout << "steps      about " << about_count_text(steps.expected) << " ("
             << about_count_text(steps.least) << " to " << about_count_text(steps.most) << ") in "
             << frames.size() << " frames: ";
-  if (worst.frame != 1) std::cout << about_count_text(frames.front().steps) << " in frame 1, ";
+  const int number = scene::number_of(scene, worst.frame);
+  if (worst.frame != 1)
+    std::cout << about_count_text(frames.front().steps) << " in frame "
+              << scene::number_of(scene, 1) << ", ";
   std::cout << about_count_text(worst.steps)
-            << (worst.frame == 1 ? ", the most, in frame " : " in frame ") << worst.frame << " ("
+            << (worst.frame == 1 ? ", the most, in frame " : " in frame ") << number << " ("
             << sim::name(worst.limit) << ")";
   if (check.foreseen.particles >= 1)
     std::cout << ", from a copy of " << about_count_text(check.foreseen.particles) << " particles";
@@ -151,7 +154,7 @@ void print_check(const health::Check& check, const run::RenderJob& job,
             << "memory     about " << bytes_text(check.plan.memory) << " of "
             << bytes_text(check.plan.memory_limit) << " allowed\n";
   print_limits(check);
-  print_forecast(check);
+  print_forecast(job.scene, check);
   std::cout << (job.fast ? "fast       " : "faster     ") << look.sentence() << "\n";
   if (!check.findings.empty()) std::cout << "\n";
 }

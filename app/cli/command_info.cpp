@@ -18,10 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The folder of the sweep that a sheet, or one of the sheets of all frames, is of.
+fs::path sweep_of(const fs::path& sheet) {
+  fs::path folder = sheet.parent_path();
+  if (folder.filename() == "sheet") folder = folder.parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
 std::string strip_line(const record::StripRecord& strip, const std::string& path) {
   return "strip       " + std::to_string(strip.times.size()) + " moments, " +
          fixed_text(strip.times.front(), 3) + " to " + fixed_text(strip.times.back(), 3) +
-         " s; neve strip " + path + " makes it again\n";
+         " s; neve strip " + shell_path(path) + " makes it again\n";
 }
 
 /// Prints the record as plain text: the file may be from anyone.
@@ -37,7 +44,7 @@ void print_picture(const record::PictureRecord& record, const std::string& pictu
       << (record.shutter > 0 ? "shutter     " + rough_text(record.shutter) + " degrees\n" : "")
       << (record.cards.empty() ? ""
                                : "card        of " + joined(record.cards, ", ") + "; neve card " +
-                                     picture + " makes it again\n")
+                                     shell_path(picture) + " makes it again\n")
       << (record.strip ? strip_line(*record.strip, picture) : "")
       << (record.passes.empty() ? "" : "passes      " + joined(record.passes, ", ") + "\n")
       << "seed        " << record.seed << "\n"
@@ -170,7 +177,7 @@ int run_info(const PlainOptions& options) {
       std::cout << printable_text(
           "neve        " + sheet->version + "\n" + "sheet       " + sheet->what + "\n" +
           joined(sheet->lines, "\n") + "\n" + "again       neve sweep collect " +
-          fs::path(path).parent_path().string() + " draws it from the pictures of the runs\n");
+          shell_path(sweep_of(path).string()) + " draws it from the pictures of the runs\n");
     return exit_ok;
   }
   const record::PictureRecord record = record::read_picture_record(path);

@@ -67,6 +67,8 @@ int run_export(const ExportCommand& command) {
   for (const scene::ExportFormat format : command.formats) {
     options.exports.push_back(command.common);
     options.exports.back().format = format;
+    // As those of a scene file have that are given none.
+    options.exports.back().name = std::to_string(options.exports.size());
   }
   return run_export_command(options);
 }

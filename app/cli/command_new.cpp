@@ -5,7 +5,6 @@
 
 #include "app/advice/suggest.h"
 #include "app/cli/commands.h"
-#include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
 #include "app/output/temporary.h"
 #include "app/scene/first_scene.h"
@@ -67,7 +66,7 @@ int run_new(const PlainOptions& options) {
     std::cout << to_text({{"scene", file}, {"schema", schema.string()}}) << "\n";
     return exit_ok;
   }
-  const std::string word = options::shell_path(file);
+  const std::string word = shell_path(file);
   std::cout << "wrote " << file << ", and " << schema.string()
             << " for editors\nnext:\n  neve check " << word
             << "                what it costs, and what looks wrong\n  neve render " << word

@@ -10,7 +10,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/devices/place.h"
 #include "app/cli/devices/terminal_lines.h"
-#include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
 #include "app/pick/game.h"
@@ -21,6 +20,7 @@
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/json.h"
+#include "app/support/text.h"
 #include "app/view/picker/picker.h"
 
 namespace neve::app::cli {
@@ -95,8 +95,8 @@ void print_pick(const pick::Game& game, const pick::PickOptions& options,
     std::cout << "  " << value.address << " = " << value.value << "\n";
   for (const std::string& line : game.lesson().lines) std::cout << line << "\n";
   if (options.refines) std::cout << "coarse and at full resolution: " << pair_sheet(game) << "\n";
-  std::cout << "next:\n  neve render " << options::shell_path(scene) << "\n  neve sweep "
-            << options::shell_path((game.folder() / "picked_sweep.toml").string()) << "\n";
+  std::cout << "next:\n  neve render " << shell_path(scene) << "\n  neve sweep "
+            << shell_path((game.folder() / "picked_sweep.toml").string()) << "\n";
 }
 
 /// Makes the nine runs, their sheet and their page. @return exit code

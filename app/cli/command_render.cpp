@@ -46,13 +46,14 @@ void refuse_strip(const run::RenderOptions& options, const run::RenderJob& job) 
     throw UsageError(
         options.scene,
         "is a card of " + joined(job.picture->cards, ", ") + ", not a picture of a run",
-        "neve card " + options.scene + " makes it again");
+        "neve card " + shell_path(options.scene) + " makes it again");
   if (options.from) return;
   if (job.picture && job.picture->strip && !options.frames)
     throw UsageError(
         options.scene,
         "is a strip of " + std::to_string(job.picture->strip->times.size()) + " moments",
-        "neve strip " + options.scene + " makes it again; --frames renders frames of its scene");
+        "neve strip " + shell_path(options.scene) +
+            " makes it again; --frames renders frames of its scene");
 }
 
 void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json) {
@@ -310,7 +311,8 @@ std::string states_text(const run::RenderJob& job, const Json& states) {
       "{}{} in {}, {}{}: other views, sizes, cameras and films of it need no "
       "simulation, as in neve render {} --view NAME",
       count_text(count, "state"), every > 1 ? fmt::format(", one every {} frames,", every) : "",
-      folder, bytes_text(states.at("bytes").get<std::uint64_t>()), budget, job.folder.string());
+      folder, bytes_text(states.at("bytes").get<std::uint64_t>()), budget,
+      shell_path(job.folder.string()));
 }
 
 int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,

@@ -11,6 +11,7 @@
 #include "app/output/file_hash.h"
 #include "app/output/report_json.h"
 #include "app/output/temporary.h"
+#include "app/picture/motion.h"
 #include "app/scene/names.h"
 
 namespace neve::app::exports {
@@ -81,15 +82,16 @@ PlacedShape placed_shape(const Json& json) {
   return placed;
 }
 
-/// In the place of the one of the same number, or after all others.
+/// In the order of their numbers, in the place of the one of the same number.
 template <class Item>
 void put(std::vector<Item>& items, Item item) {
-  for (Item& other : items)
-    if (other.number == item.number) {
-      other = std::move(item);
-      return;
-    }
-  items.push_back(std::move(item));
+  const auto at =
+      std::lower_bound(items.begin(), items.end(), item,
+                       [](const Item& a, const Item& b) { return a.number < b.number; });
+  if (at != items.end() && at->number == item.number)
+    *at = std::move(item);
+  else
+    items.insert(at, std::move(item));
 }
 
 }  // namespace
@@ -99,6 +101,7 @@ Exporter::Exporter(const scene::Scene& scene, fs::path folder,
     : scene_(scene),
       colliders_(scene.colliders),
       folder_(std::move(folder)),
+      body_end_(body_end),
       origins_(scene, body_end),
       carried_(scene, body_end) {
   output::remove_abandoned(folder_);
@@ -126,8 +129,12 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
   if (due.empty()) return works;
   note_colliders(colliders);
   const std::shared_ptr<const State> state = read_state(due, colliders, simulation);
+  std::optional<sim::Vec3d> followed;
+  if (scene_.camera && !scene_.camera->follow.empty())
+    followed = picture::followed_by(*scene_.camera, scene_, colliders, body_end_, state->particles,
+                                    state->time);
   for (Job& job : jobs_)
-    if (is_due(job)) works.push_back(work(job, state, number));
+    if (is_due(job)) works.push_back(work(job, state, number, followed));
   return works;
 }
 
@@ -139,12 +146,14 @@ void Exporter::note_colliders(const std::vector<scene::Collider>& colliders) {
       colliders_.push_back(collider);
 }
 
-Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int number) {
+Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int number,
+                              const std::optional<sim::Vec3d>& followed) {
   const scene::Export& spec = job.record.spec;
   // A frame that is made again keeps its place.
   put(job.record.files, {number, state->time, state->hash});
   const bool is_stage = spec.format == scene::ExportFormat::usda;
-  put(job.samples, {number, state->time, state->colliders, is_stage && !are_as_in(scene_, *state)});
+  put(job.samples, {number, state->time, state->colliders, is_stage && !are_as_in(scene_, *state),
+                    is_stage ? followed : std::nullopt});
   const bool has_pvd = series_name(spec).ends_with(".pvd");
   std::string series = has_pvd ? encode_pvd(spec, job.samples) : std::string();
   return [this, &spec, state = std::move(state), number, series = std::move(series)] {
@@ -192,7 +201,7 @@ void Exporter::resume(const Json& list, int last_number) {
 void Exporter::resume(const Json& file, Job& job) const {
   const int number = whole_number<int>(file.at("number"));
   const double time = file.at("time").get<double>();
-  job.record.files.push_back(
+  put(job.record.files,
       {number, time, std::stoull(file.at("state_hash").get<std::string>(), nullptr, 16)});
   Sample sample{number, time, placed_at(scene_.colliders, time)};
   sample.is_elsewhere = file.contains("colliders");
@@ -201,7 +210,8 @@ void Exporter::resume(const Json& file, Job& job) const {
     for (const Json& placed : file.at("colliders"))
       sample.colliders.push_back(placed_shape(placed));
   }
-  job.samples.push_back(std::move(sample));
+  if (file.contains("followed")) sample.followed = output::vector_of(file.at("followed"));
+  put(job.samples, std::move(sample));
 }
 
 Json Exporter::to_json(const std::string& below) const {
@@ -228,6 +238,8 @@ Json Exporter::to_json(const std::string& below) const {
                                {"state_hash", hash_digits(file.hash)}});
       if (job.samples[k].is_elsewhere)
         json["files"].back()["colliders"] = places_json(job.samples[k]);
+      if (job.samples[k].followed)
+        json["files"].back()["followed"] = output::vector_json(*job.samples[k].followed);
     }
     list.push_back(std::move(json));
   }

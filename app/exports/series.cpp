@@ -188,7 +188,11 @@ std::string usd_camera(const scene::Scene& scene, const Axes& axes,
   constexpr double height = 24;  // tenths of a unit, as film has millimetres
   const double width = height * scene.size.width / scene.size.height;
   const auto place_at = [&](const Sample& sample) {
-    return setup::camera_at(*scene.camera, sample.time, scene::duration(scene));
+    setup::CameraPlace place = setup::camera_at(*scene.camera, sample.time, scene::duration(scene));
+    const Vec3d moved = sample.followed.value_or(Vec3d::Zero());
+    place.eye += moved;
+    place.target += moved;
+    return place;
   };
   const auto focal_length = [&](const Sample& sample) {
     const double half = 0.5 * place_at(sample).fov * std::numbers::pi / 180;

@@ -2,6 +2,7 @@
 /// Files that put the moments of an export in a row, for programs that do not count files.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct Sample {
 
   /// Null where there was no such collider.
   const PlacedShape* find(const std::string& collider) const;
-  bool is_elsewhere = false;  ///< the scene alone does not say where colliders are
+  bool is_elsewhere = false;             ///< the scene alone does not say where colliders are
+  std::optional<sim::Vec3d> followed{};  ///< m, what a camera that follows has moved by
 };
 
 /// "0024.ply"

@@ -30,6 +30,11 @@ void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& f
       findings.push_back({Severity::warning, "dust",
                           "it has no effect: no snow of the scene sheds dust",
                           "material." + scene.materials.front().name + ".dust = 0.02"});
+    for (const scene::Export& e : scene.exports)
+      if (e.dust)
+        findings.push_back({Severity::warning, "export." + e.name + ".dust",
+                            "its files are empty: no snow of the scene sheds dust",
+                            "material." + scene.materials.front().name + ".dust = 0.02"});
     return;
   }
   const std::string address = "material." + dusty->name + ".dust";

@@ -2,20 +2,9 @@
 
 #include <sstream>
 
+#include "app/support/text.h"
+
 namespace neve::app::options {
-
-std::string shell_word(const std::string& text) {
-  const std::string plain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,=+:@%";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string shell_path(const std::string& path) {
-  return shell_word(path.starts_with('-') ? "./" + path : path);
-}
 
 namespace {
 

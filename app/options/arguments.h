@@ -10,11 +10,6 @@
 
 namespace neve::app::options {
 
-/// A word for a POSIX shell, quoted where it has to be.
-std::string shell_word(const std::string& text);
-/// The same of a path, which is no option whatever it begins with.
-std::string shell_path(const std::string& path);
-
 /// The command and the options that differ from those of `usual`, which nobody has changed:
 /// "render", "scene.toml", "--set", "material.snow.hardening=5"
 std::vector<std::string> words_of(const Command& command, const Command& usual);

@@ -9,6 +9,7 @@
 #include "app/picture/collider_looks.h"
 #include "app/picture/cut.h"
 #include "app/picture/legends.h"
+#include "app/picture/motion.h"
 #include "app/picture/scale_bar.h"
 #include "app/picture/slice.h"
 #include "app/picture/smoke_layer.h"
@@ -26,7 +27,6 @@
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/laws/law.h"
-#include "sim/rigid/rigid_bodies.h"
 
 namespace neve::app::picture {
 
@@ -294,45 +294,16 @@ std::pair<std::size_t, std::size_t> FrameBuilder::particles_of(std::size_t body,
 
 std::optional<sim::Vec3d> FrameBuilder::centre_of_mass(const std::string& name,
                                                        const Snapshot& snapshot) const {
-  return centre_of_body(scene_, seeded_, snapshot, name);
-}
-
-std::optional<sim::Vec3d> centre_of_body(const scene::Scene& scene,
-                                         const setup::SeededScene& seeded, const Snapshot& snapshot,
-                                         const std::string& name) {
-  const sim::ParticleArrays& particles = snapshot.particles;
-  for (std::size_t body = 0; body < seeded.body_end.size(); ++body) {
-    if (scene.bodies[body].name != name) continue;
-    const std::size_t first = particles.first_from(seeded.body_begin(body)),
-                      end = particles.first_from(seeded.body_end[body]);
-    sim::Vec3d moment = sim::Vec3d::Zero();
-    double mass = 0;
-    for (std::size_t p = first; p < end; ++p) {
-      if (!particles.x[p].allFinite()) continue;
-      moment += particles.m[p] * particles.x[p];
-      mass += particles.m[p];
-    }
-    if (mass > 0) return sim::Vec3d(moment / mass);
-  }
-  for (const scene::Collider& collider : scene.colliders)
-    if (collider.name == name)
-      return collider.body.moves() ? sim::rigid::motion_at(collider, snapshot.time).centre
-                                   : sim::shapes::pose_at(collider, snapshot.time).point;
-  return std::nullopt;
+  return centre_of(name, scene_, scene_.colliders, seeded_.body_end, snapshot.particles,
+                   snapshot.time);
 }
 
 setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& view,
                                 const setup::SeededScene& seeded, const Snapshot& snapshot) {
   const scene::CameraSettings& settings = settings_of(scene, view);
   setup::CameraPlace place = setup::camera_at(settings, snapshot.time, scene::duration(scene));
-  if (settings.follow.empty()) return place;
-  const auto body = std::find_if(
-      scene.bodies.begin(), scene.bodies.end(),
-      [&](const sim::seeding::Body& candidate) { return candidate.name == settings.follow; });
-  // A body that a sink has removed is looked for where it was.
-  const sim::Vec3d start =
-      body == scene.bodies.end() ? sim::Vec3d::Zero() : sim::shapes::center(body->shape);
-  const sim::Vec3d moved = centre_of_body(scene, seeded, snapshot, settings.follow).value_or(start);
+  const sim::Vec3d moved = followed_by(settings, scene, scene.colliders, seeded.body_end,
+                                       snapshot.particles, snapshot.time);
   place.eye += moved;
   place.target += moved;
   return place;

@@ -73,11 +73,6 @@ class FrameBuilder {
   PictureOptions options_;
 };
 
-/// The centre of mass of a body or collider; of a body without particles nothing.
-std::optional<sim::Vec3d> centre_of_body(const scene::Scene& scene,
-                                         const setup::SeededScene& seeded, const Snapshot& snapshot,
-                                         const std::string& name);
-
 /// The place of the view's camera, or the scene's, at the time of a snapshot.
 setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& view,
                                 const setup::SeededScene& seeded, const Snapshot& snapshot);

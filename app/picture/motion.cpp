@@ -1,8 +1,11 @@
 #include "app/picture/motion.h"
 
+#include <algorithm>
+
 #include "app/picture/collider_looks.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/to_float.h"
+#include "sim/rigid/rigid_bodies.h"
 
 namespace neve::app::picture {
 
@@ -73,6 +76,44 @@ std::vector<Thing> moving_meshes(const MotionSource& source, double interval) {
 
 std::vector<Thing> moving_grounds(const MotionSource& source, double interval) {
   return moving_things(source, true, interval);
+}
+
+std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene& scene,
+                                    const std::vector<scene::Collider>& colliders,
+                                    const std::vector<std::size_t>& body_end,
+                                    const sim::ParticleArrays& particles, double time) {
+  for (std::size_t body = 0; body < body_end.size(); ++body) {
+    if (scene.bodies[body].name != name) continue;
+    const std::size_t first = particles.first_from(body == 0 ? 0 : body_end[body - 1]),
+                      end = particles.first_from(body_end[body]);
+    sim::Vec3d moment = sim::Vec3d::Zero();
+    double mass = 0;
+    for (std::size_t p = first; p < end; ++p) {
+      if (!particles.x[p].allFinite()) continue;
+      moment += particles.m[p] * particles.x[p];
+      mass += particles.m[p];
+    }
+    if (mass > 0) return sim::Vec3d(moment / mass);
+  }
+  for (const scene::Collider& collider : colliders)
+    if (collider.name == name)
+      return collider.body.moves() ? sim::rigid::motion_at(collider, time).centre
+                                   : sim::shapes::pose_at(collider, time).point;
+  return std::nullopt;
+}
+
+sim::Vec3d followed_by(const scene::CameraSettings& settings, const scene::Scene& scene,
+                       const std::vector<scene::Collider>& colliders,
+                       const std::vector<std::size_t>& body_end,
+                       const sim::ParticleArrays& particles, double time) {
+  if (settings.follow.empty()) return sim::Vec3d::Zero();
+  const auto body = std::find_if(
+      scene.bodies.begin(), scene.bodies.end(),
+      [&](const sim::seeding::Body& candidate) { return candidate.name == settings.follow; });
+  // A body that a sink has removed is looked for where it was.
+  const sim::Vec3d start =
+      body == scene.bodies.end() ? sim::Vec3d::Zero() : sim::shapes::center(body->shape);
+  return centre_of(settings.follow, scene, colliders, body_end, particles, time).value_or(start);
 }
 
 }  // namespace neve::app::picture

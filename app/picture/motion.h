@@ -1,6 +1,10 @@
 #pragma once
 /// A moment a little before or after the state of a simulation: particles keep their velocity,
-/// colliders and cameras follow their paths.
+/// colliders and cameras follow their paths; and what cameras and slices move with.
+
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "app/picture/snapshot.h"
 #include "app/setup/seed_scene.h"
@@ -27,5 +31,21 @@ render::Camera camera_after(const MotionSource& source, double seconds);
 /// A mesh that deforms moves as its pose does.
 std::vector<render::channels::Thing> moving_meshes(const MotionSource& source, double interval);
 std::vector<render::channels::Thing> moving_grounds(const MotionSource& source, double interval);
+
+/// Centre of mass of the snow of a body, or of a collider that moves by itself; the place of
+/// another collider. Nothing where there is no such snow.
+/// @param colliders  of the scene, followed to this moment @param body_end  see SeededScene
+/// @param particles  in the order of their ids
+std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene& scene,
+                                    const std::vector<scene::Collider>& colliders,
+                                    const std::vector<std::size_t>& body_end,
+                                    const sim::ParticleArrays& particles, double time);
+
+/// What eye and target of setup::camera_at() move by, m: that centre of what the camera follows; 0
+/// without.
+sim::Vec3d followed_by(const scene::CameraSettings& settings, const scene::Scene& scene,
+                       const std::vector<scene::Collider>& colliders,
+                       const std::vector<std::size_t>& body_end,
+                       const sim::ParticleArrays& particles, double time);
 
 }  // namespace neve::app::picture

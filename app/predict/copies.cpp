@@ -29,7 +29,7 @@ double largest_force(const timeline::Timeline& timeline) {
 void run(const scene::Scene& scene, int last, int threads, Progress& progress, Copy& copy) {
   timeline::Timeline timeline(scene, {},
                               std::make_shared<const setup::SeededScene>(setup::seed_scene(scene)),
-                              threads, {}, timeline::watched_by(progress, scene.fps));
+                              threads, {}, timeline::watched_by(progress, scene));
   const double h = scene.solver.cell_size;
   const record::Metrics first = record::measure(timeline.simulation().particles(), h);
   double force = 0;

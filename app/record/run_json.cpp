@@ -323,6 +323,7 @@ Json to_json(const RunRecord& run) {
   if (!run.prediction.is_null()) json["prediction"] = run.prediction;
   if (!run.forked.is_null()) json["forked"] = run.forked;
   if (!run.simulation.empty()) json["simulation"] = run.simulation;
+  if (!run.scene_files.empty()) json["scene_files"] = run.scene_files;
   add_views(run, json);
   if (!run.exports.is_null()) json["exports"] = run.exports;
   json["backend"] = run.backend;

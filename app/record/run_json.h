@@ -80,6 +80,8 @@ struct RunRecord {
   Json prediction;         ///< of --predict, for full resolution, as predict::to_json; null without
   Json forked;             ///< where it left another run; null: nowhere
   std::string simulation;  ///< hash of all that the bits of its states depend on
+  std::map<std::string, std::string>
+      scene_files{};                               ///< that the scene names, with the hash of each
   std::vector<std::string> views;                  ///< that this command draws
   std::vector<std::string> earlier_views;          ///< that the folder had before, in their order
   std::map<std::string, ViewRecord> view_records;  ///< of both, by name

@@ -86,7 +86,7 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
                      fmt::format("{} s is at or after frame {}, the last one",
                                  rough_text(job.fork->time), scene::number_of(job.scene, last)),
                      "expected an earlier time, or a later frame with --frames" +
-                         timeline::advice_on_frame(job.fork->time, last, job.scene.fps));
+                         timeline::advice_on_frame(job.fork->time, last, job.scene));
   job.frames = {frames ? std::max(frames->first, first) : first, last};
   if (options.out.empty())
     job.folder = out_folder() / fmt::format("{}-from-{}s", job.name(), rough_text(job.fork->time));

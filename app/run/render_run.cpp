@@ -30,6 +30,7 @@ record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simu
                                const Json& forked, const record::PictureRecord& picture) {
   record::RunRecord record = run_record(job, simulation);
   record.simulation = identity_of_states(job, simulation.simd());
+  record.scene_files = picture.files;
   record.backend = context.backend;
   record.gl_renderer = context.renderer;
   record.forked = forked;

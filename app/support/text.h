@@ -11,6 +11,11 @@
 
 namespace neve::app {
 
+/// A word for a POSIX shell, quoted where it has to be.
+std::string shell_word(const std::string& text);
+/// The same of a path, which is no option whatever it begins with.
+std::string shell_path(const std::string& path);
+
 /// With so many digits after the point.
 std::string fixed_text(double value, int digits);
 /// With three significant digits.

@@ -1,4 +1,5 @@
 #include "app/timeline/origin.h"
+#include "app/support/text.h"
 
 #include <fmt/core.h>
 
@@ -128,6 +129,24 @@ std::vector<scene::Override> drawing_changes(const Edits& edits) {
   return changes;
 }
 
+/// States of a run go on with the files that its scene names: with others, they would be mixed with
+/// what these make. Those that are gone are missed where they are read.
+/// @param before  their hashes when the run was made; none in runs of earlier builds
+void require_same_files(const record::FileHashes& before, const Origin& origin) {
+  record::FileHashes now;
+  try {
+    now = record::hash_files(origin.scene, origin.changes);
+  } catch (const IoError&) {
+    return;
+  }
+  for (const auto& [file, hash] : before)
+    if (const auto found = now.find(file); found != now.end() && found->second != hash)
+      throw Error(exit_invalid_scene,
+                  file + ": error: has changed since the run in " + origin.run.string() +
+                      " was made: its states belong to the old file",
+                  file, "restore the old file, or render the scene file into another folder");
+}
+
 void read_run(const Edits& edits, Origin& origin) {
   if (edits.coarsening || edits.is_fast)
     throw UsageError(edits.coarsening ? "--coarsen" : "--fast",
@@ -147,6 +166,7 @@ void read_run(const Edits& edits, Origin& origin) {
     origin.run_frames = record::frame_records(run);
     for (record::FrameRecord& made : origin.run_frames)
       made.frame = scene::frame_of(origin.scene, made.frame);
+    require_same_files(run.value("scene_files", record::FileHashes{}), origin);
   } catch (const nlohmann::json::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
                 file.string());
@@ -200,14 +220,14 @@ void require_before_end(const char* flag, double time, const Origin& origin) {
   const int wanted = is_not_after(time, before / scene.fps) ? before : before + 1;
   if (wanted < 1'000'000)
     more = is_run ? fmt::format("; neve render {} --resume --frames {}-{} continues it",
-                                origin.run.string(), scene::number_of(scene, 0),
+                                shell_path(origin.run.string()), scene::number_of(scene, 0),
                                 scene::number_of(scene, wanted))
                   : fmt::format("; --set frames={} makes it longer", wanted - 2 * scene.handles);
   throw UsageError(flag,
                    fmt::format("{} s is after the end of the {}, {} s (frame {})", rough_text(time),
                                is_run ? "run" : "scene", rough_text(end / scene.fps),
                                scene::number_of(scene, end)),
-                   "expected an earlier time" + advice_on_frame(time, end, scene.fps) + more);
+                   "expected an earlier time" + advice_on_frame(time, end, scene) + more);
 }
 
 void warn_of_late_frame(double time, const Origin& origin, Progress& progress) {
@@ -243,7 +263,7 @@ Timeline open(const Origin& origin, std::shared_ptr<const setup::SeededScene> se
   Moments moments;
   if (!origin.run.empty()) moments.add_run(origin.run);
   return Timeline(origin.scene, origin.changes, std::move(seeded), threads, std::move(moments),
-                  watched_by(progress, origin.scene.fps));
+                  watched_by(progress, origin.scene));
 }
 
 void compare_with_run(const Origin& origin, int frame, std::uint64_t hash, Progress& progress) {

@@ -29,15 +29,18 @@ std::vector<picture::BodySample> body_samples(const sim::Simulation& simulation)
 
 }  // namespace
 
-Watch watched_by(Progress& progress, double fps) {
+Watch watched_by(Progress& progress, const scene::Scene& scene) {
+  const double fps = scene.fps;
+  const int first = scene::number_of(scene, 0);
   Watch watch;
   watch.after_step = [&progress] {
     progress.step();
     return is_interrupted();
   };
   watch.after_frame = [&progress, fps](int frame) { progress.frame(frame, frame / fps); };
-  watch.after_jump = [&progress, is_told = false](int frame) mutable {
-    if (!is_told) progress.note("continues from the checkpoint of frame " + std::to_string(frame));
+  watch.after_jump = [&progress, first, is_told = false](int frame) mutable {
+    if (!is_told)
+      progress.note("continues from the checkpoint of frame " + std::to_string(first + frame));
     is_told = true;
   };
   return watch;
@@ -164,7 +167,8 @@ void Timeline::restore_state(const Moment& moment) {
   const double time = simulation_.time(), start = moment.frame / fps(),
                end = (moment.frame + 1) / fps(), rounding = 1e-9 * (1 + end);
   if (simulation_.steps() != moment.steps || !(time >= start - rounding && time <= end + rounding))
-    throw std::runtime_error("the checkpoint of frame " + std::to_string(moment.frame) +
+    throw std::runtime_error("the checkpoint of frame " +
+                             std::to_string(scene::number_of(start_, moment.frame)) +
                              " holds another moment");
 }
 

@@ -22,7 +22,7 @@ struct Watch {
 };
 
 /// Shows how far it is, and stops at an interrupt. @param progress  outlives it
-Watch watched_by(Progress& progress, double fps);
+Watch watched_by(Progress& progress, const scene::Scene& scene);
 
 /// Whenever a function returns, all changes with a step up to simulation().steps() have been made:
 /// which ones have follows from the number of steps alone, also for a moment that was kept. With

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "app/scene/scene.h"
+
 namespace neve::app::timeline {
 
 inline constexpr double typed_rounding = 1 + 1e-12;
@@ -20,7 +22,7 @@ inline int frame_at(double time, double fps) {
 }
 
 /// "; frame 24 is at 1 s" of a time in seconds that would be right as the number of a frame.
-/// @param last  frame; "" for later ones
-std::string advice_on_frame(double time, int last, double fps);
+/// @param last  frame, counted from 0; "" for numbers of later ones
+std::string advice_on_frame(double time, int last, const scene::Scene& scene);
 
 }  // namespace neve::app::timeline

@@ -14,6 +14,8 @@ class PlyNumbers {
       : bytes_(bytes), format_(format), name_(name) {}
 
   std::size_t left() const { return bytes_.size(); }
+  /// Of a text: anything but blanks.
+  bool has_more() const { return bytes_.find_first_not_of(" \t\r\f\v\n") != std::string::npos; }
 
   double next(PlyType type) {
     return format_ == PlyFormat::ascii ? next_text() : next_binary(type);
@@ -52,6 +54,8 @@ class MeshPly {
     const PlyHeader header = read_ply_header(lines_, name_);
     PlyNumbers numbers(lines_.rest(), header.format, name_);
     for (const PlyElement& element : header.elements) read_element(element, numbers);
+    if (header.format == PlyFormat::ascii && numbers.has_more())
+      refuse_input(name_, "more data than the elements of the header: faces would be missing");
     check();
     return std::move(mesh_);
   }

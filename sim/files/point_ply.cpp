@@ -7,14 +7,15 @@
 namespace neve::sim::files {
 namespace {
 
-/// Elements after the points are ignored.
-PlyHeader header_of_points(TableLines& lines, const std::string& name) {
+/// Elements after the points are ignored. @param has_more  gets whether there are any
+PlyHeader header_of_points(TableLines& lines, const std::string& name, bool& has_more) {
   PlyHeader header = read_ply_header(lines, name);
   std::vector<PlyElement>& elements = header.elements;
   const auto points = std::find_if(elements.begin(), elements.end(), [](const PlyElement& element) {
     return element.name == "vertex";
   });
   if (points == elements.end()) refuse_input(name, "the PLY has no element vertex");
+  has_more = points + 1 != elements.end();
   elements.erase(points + 1, elements.end());
   return header;
 }
@@ -30,7 +31,7 @@ std::size_t min_row_size(const PlyElement& element) {
 class PointPly {
  public:
   PointPly(std::string_view bytes, const std::string& name)
-      : lines_(bytes), name_(name), header_(header_of_points(lines_, name)) {
+      : lines_(bytes), name_(name), header_(header_of_points(lines_, name, has_more_)) {
     for (const PlyProperty& property : header_.elements.back().properties)
       if (!property.count) columns_.push_back(property.name);
   }
@@ -93,6 +94,8 @@ class PointPly {
         points.add(row, [&] { return here(); });
       }
     }
+    while (!has_more_ && !lines_.at_end())
+      if (!trimmed(lines_.next()).empty()) refuse_more(here());
   }
 
   void read_text_row(std::string_view line, const PlyElement& element,
@@ -138,6 +141,15 @@ class PointPly {
         if (is_points) points.add(row, [&] { return name_ + ": point " + std::to_string(p + 1); });
       }
     }
+    // Some writers end with a byte or two of their own.
+    if (!has_more_ && bytes.size() >= min_row_size(header_.elements.back())) refuse_more(name_);
+  }
+
+  /// What is beyond the header's count would be missing, and nobody would know.
+  [[noreturn]] void refuse_more(const std::string& where) const {
+    const PlyElement& element = header_.elements.back();
+    refuse_input(where, "more data than the " + std::to_string(element.count) + " of " +
+                            quoted_input(element.name) + " that the header promises");
   }
 
   void read_binary_property(const PlyProperty& property, std::string_view& bytes,
@@ -157,6 +169,7 @@ class PointPly {
 
   TableLines lines_;
   const std::string& name_;
+  bool has_more_ = false;             ///< elements after the points
   PlyHeader header_;                  ///< up to the points, which are the last
   std::vector<std::string> columns_;  ///< of the points
 };

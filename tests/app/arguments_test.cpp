@@ -6,6 +6,7 @@
 
 #include "app/output/process.h"
 #include "app/run/render_options.h"
+#include "app/support/text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -61,11 +62,11 @@ TEST(CommandLine, CommandLineGoesThroughAShellUnharmed) {
 }
 
 TEST(ShellWord, ShellWordIsQuotedIfNecessary) {
-  EXPECT_EQ(options::shell_word("a/b-c_d.toml"), "a/b-c_d.toml");
-  EXPECT_EQ(options::shell_word(""), "''");
-  EXPECT_EQ(options::shell_word("a b"), "'a b'");
-  EXPECT_EQ(options::shell_word("it's"), "'it'\\''s'");
-  EXPECT_EQ(options::shell_word("~"), "'~'");
+  EXPECT_EQ(shell_word("a/b-c_d.toml"), "a/b-c_d.toml");
+  EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("a b"), "'a b'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word("~"), "'~'");
 }
 
 }  // namespace

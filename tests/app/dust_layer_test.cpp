@@ -114,6 +114,13 @@ TEST(DustScene, FindingsSayWhatNobodyWillSee) {
   scene::Scene none = shown;
   none.materials.front().dust = 0;
   EXPECT_EQ(findings(none, 6), "");
+  scene::Export exported;
+  exported.name = "1";
+  exported.dust = true;
+  none.exports = {exported};
+  EXPECT_TRUE(findings(none, 6).starts_with("export.1.dust: its files are empty"))
+      << findings(none, 6);
+  none.exports.clear();
   none.solver.dust.life = 3;
   EXPECT_NE(findings(none, 6).find("it has no effect"), std::string::npos);
 }

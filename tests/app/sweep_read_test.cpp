@@ -220,6 +220,8 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
        "4:10 seed = 3; expected a list of values, as in [5, 10], or a table such as { linspace = "
        "[1, 2], num = 3 }; put constant values into [set]"},
       {"[axis]\n\"fps\" = []\n", "4:9 fps has no values"},
+      {"[axis]\n\"seed\" = { range = [1, 100001] }\n",
+       "4:10 seed has too many values; at most 100000"},
       {"method = \"gird\"\n",
        "3:10 sweep.method = \"gird\"; expected \"grid\", \"zip\", \"random\", \"lhs\", \"sobol\", "
        "\"morris\" or \"list\"; "

@@ -1,5 +1,7 @@
 /// neve export: every format holds the state to the bit, all times are of one simulation.
 
+#include <algorithm>
+
 #include "app/output/atomic_file.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/child.h"
@@ -491,6 +493,104 @@ TEST_F(Export, AResumedRunListsAllItsExports) {
   EXPECT_EQ(json_of("parts/run.json")["exports"], json_of("whole/run.json")["exports"]);
   EXPECT_EQ(read_text(folder / "parts/exports/for_paraview.pvd"),
             read_text(folder / "whole/exports/for_paraview.pvd"));
+}
+
+/// A ball that flies along x at 2 m/s, with a parameter that changes and a camera that follows it.
+constexpr const char* followed_scene = R"(
+frames = 3
+first_frame = 10
+[solver]
+cell_size = 0.08
+gravity = [0, 0, 0]
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.3, 0], radius = 0.12 } }
+velocity = [2, 0, 0]
+[[curve]]
+parameter = "material.snow.hardening"
+keyframes = [{ time = 0, value = 10 }, { time = 0.1, value = 12 }]
+[camera]
+follow = "ball"
+eye = [1, 0, 1.5]
+target = [0, 0, 0]
+[output]
+size = [160, 90]
+)";
+constexpr const char* series = R"(
+[[export]]
+format = "usda"
+[[export]]
+format = "vtp"
+)";
+
+/// The first number after each text that a file has in its order.
+std::vector<double> numbers_after(const std::string& text, const std::string& start) {
+  std::vector<double> numbers;
+  for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + 1))
+    numbers.push_back(std::stod(text.substr(at + start.size())));
+  return numbers;
+}
+
+TEST_F(Export, ASceneWithCurvesIsExportedAndTheStagesCameraFollowsAsPicturesDo) {
+  folder.write("followed.toml", followed_scene);
+  json_of_export({"followed.toml", "--format", "csv,usda", "--out", "made"});
+  EXPECT_TRUE(exists("made/csv/0013.csv"));
+  // The last row of each matrix is the place of the eye.
+  const std::string text = read_text(folder / "made/usda.usda");
+  const std::string view = text.substr(text.find("def Camera"));
+  for (int k = 0; k <= 3; ++k) {
+    const std::size_t at = view.find(std::to_string(10 + k) + ": ( (");
+    ASSERT_NE(at, std::string::npos);
+    const std::size_t place = view.rfind('(', view.find(") )", at));
+    // The centre of the jittered ball is a part of its spacing beside the origin.
+    EXPECT_NEAR(std::stod(view.substr(place + 1)), 1 + 2 * k / 24.0, 0.02) << k;
+  }
+}
+
+TEST_F(Export, SeriesAreInTheOrderOfTimeWheneverTheirFramesWereMade) {
+  folder.write("followed.toml", std::string(followed_scene) + series);
+  for (const char* frames : {"12-13", "10-11"})
+    ASSERT_EQ(
+        neve({"render", "followed.toml", "--frames", frames, "--out", "run", "--quiet"}).exit_code,
+        0);
+  const std::string stage = read_text(folder / "run/exports/usda.usda");
+  EXPECT_TRUE(contains(stage, "startTimeCode = 10\n") && contains(stage, "endTimeCode = 13\n"))
+      << stage.substr(0, 400);
+  EXPECT_TRUE(contains(stage, "active = [(10, 0), (11, 1), (12, 2), (13, 3)]"));
+  const std::vector<double> times =
+      numbers_after(read_text(folder / "run/exports/vtp.pvd"), "timestep=\"");
+  EXPECT_EQ(times.size(), 4u);
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  EXPECT_EQ(neve({"verify", "run"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "followed.toml", "--out", "whole", "--quiet"}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / "whole/exports/usda.usda"), stage)
+      << "places that the camera follows are listed, for frames that another command made";
+}
+
+/// A mesh that changed since: what it would seed is not mixed with the states that are kept.
+TEST_F(Export, ARunWhoseFilesHaveChangedIsRefusedByAllThatGoOnWithIt) {
+  const auto tetrahedron = [](const char* x) {
+    return std::string("v 0 0 0\nv ") + x +
+           " 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  };
+  folder.write("solid.obj", tetrahedron("2"));
+  folder.write("mesh.toml",
+               "frames = 2\n[solver]\ncell_size = 0.08\n[[body]]\nshape = { mesh = { file = "
+               "\"solid.obj\", scale = 0.5, center = [0, 0.4, 0] } }\n[output]\nsize = [160, "
+               "90]\n");
+  ASSERT_EQ(neve({"render", "mesh.toml", "--out", "run", "--quiet", "--no-movie"}).exit_code, 0);
+  ASSERT_EQ(neve({"dump", "run", "--at", "0.02"}).exit_code, 0);
+  folder.write("solid.obj", tetrahedron("3"));
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"dump", "run", "--at", "0.02"},
+           {"strip", "run", "--at", "0,0.05", "--out", "strip.png"},
+           {"render", "run", "--from", "0.05", "--out", "fork"},
+           {"export", "run", "--format", "csv", "--out", "csv"}}) {
+    const auto result = neve(words);
+    EXPECT_EQ(result.exit_code, app::exit_invalid_scene) << words[0] << ": " << result.errors;
+    EXPECT_TRUE(contains(result.errors, "solid.obj: error: has changed since the run in run"))
+        << words[0] << ": " << result.errors;
+  }
 }
 
 }  // namespace

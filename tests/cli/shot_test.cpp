@@ -91,6 +91,21 @@ TEST_F(Shots, AreResumedAndMadeAgainByTheirNumbers) {
 }
 
 /// As in run.json, the time of a picture is 0 at the first handle, whatever its number.
+TEST_F(Shots, HaveTheirNumbersInForecastsNotesAndAdvice) {
+  const auto check = neve({"check", "shot.toml", "--json"});
+  const app::Json frames = app::parse_json(check.output)["frames"];
+  ASSERT_EQ(frames.size(), 4u);
+  EXPECT_EQ(frames[0]["frame"], 1001);
+  EXPECT_EQ(frames[3]["frame"], 1004);
+  EXPECT_TRUE(contains(neve({"check", "shot.toml"}).output, "in frame 100"));
+  run({"render", "shot.toml", "--out", "a", "--no-movie", "--quiet"});
+  EXPECT_TRUE(contains(neve({"dump", "a", "--at", "0.13"}).errors,
+                       "continues from the checkpoint of frame 1003"));
+  const auto late = neve({"dump", "a", "--at", "1002"});
+  EXPECT_EQ(late.exit_code, app::exit_usage);
+  EXPECT_TRUE(contains(late.errors, "frame 1002 is at 0.0833 s")) << late.errors;
+}
+
 TEST_F(Shots, PassesHaveTheTimeOfTheRun) {
   run({"render", "shot.toml", "--out", "a", "--no-movie", "--quiet", "--frames", "1001-1001",
        "--passes", "depth"});

@@ -183,6 +183,7 @@ TEST(MeshReader, MistakesAreNamed) {
   expect(head + "3 0 1 -1\n", "m", "is not a number from 0");
   expect(head + "2 0 1\n", "m", "face 1 has 2 corners");
   expect(head + "3 0 1\n", "m", "truncated");
+  expect(head + "3 0 1 2\n3 2 1 0\n", "m", "more data than the elements of the header");
   expect(head + "200 0 1\n", "m", "longer than the file");
   expect("ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n1\n",
          "m", "truncated: the header promises 99999999999");

@@ -175,6 +175,13 @@ TEST(PointReader, PointReaderNamesThePlaceAndKindOfAnError) {
   expect(ply + "1\n" + xyz + "property list uchar int a\nend_header\n1 2 3 9 1\n",
          "p:9: a list is longer than its line");
   expect(ply + "1\nproperty float x\nproperty float y\nend_header\n1 2\n", "p:3: no column z");
+  expect(ply + "1\n" + xyz + "end_header\n1 2 3\n\n4 5 6\n",
+         "p:10: more data than the 1 of \"vertex\" that the header promises");
+  const std::string binary = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + xyz +
+                             "end_header\n" + std::string(24, '\0');
+  expect(binary, "p: more data than the 1 of \"vertex\"");
+  EXPECT_EQ(point_error(binary.substr(0, binary.size() - 11)), "no error")
+      << "some writers end with a byte or two of their own";
   // A second one of the same name would leave its columns without values.
   expect(ply + "1\nproperty float x\nproperty float y\nelement vertex 1\nproperty float z\n",
          "p:6: a second element \"vertex\"");

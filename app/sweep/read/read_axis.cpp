@@ -72,7 +72,7 @@ std::vector<scene::toml::Value> spaced(const Ends& ends, int num, bool is_logari
 std::vector<scene::toml::Value> counted(const WholeRange& range) {
   std::vector<scene::toml::Value> values;
   const std::int64_t count = (range.last - range.first) / range.step + 1;
-  for (std::int64_t k = 0; k < std::min<std::int64_t>(count, max_values); ++k)
+  for (std::int64_t k = 0; k < std::min<std::int64_t>(count, max_values + 1); ++k)
     values.push_back({range.first + k * range.step});
   return values;
 }
@@ -275,7 +275,7 @@ Axis::Parameter read_axis(const scene::Source& source, const scene::toml::Entry&
                 "num = 3 }; put constant values into [set]");
   }
   if (values.empty()) source.fail(entry.value.where, entry.key + " has no values");
-  if (values.size() >= max_values)
+  if (values.size() > max_values)
     source.fail(entry.value.where, entry.key + " has too many values", "at most 100000");
   for (const scene::toml::Value& value : values)
     parameter.values.push_back(override_of(source, entry, value));

@@ -126,7 +126,7 @@ Json ranges_of(const std::vector<int>& numbers) {
 }
 
 std::string scene_word(const std::string& folder, const Run& run) {
-  return options::shell_path(folder + "/runs/" + run.folder + "/scene.toml");
+  return shell_path(folder + "/runs/" + run.folder + "/scene.toml");
 }
 
 /// A branch is made again from the beginning that it has in common with others: its own scene file
@@ -178,7 +178,7 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
           {"pictures", pictures},
           {"view", manifest.beginning ? "" : "neve view " + scene_word(folder, shown)},
           // Digits need no quotes either: the page puts the name of the frame in.
-          {"viewFrame", "neve view " + options::shell_path(folder + "/" + pictures + "FRAME.png")},
+          {"viewFrame", "neve view " + shell_path(folder + "/" + pictures + "FRAME.png")},
           {"again", again_command(folder, manifest, shown)},
           {"promote", promote_command(folder, manifest, run)},
           {"texts", written_values(manifest, run)},

@@ -102,8 +102,8 @@ int run_promote(const PromoteOptions& options) {
                           {"scene_has_changed", has_changed}})
               << "\n";
   else
-    std::cout << "wrote " << out.string() << "; next:\n  neve render "
-              << options::shell_path(out.string()) << "\n";
+    std::cout << "wrote " << out.string() << "; next:\n  neve render " << shell_path(out.string())
+              << "\n";
   return exit_ok;
 }
 

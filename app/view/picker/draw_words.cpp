@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/options/arguments.h"
+#include "app/support/text.h"
 #include "app/view/panels/labels.h"
 #include "app/view/picker/colours.h"
 #include "app/view/picker/picker_state.h"
@@ -83,9 +83,9 @@ void draw_command(const PickerState& state, const std::string& command, const ch
 void draw_next(const PickerState& state) {
   const std::filesystem::path& folder = state.game.folder();
   draw_heading("Next");
-  draw_command(state, "neve render " + options::shell_path((folder / "picked.toml").string()),
+  draw_command(state, "neve render " + shell_path((folder / "picked.toml").string()),
                "Copy: render it");
-  draw_command(state, "neve sweep " + options::shell_path((folder / "picked_sweep.toml").string()),
+  draw_command(state, "neve sweep " + shell_path((folder / "picked_sweep.toml").string()),
                "Copy: sweep around it");
 }
 
