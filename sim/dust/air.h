@@ -48,6 +48,9 @@ class Air {
   /// m/s, of the fastest air, along an axis.
   double largest_speed() const;
 
+  /// The next see() looks at the solids anew: their shapes have changed, which no pose tells.
+  void forget_solids() { solids_key_ = 0; }
+
   const FaceVelocities& faces() const { return u_; }
   void restore(const AirBox& box, FaceVelocities faces);
   std::size_t memory_bytes() const;

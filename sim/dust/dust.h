@@ -41,6 +41,8 @@ class Dust {
 
   /// Forgets everything, and is at a time: no step was due before.
   void start_at(double time);
+  /// See Air::forget_solids.
+  void forget_solids() { air_.forget_solids(); }
   double time() const { return progress_.time; }
   const Air& air() const { return air_; }
   const Cloud& cloud() const { return cloud_; }

@@ -222,6 +222,7 @@ void Engine<Real>::apply(const SolverSettings& settings, const std::vector<Mater
   const bool had_dust = has_dust();
   engine::apply(settings, materials, colliders, state_);
   if (!had_dust) dust_.start_at(state_.progress.time);
+  dust_.forget_solids();
 }
 
 template <class Real>

@@ -126,7 +126,7 @@ EmitterStream::EmitterStream(const Emitter& emitter, std::size_t number, const M
       key_(mix64(mix64(mix64(seed), emitter_key), number)),
       solid_(emitter.shape),
       box_(solid_.local_bounds()),
-      volume_(share_of(emitter, cell_size)) {
+      share_(share_of(emitter, cell_size)) {
   if (emitter.rate > 0) return;
   if (!(solid_.volume() / volume_ < max_particles))
     throw ShapeError("emitter " + emitter.name + ": more than 2^32 particles fit into it");
@@ -166,7 +166,8 @@ std::optional<Birth> EmitterStream::next_birth(double age, const HasRoom& has_ro
 
 /// Not before its time: a closed emitter costs nothing, and births are not kept.
 void EmitterStream::fill_whole(double age, std::vector<Birth>& births, const HasRoom& has_room) {
-  const double spacing = std::cbrt(volume_);
+  // Not of volume_: a run that went back fills it a second time.
+  const double spacing = std::cbrt(share_);
   std::vector<Vec3d> places = sample_jittered(solid_, spacing, key_);
   if (places.empty()) places.push_back(solid_.inner_point());
   volume_ = solid_.volume() / static_cast<double>(places.size());

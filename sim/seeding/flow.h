@@ -126,7 +126,8 @@ class EmitterStream {
   std::uint64_t key_;
   shapes::Solid solid_;
   shapes::Bounds box_;       ///< local
-  double volume_;            ///< m3, of one particle at birth
+  double share_;             ///< m3, of the stream for each particle
+  double volume_ = share_;   ///< m3, of one particle at birth
   std::vector<Vec3d> pool_;  ///< local places, of a shape that fills next to nothing of its box
   State state_;
 };

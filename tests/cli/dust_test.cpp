@@ -90,6 +90,53 @@ TEST_F(DustRun, ForkContinuesTheCloud) {
   EXPECT_EQ(hashes("fork")[5], hashes("whole")[5]);
 }
 
+/// A collider that has another shape in the same place: air that is simulated up to the change sees
+/// it, as air that was read from a state does.
+TEST_F(DustRun, AForkThatChangesAMeshIsTheSameFromAStateAndFromTheStart) {
+  std::string box;
+  for (int k = 0; k < 8; ++k) {
+    box += "v";
+    for (const int side : {k >> 2, k >> 1 & 1, k & 1}) box += side ? " 0.5" : " -0.5";
+    box += "\n";
+  }
+  folder.write("box.obj", box +
+                              "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\n"
+                              "f 2 6 8 4\n");
+  folder.write("rock.toml", R"(
+frames = 6
+[solver]
+cell_size = 0.05
+[dust]
+speed = 0.5
+strain_rate = 0.05
+spray_drag = 0.5
+[material.snow]
+density = 200
+dust = 0.05
+[[body]]
+shape = { sphere = { center = [0, 1.0, 0], radius = 0.2 } }
+velocity = [0, -8, 0]
+[[collider]]
+name = "rock"
+shape = { mesh = { file = "box.obj", center = [0, 0.3, 0], scale = 0.6 } }
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[output]
+size = [160, 90]
+)");
+  const std::vector<std::string> change{"--from", "0.125", "--set",
+                                        "collider.rock.shape.mesh.scale=0.2", "--no-movie"};
+  const auto fork = [&](const std::string& of, const std::string& out) {
+    std::vector<std::string> words{"render", of, "--out", out};
+    words.insert(words.end(), change.begin(), change.end());
+    EXPECT_EQ(neve(words).exit_code, 0);
+    return hashes(out);
+  };
+  ASSERT_EQ(neve({"render", "rock.toml", "--out", "whole", "--no-movie"}).exit_code, 0);
+  EXPECT_EQ(fork("whole", "restored"), fork("rock.toml", "simulated"));
+}
+
 TEST_F(DustRun, ExportWritesPointsAndVolumesWithoutARun) {
   const auto exported = neve({"export", "dusty.toml", "--at", "0.2s", "--dust", "--format",
                               "ply,vdb,vti,npz", "--out", "files", "--json"});

@@ -383,6 +383,23 @@ TEST(Flow, AnEmitterThatNeverOpensCostsNothingAndBirthsHappenOnce) {
   EXPECT_TRUE(births_of(never, 1).empty());
 }
 
+/// A retry of a frame, and a person who goes back in the window: the shape is filled once more.
+TEST(Flow, ABodyThatAppearsIsTheSameSnowAfterGoingBackToBeforeIt) {
+  seeding::Emitter e = spout(0);
+  e.shape.form = shapes::Sphere{{0, 0, 0}, 0.33};
+  seeding::EmitterStream stream(e, 0, Material(), 1, 0.05);
+  const auto before = stream.state();
+  const std::vector<seeding::Birth> first = births_of(stream, 0.1);
+  ASSERT_GT(first.size(), 1000u);
+  stream.restore(before);
+  const std::vector<seeding::Birth> again = births_of(stream, 0.1);
+  ASSERT_EQ(again.size(), first.size());
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    EXPECT_EQ(again[k].x, first[k].x);
+    EXPECT_EQ(again[k].V0, first[k].V0);
+  }
+}
+
 TEST(Flow, FastSnowDoesNotFlyThroughASink) {
   ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.1, 0.1}, 0.01);
   for (Vec3d& v : block.v) v = {0, -15, 0};

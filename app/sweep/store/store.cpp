@@ -153,13 +153,15 @@ Retry parse_retry(const std::string& text) {
 std::vector<KnownRun> known_runs(const fs::path& sweep) {
   std::vector<KnownRun> known;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(runs_folder(sweep), error)) {
-    const std::string folder = entry.path().filename().string();
+  for (fs::directory_iterator it(runs_folder(sweep), error), end; !error && it != end;
+       it.increment(error)) {
+    const fs::path& path = it->path();
+    const std::string folder = path.filename().string();
     if (!is_run_folder(folder)) continue;
-    const RunStatus status = read_status(entry.path());
+    const RunStatus status = read_status(path);
     if (!status.key.empty())
       known.push_back({folder, status.key, status.simulation, is_finished(status.state),
-                       !output::kept_states(entry.path()).empty()});
+                       !output::kept_states(path).empty()});
   }
   std::sort(known.begin(), known.end(),
             [](const KnownRun& a, const KnownRun& b) { return a.folder < b.folder; });
