@@ -9,6 +9,7 @@
 #include "app/record/picture_record.h"
 #include "app/scene/coarsen.h"
 #include "app/support/errors.h"
+#include "app/support/out_folder.h"
 #include "app/support/text.h"
 #include "app/timeline/agreement.h"
 
@@ -20,8 +21,8 @@ namespace fs = std::filesystem;
 
 /// The folder of the sweep that a sheet, or one of the sheets of all frames, is of.
 fs::path sweep_of(const fs::path& sheet) {
-  fs::path folder = sheet.parent_path();
-  if (folder.filename() == "sheet") folder = folder.parent_path();
+  const fs::path beside = sheet.parent_path(), above = beside.parent_path();
+  const fs::path& folder = !is_sweep_folder(beside) && is_sweep_folder(above) ? above : beside;
   return folder.empty() ? fs::path(".") : folder;
 }
 

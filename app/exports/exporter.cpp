@@ -101,7 +101,6 @@ Exporter::Exporter(const scene::Scene& scene, fs::path folder,
     : scene_(scene),
       colliders_(scene.colliders),
       folder_(std::move(folder)),
-      body_end_(body_end),
       origins_(scene, body_end),
       carried_(scene, body_end) {
   output::remove_abandoned(folder_);
@@ -129,13 +128,17 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
   if (due.empty()) return works;
   note_colliders(colliders);
   const std::shared_ptr<const State> state = read_state(due, colliders, simulation);
-  std::optional<sim::Vec3d> followed;
-  if (scene_.camera && !scene_.camera->follow.empty())
-    followed = picture::followed_by(*scene_.camera, scene_, colliders, body_end_, state->particles,
-                                    state->time);
   for (Job& job : jobs_)
-    if (is_due(job)) works.push_back(work(job, state, number, followed));
+    if (is_due(job)) works.push_back(work(job, state, colliders, number));
   return works;
+}
+
+/// Nothing where the camera follows nothing.
+std::optional<sim::Vec3d> Exporter::followed(const State& state,
+                                             const std::vector<scene::Collider>& colliders) const {
+  if (!scene_.camera || scene_.camera->follow.empty()) return std::nullopt;
+  return picture::followed_by(*scene_.camera, scene_, colliders, origins_.body_end(),
+                              state.particles, state.time);
 }
 
 /// Some come and go while a run is made.
@@ -146,14 +149,14 @@ void Exporter::note_colliders(const std::vector<scene::Collider>& colliders) {
       colliders_.push_back(collider);
 }
 
-Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state, int number,
-                              const std::optional<sim::Vec3d>& followed) {
+Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state,
+                              const std::vector<scene::Collider>& colliders, int number) {
   const scene::Export& spec = job.record.spec;
   // A frame that is made again keeps its place.
   put(job.record.files, {number, state->time, state->hash});
   const bool is_stage = spec.format == scene::ExportFormat::usda;
   put(job.samples, {number, state->time, state->colliders, is_stage && !are_as_in(scene_, *state),
-                    is_stage ? followed : std::nullopt});
+                    is_stage ? followed(*state, colliders) : std::nullopt});
   const bool has_pvd = series_name(spec).ends_with(".pvd");
   std::string series = has_pvd ? encode_pvd(spec, job.samples) : std::string();
   return [this, &spec, state = std::move(state), number, series = std::move(series)] {

@@ -59,15 +59,16 @@ class Exporter {
     Record record;
     std::vector<Sample> samples;
   };
-  Work work(Job& job, std::shared_ptr<const State> state, int number,
-            const std::optional<sim::Vec3d>& followed);
+  Work work(Job& job, std::shared_ptr<const State> state,
+            const std::vector<scene::Collider>& colliders, int number);
+  std::optional<sim::Vec3d> followed(const State& state,
+                                     const std::vector<scene::Collider>& colliders) const;
   void note_colliders(const std::vector<scene::Collider>& colliders);
   void resume(const Json& file, Job& job) const;
 
   scene::Scene scene_;
   std::vector<scene::Collider> colliders_;  ///< all that there were at any moment
   std::filesystem::path folder_;
-  std::vector<std::size_t> body_end_;
   Origins origins_;
   Carried carried_;
   std::vector<Job> jobs_;

@@ -14,6 +14,8 @@ class Origins {
   /// @param body_end  for each body the id after its last particle
   Origins(const scene::Scene& scene, const std::vector<std::size_t>& body_end);
 
+  /// For each body the id after its last particle.
+  const std::vector<std::size_t>& body_end() const { return body_end_; }
   /// Number of the body in the scene, from 0; emitters are counted after the bodies.
   int body_of(std::uint32_t id) const;
   /// s, when the birth was due: one that had to wait for room came later. 0 for particles of bodies

@@ -26,15 +26,14 @@ void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& f
   const sim::DustSettings& d = scene.solver.dust;
   const sim::Material* dusty = scene::dusty_material(scene);
   if (!dusty) {
+    const std::string hint = "material." + scene.materials.front().name + ".dust = 0.02";
     if (d != sim::DustSettings{} && d.spray_drag == 0)
-      findings.push_back({Severity::warning, "dust",
-                          "it has no effect: no snow of the scene sheds dust",
-                          "material." + scene.materials.front().name + ".dust = 0.02"});
+      findings.push_back(
+          {Severity::warning, "dust", "it has no effect: no snow of the scene sheds dust", hint});
     for (const scene::Export& e : scene.exports)
       if (e.dust)
         findings.push_back({Severity::warning, "export." + e.name + ".dust",
-                            "its files are empty: no snow of the scene sheds dust",
-                            "material." + scene.materials.front().name + ".dust = 0.02"});
+                            "its files are empty: no snow of the scene sheds dust", hint});
     return;
   }
   const std::string address = "material." + dusty->name + ".dust";

@@ -41,8 +41,8 @@ std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene&
                                     const std::vector<std::size_t>& body_end,
                                     const sim::ParticleArrays& particles, double time);
 
-/// What eye and target of setup::camera_at() move by, m: that centre of what the camera follows; 0
-/// without.
+/// @return what eye and target of setup::camera_at() move by, m: the centre of what the camera
+/// follows; 0 where it follows nothing
 sim::Vec3d followed_by(const scene::CameraSettings& settings, const scene::Scene& scene,
                        const std::vector<scene::Collider>& colliders,
                        const std::vector<std::size_t>& body_end,

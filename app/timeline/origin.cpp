@@ -1,5 +1,4 @@
 #include "app/timeline/origin.h"
-#include "app/support/text.h"
 
 #include <fmt/core.h>
 
@@ -19,6 +18,7 @@
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
+#include "app/support/text.h"
 #include "app/timeline/times.h"
 
 namespace neve::app::timeline {
@@ -133,6 +133,7 @@ std::vector<scene::Override> drawing_changes(const Edits& edits) {
 /// what these make. Those that are gone are missed where they are read.
 /// @param before  their hashes when the run was made; none in runs of earlier builds
 void require_same_files(const record::FileHashes& before, const Origin& origin) {
+  if (before.empty()) return;
   record::FileHashes now;
   try {
     now = record::hash_files(origin.scene, origin.changes);

@@ -14,17 +14,24 @@ class PlyNumbers {
       : bytes_(bytes), format_(format), name_(name) {}
 
   std::size_t left() const { return bytes_.size(); }
-  /// Of a text: anything but blanks.
-  bool has_more() const { return bytes_.find_first_not_of(" \t\r\f\v\n") != std::string::npos; }
+  /// A text has more than blanks.
+  bool has_more_text() {
+    skip_blanks();
+    return !bytes_.empty();
+  }
 
   double next(PlyType type) {
     return format_ == PlyFormat::ascii ? next_text() : next_binary(type);
   }
 
  private:
-  double next_text() {
+  void skip_blanks() {
     while (!bytes_.empty() && (is_blank(bytes_.front()) || bytes_.front() == '\n'))
       bytes_.remove_prefix(1);
+  }
+
+  double next_text() {
+    skip_blanks();
     std::size_t end = 0;
     while (end < bytes_.size() && !is_blank(bytes_[end]) && bytes_[end] != '\n') ++end;
     if (end == 0) refuse_input(name_, "truncated: the mesh is incomplete");
@@ -54,7 +61,7 @@ class MeshPly {
     const PlyHeader header = read_ply_header(lines_, name_);
     PlyNumbers numbers(lines_.rest(), header.format, name_);
     for (const PlyElement& element : header.elements) read_element(element, numbers);
-    if (header.format == PlyFormat::ascii && numbers.has_more())
+    if (header.format == PlyFormat::ascii && numbers.has_more_text())
       refuse_input(name_, "more data than the elements of the header: faces would be missing");
     check();
     return std::move(mesh_);

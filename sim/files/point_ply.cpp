@@ -145,7 +145,7 @@ class PointPly {
     if (!has_more_ && bytes.size() >= min_row_size(header_.elements.back())) refuse_more(name_);
   }
 
-  /// What is beyond the header's count would be missing, and nobody would know.
+  /// Refuses what would be missing, and nobody would know.
   [[noreturn]] void refuse_more(const std::string& where) const {
     const PlyElement& element = header_.elements.back();
     refuse_input(where, "more data than the " + std::to_string(element.count) + " of " +
