@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/engine/engine.h"
+#include "sim/engine/saved_state.h"
 #include "sim/laws/threshold_cell.h"
 #include "sim/rasterize.h"
 #include "sim/staged.h"
@@ -91,6 +92,10 @@ std::vector<std::uint8_t> Simulation::save() const {
 void Simulation::restore(std::span<const std::uint8_t> bytes) {
   stepper_->restore(bytes);
 }
+bool Simulation::can_read(std::span<const std::uint8_t> saved) {
+  return engine::has_this_layout(saved);
+}
+
 void Simulation::restore_healthy(std::span<const std::uint8_t> bytes) {
   stepper_->require_healthy(bytes);
   stepper_->restore(bytes);

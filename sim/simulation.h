@@ -126,6 +126,9 @@ class Simulation {
   /// materials and colliders that restores them takes the same steps to the bit.
   std::vector<std::uint8_t> save() const;
 
+  /// Whether this program saves states in the way of the bytes: builds from other sources may not.
+  static bool can_read(std::span<const std::uint8_t> saved);
+
   /// @throws SavedStateError for bytes that no such simulation saved; nothing has changed then
   void restore(std::span<const std::uint8_t> bytes);
 

@@ -24,6 +24,7 @@
 #include "app/run/render_job.h"
 #include "app/run/render_run.h"
 #include "app/run/step_warnings.h"
+#include "app/scene/burn_in.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
@@ -364,7 +365,11 @@ int run_render(const run::RenderOptions& options) {
   std::optional<render::Image> reference;
   if (!options.reference.empty()) reference = output::read_picture(options.reference);
 
-  if (job.has_movies()) job.options.movie = output::available_movie(options.movie, job.scene.fps);
+  if (job.has_movies()) {
+    output::MovieStyle& movie = job.options.movie;
+    movie = output::available_movie(options.movie, job.scene.fps);
+    if (output::holds_time_code(movie.format)) scene::require_time_code(job.scene, movie.fps);
+  }
   catch_interrupts();
   std::optional<NothingToKeep> reading(std::in_place);
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),

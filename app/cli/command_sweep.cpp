@@ -237,19 +237,26 @@ void warn_of_single_values(const sweep::read::Sweep& sweep, Progress& progress) 
 }
 
 /// Pictures of the same simulations that are others now.
-void note_redrawn(const sweep::store::Redrawn& redrawn, const sweep::plan::SweepPlan& plan,
-                  Progress& progress) {
-  const auto runs = [](int count) {
+/// @param wanted  numbers of the runs that this command makes
+void note_redrawn(const sweep::store::Redrawn& redrawn, const std::vector<int>& wanted,
+                  const sweep::plan::SweepPlan& plan, Progress& progress) {
+  const auto wanted_of = [&](const std::vector<int>& runs) {
+    return std::count_if(runs.begin(), runs.end(), [&](int run) {
+      return std::find(wanted.begin(), wanted.end(), run) != wanted.end();
+    });
+  };
+  const auto runs = [](auto count) {
     return fmt::format("{} {}", count, count == 1 ? "run is" : "runs are");
   };
-  if (redrawn.from_states > 0)
-    progress.note(fmt::format("{} drawn from kept states", runs(redrawn.from_states)));
-  if (redrawn.made_again == 0) return;
+  const auto from_states = wanted_of(redrawn.from_states),
+             made_again = wanted_of(redrawn.made_again);
+  if (from_states > 0) progress.note(fmt::format("{} drawn from kept states", runs(from_states)));
+  if (made_again == 0) return;
   const auto bytes = static_cast<std::uint64_t>(sweep::plan::bytes_of_states(plan));
   progress.note(fmt::format(
       "{} made again, although this folder has the same simulations with other pictures: their "
       "states were not kept{}",
-      runs(redrawn.made_again),
+      runs(made_again),
       plan.keeps_states
           ? ""
           : fmt::format("; --keep-states keeps them, in about {}", bytes_text(bytes))));
@@ -454,7 +461,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
         outdated, outdated == 1 ? "run" : "runs"));
   sweep::store::Redrawn redrawn;
   sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan, &redrawn);
-  note_redrawn(redrawn, plan, progress);
+  note_redrawn(redrawn, wanted_runs(options, manifest), plan, progress);
   // Those at full resolution are not chosen yet.
   if (!refinement.is_wanted()) note_left_out(plan.folder, manifest, progress);
   const double foreseen_seconds = foresee_runs(options, plan, cores, manifest, progress);

@@ -1,5 +1,7 @@
 #include "app/options/languages.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <limits>
 
@@ -57,7 +59,7 @@ setup::FrameRange read_frames(const std::string& flag, const std::string& text) 
 }
 
 scene::PictureSize read_size(const std::string& flag, const std::string& text) {
-  constexpr int smallest = 16, largest = 1000000;
+  constexpr int smallest = scene::min_side, largest = 1000000;
   const std::size_t cross = std::min(text.find('x'), text.size());
   const auto width = number_of<int>(text.substr(0, cross)),
              height = number_of<int>(text.substr(std::min(cross + 1, text.size())));
@@ -65,8 +67,9 @@ scene::PictureSize read_size(const std::string& flag, const std::string& text) {
     return side && *side >= smallest && *side <= largest;
   };
   if (is_possible(width) && is_possible(height)) return {*width, *height};
-  refuse_value(flag, text, size_meant(text),
-               "expected WIDTHxHEIGHT, each 16 to 1000000, as in 1280x720");
+  refuse_value(
+      flag, text, size_meant(text),
+      fmt::format("expected WIDTHxHEIGHT, each {} to {}, as in 1280x720", smallest, largest));
 }
 
 double read_time(const std::string& flag, const std::string& text) {

@@ -99,7 +99,7 @@ FrameCount count_frames(const fs::path& ffmpeg, const fs::path& movie, double lo
 class CountedPictures {
  public:
   explicit CountedPictures(const MovieRequest& request)
-      : folder_(temporary_name(request.file).string() + ".pictures"), request_(request) {
+      : folder_(temporary_name(request.file.string() + ".pictures")), request_(request) {
     if (request.first_frame >= 0) return;
     make_folder(folder_);
     for (int frame = request.first_frame; frame <= request.last_frame; ++frame)

@@ -115,8 +115,7 @@ std::vector<std::string> movie_arguments(const MovieRequest& request,
              "scale=out_color_matrix=bt709:out_range=tv,"
              // Encoders take them from the pictures; -color_trc alone leaves a QuickTime without.
              "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"});
-  const bool has_time = format != MovieFormat::gif && format != MovieFormat::webp;
-  if (has_time && !request.time_code.empty())
+  if (holds_time_code(format) && !request.time_code.empty())
     arguments.insert(arguments.end(), {"-timecode", request.time_code});
   arguments.insert(arguments.end(), {"-c:v", movie_encoder(format)});
   append_words(arguments, encoder_words(request));

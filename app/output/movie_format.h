@@ -21,6 +21,11 @@ const char* movie_suffix(MovieFormat format);
 const char* movie_encoder(MovieFormat format);
 
 /// How a movie is to be made.
+/// Whether files of this format say the time code of their first picture.
+constexpr bool holds_time_code(MovieFormat format) {
+  return format != MovieFormat::gif && format != MovieFormat::webp;
+}
+
 struct MovieStyle {
   MovieFormat format = MovieFormat::h264;
   int quality = 80;         ///< 1 to 100

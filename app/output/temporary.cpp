@@ -128,9 +128,10 @@ void remove_abandoned(const fs::path& folder) {
   for (fs::directory_iterator it(here, error), end; !error && it != end; it.increment(error)) {
     const std::optional<Owner> owner = owner_of(it->path().filename().string());
     std::error_code ignored;
-    if (owner && fs::is_regular_file(it->symlink_status(ignored)) &&
+    const fs::file_status status = it->symlink_status(ignored);
+    if (owner && (fs::is_regular_file(status) || fs::is_directory(status)) &&
         is_abandoned(it->path(), *owner))
-      fs::remove(it->path(), ignored);
+      fs::remove_all(it->path(), ignored);
   }
 }
 

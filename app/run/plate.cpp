@@ -117,13 +117,15 @@ render::Image read_plate(const RenderJob& job, int frame, const std::string& vie
                      fmt::format("the plates begin with {}: --set first_frame={}",
                                  plate_path(job.plate, first).string(), first));
   const render::Image image = rgb_of(output::read_file(file), file);
+  const std::string advice = std::min(image.width, image.height) < scene::min_side
+                                 ? fmt::format("pictures are at least {0}x{0}", scene::min_side)
+                                 : fmt::format("draw with --size {}x{}", image.width, image.height);
   if (image.width != size.width || image.height != size.height)
     throw Error(
         exit_invalid_scene,
-        fmt::format("{0}: error: the plate is {1}x{2} and the view {3} is {4}x{5}; draw with "
-                    "--size {1}x{2}",
-                    file.string(), image.width, image.height, view, size.width, size.height),
-        file.string(), fmt::format("draw with --size {}x{}", image.width, image.height));
+        fmt::format("{}: error: the plate is {}x{} and the view {} is {}x{}; {}", file.string(),
+                    image.width, image.height, view, size.width, size.height, advice),
+        file.string(), advice);
   return image;
 }
 

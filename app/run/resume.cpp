@@ -12,6 +12,7 @@
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
+#include "sim/simulation.h"
 
 namespace neve::app::run {
 
@@ -44,6 +45,11 @@ void check_identity(const std::filesystem::path& folder, const output::Checkpoin
         "the run in " + folder.string() +
             " is a different run: " + difference_from_run(folder, picture),
         "--replace instead of --resume replaces it, or choose another folder with --out");
+  if (!sim::Simulation::can_read(checkpoint.state))
+    throw UsageError("--resume",
+                     "another build of neve has begun the run in " + folder.string() +
+                         ", and this one cannot read its states",
+                     "--replace instead of --resume makes all of it again");
   if (checkpoint.sources != build().sources)
     progress.warning(
         "the earlier part of the run was made by a program with other sources: this "

@@ -8,6 +8,7 @@
 
 #include "app/advice/suggest.h"
 #include "app/scene/flat.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/time_code.h"
 
@@ -57,6 +58,10 @@ std::string fill(const std::string& text, const ValueOf& value_of) {
   return filled;
 }
 
+std::string no_time_code_text(const std::string& code, double fps) {
+  return toml::toml_string(code) + " is not a time code of " + rough_text(fps) + " frames a second";
+}
+
 struct Place {
   const char* key;
   const std::string* text;
@@ -81,6 +86,14 @@ std::string time_code_of(const Scene& scene, int number, double fps) {
   return time_code_text(number, fps, false);
 }
 
+void require_time_code(const Scene& scene, double movie_fps) {
+  const std::string& code = scene.shot.time_code;
+  if (code.empty() || movie_fps == 0 || frames_of_time_code(code, movie_fps)) return;
+  throw UsageError("--movie-fps " + rough_text(movie_fps),
+                   "shot.time_code = " + no_time_code_text(code, movie_fps),
+                   "--set shot.time_code= with one that it has, or leave out --movie-fps");
+}
+
 std::array<std::string, 6> burnt_in(const Scene& scene, const PictureWords& words) {
   const Values values = values_of(scene, words);
   std::array<std::string, 6> filled;
@@ -96,9 +109,7 @@ std::array<std::string, 6> burnt_in(const Scene& scene, const PictureWords& word
 std::optional<Problem> shot_problem(const Scene& scene) {
   const std::string& code = scene.shot.time_code;
   if (!code.empty() && !frames_of_time_code(code, scene.fps))
-    return Problem{"shot.time_code",
-                   toml::toml_string(code) + " is not a time code of " + rough_text(scene.fps) +
-                       " frames a second",
+    return Problem{"shot.time_code", no_time_code_text(code, scene.fps),
                    "expected HH:MM:SS:FF, as in \"01:00:00:00\""};
   if (!has_burn_in(scene.burn_in)) return {};
   const Values values = values_of(scene, {});

@@ -35,6 +35,10 @@ std::string range_text(const Scene& scene);
 /// @param fps  of the movie
 std::string time_code_of(const Scene& scene, int number, double fps);
 
+/// @param movie_fps  that somebody asked for; 0: nobody did
+/// @throws UsageError where shot.time_code is none of a movie at that rate
+void require_time_code(const Scene& scene, double movie_fps);
+
 /// Whether a movie of this scene says its time code.
 inline bool has_time_code(const Scene& scene) {
   return number_of(scene, 0) != 0 || scene.first_frame != 0 || !scene.shot.time_code.empty();

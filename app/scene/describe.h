@@ -694,7 +694,7 @@ void describe(V& visit, ClipPlane& c) {
 
 template <class V>
 void describe_size(V& visit, const char* key, auto& size, const char* help) {
-  visit(key, size, unit::pixels, between(16, 1000000), Change::live, help);
+  visit(key, size, unit::pixels, between(min_side, 1000000), Change::live, help);
 }
 
 template <class V>

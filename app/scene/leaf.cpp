@@ -10,6 +10,7 @@
 #include "app/advice/suggest.h"
 #include "app/advice/wishes.h"
 #include "app/scene/presets.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_text.h"
 #include "app/support/text.h"
@@ -61,6 +62,8 @@ std::string advice_on_file(const std::string& name, const std::filesystem::path&
   const std::string looked = "looked for " + file.string();
   if (name.starts_with("~")) return looked + "; ~ is not expanded here: write the whole path";
   if (name.find('\\') != std::string::npos) return looked + "; folders have / between them";
+  if (const std::string kind = kind_of_no_file(file); !kind.empty())
+    return looked + ", which is " + kind;
   std::vector<std::string> names;
   std::error_code error;
   for (std::filesystem::directory_iterator at(file.parent_path(), error), end;

@@ -115,6 +115,9 @@ struct LightSettings {
   double ambient = 1;
 };
 
+/// Pixels of a picture's shorter side.
+constexpr int min_side = 16;
+
 struct PictureSize {
   int width = 1280, height = 720;
 };

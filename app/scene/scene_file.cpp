@@ -69,6 +69,7 @@ std::string nearest_file(const std::string& file) {
   const fs::path folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
   std::error_code error;
   if (fs::exists(wanted, error)) return "";
+  if (const std::string kind = kind_of_no_file(wanted); !kind.empty()) return "it is " + kind;
   for (const fs::path& place : {folder, fs::path("scenes"), own_scenes()}) {
     if (place.empty()) continue;
     const fs::path nearest = nearest_scene(place, wanted.stem().string());
@@ -157,7 +158,18 @@ std::string base_dir_of(const std::string& file) {
 }
 
 std::string name_of_scene(const std::string& file) {
-  return is_open_file(file) ? "pipe" : fs::path(file).stem().string();
+  if (is_open_file(file)) return "pipe";
+  const std::string name = fs::path(file).stem().string();
+  return name.find_first_not_of('.') == std::string::npos ? "scene" : name;
+}
+
+std::string kind_of_no_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error), end = fs::status(path, error);
+  if (fs::is_directory(end)) return "a directory";
+  if (fs::is_fifo(end)) return "a pipe";
+  if (fs::is_symlink(status) && !fs::exists(end)) return "a link to nothing";
+  return fs::is_other(end) ? "no file" : "";
 }
 
 std::string read_toml_file(const std::string& file) {

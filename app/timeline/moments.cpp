@@ -13,6 +13,7 @@
 #include "app/support/version.h"
 #include "app/timeline/times.h"
 #include "sim/kernels/simd.h"
+#include "sim/simulation.h"
 
 namespace neve::app::timeline {
 
@@ -64,7 +65,10 @@ std::shared_ptr<const Moment> Moments::use(output::FoundCheckpoint found, int fr
       file && file->frame == frame &&
       (is_of_run ? file->simd == sim::kernels::name(sim::kernels::chosen_simd_level())
                  : file->identity == identity);
-  if (is_ours) try {
+  if (is_ours && !sim::Simulation::can_read(file->state))
+    damage = file->file.string() + ": another build of neve has written it, in a way of its own";
+  else if (is_ours)
+    try {
       return std::make_shared<const Moment>(to_moment(*std::move(file)));
     } catch (const std::bad_alloc&) {
       throw;
@@ -219,9 +223,15 @@ std::optional<StatesKept> Moments::kept() const {
   return kept;
 }
 
-void Moments::forget_after(int frame) {
-  for (auto it = in_memory_.upper_bound(frame); it != in_memory_.end(); it = in_memory_.erase(it))
-    bytes_ -= bytes_of(*it->second);
+void Moments::forget_after(int frame, std::size_t steps) {
+  const auto is_later = [&](std::size_t moment_steps) { return moment_steps > steps; };
+  auto it = in_memory_.lower_bound(frame);
+  if (it != in_memory_.end() && it->first == frame && !is_later(it->second->steps)) ++it;
+  for (; it != in_memory_.end(); it = in_memory_.erase(it)) bytes_ -= bytes_of(*it->second);
+  // The state of the frame itself is earlier than a checkpoint inside the next one.
+  if (const auto here = on_disk_.find(frame);
+      here != on_disk_.end() && is_later(here->second.steps))
+    here->second.steps = 0;
   on_disk_.erase(on_disk_.upper_bound(frame), on_disk_.end());
 }
 

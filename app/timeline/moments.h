@@ -71,8 +71,8 @@ class Moments {
   /// Of DIR/states, when they are settled; nothing where none are wanted.
   std::optional<StatesKept> kept() const;
 
-  /// Forgets those of later frames; files stay.
-  void forget_after(int frame);
+  /// Forgets those of later frames, and of later steps after this one; files stay.
+  void forget_after(int frame, std::size_t steps);
 
   bool has(int frame) const { return on_disk_.contains(frame) || in_memory_.contains(frame); }
   /// Numbers of their frames, in order.

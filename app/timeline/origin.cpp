@@ -219,7 +219,10 @@ void require_before_end(const char* flag, double time, const Origin& origin) {
   std::string more;
   const int before = frame_at(time, scene.fps);
   const int wanted = is_not_after(time, before / scene.fps) ? before : before + 1;
-  if (wanted < 1'000'000)
+  const std::string frame = advice_on_frame(time, end, scene);
+  // A number that names a frame and lies far behind the end is none of seconds.
+  const bool is_frame = !frame.empty() && wanted > 4 * end;
+  if (!is_frame && wanted < 1'000'000)
     more = is_run ? fmt::format("; neve render {} --resume --frames {}-{} continues it",
                                 shell_path(origin.run.string()), scene::number_of(scene, 0),
                                 scene::number_of(scene, wanted))
@@ -228,7 +231,7 @@ void require_before_end(const char* flag, double time, const Origin& origin) {
                    fmt::format("{} s is after the end of the {}, {} s (frame {})", rough_text(time),
                                is_run ? "run" : "scene", rough_text(end / scene.fps),
                                scene::number_of(scene, end)),
-                   "expected an earlier time" + advice_on_frame(time, end, scene) + more);
+                   "expected an earlier time" + frame + more);
 }
 
 void warn_of_late_frame(double time, const Origin& origin, Progress& progress) {

@@ -158,7 +158,7 @@ void Timeline::change(const scene::Scene& changed) {
 void Timeline::fork() {
   scene::forget_changes_after(changes_, simulation_.steps());
   made_ = std::min(made_, changes_.size());
-  moments_.forget_after(here_.frame);
+  moments_.forget_after(here_.frame, simulation_.steps());
 }
 
 void Timeline::restore_state(const Moment& moment) {

@@ -30,7 +30,7 @@ Engine<Real>::Engine(const SolverSettings& settings, const std::vector<Material>
     : state_(settings, materials, colliders, threads, lattice_origin), flow_(flow, state_.method) {
   watch_.start = load(particles, state_);
   prepare(state_, watch_.start);
-  flow_.open(state_, watch_.start);
+  flow_.open(state_);
 }
 
 // ---- steps --------------------------------------------------------------------------------------
@@ -44,7 +44,7 @@ void Engine<Real>::step(double dt) {
 template <class Real>
 void Engine<Real>::take_whole_step(double dt) {
   take_step(dt);
-  if (!divergence()) flow_.run(state_, watch_.start);
+  if (!divergence()) flow_.run(state_);
 }
 
 /// Dust that is there flies on, also where no snow sheds any more.

@@ -12,7 +12,7 @@ namespace neve::sim::engine {
 namespace {
 
 /// The last sign is the version of the layout.
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'F'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'G'};
 
 /// At the beginning: it says what follows. Then come Progress, the records, the offsets of the
 /// colliders, the emitters, the contacts and the velocities of bodies that move by themselves.
@@ -127,7 +127,7 @@ SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<R
   SavedHead head{};
   if (bytes.size() < sizeof head) refuse_saved("is truncated");
   take(&head, sizeof head);
-  if (std::memcmp(head.magic, magic, sizeof magic) != 0) refuse_saved("is from another version");
+  if (!has_this_layout(bytes)) refuse_saved("is from another version");
   SavedNumbers<Real> saved;
   saved.emitters = flow.emitter_states();
   require_same(head, head_of(state, saved.emitters.size(), head.contacts));
@@ -158,6 +158,10 @@ SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<R
 }
 
 }  // namespace
+
+bool has_this_layout(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= sizeof magic && std::memcmp(bytes.data(), magic, sizeof magic) == 0;
+}
 
 /// The length of the dust comes last.
 std::vector<std::uint8_t> joined(std::vector<std::uint8_t> snow,

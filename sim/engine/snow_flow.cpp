@@ -70,8 +70,7 @@ void account_for(const kernels::Particle<Real>& p, double sign, State<Real>& sta
 
 /// Lets the next dt be short enough for particles that came.
 template <class Real>
-void include_limits(const kernels::BlockReport<Real>& report, State<Real>& state,
-                    StartState& start) {
+void include_limits(const kernels::BlockReport<Real>& report, State<Real>& state) {
   const SolverSettings& settings = state.method.settings;
   Progress& progress = state.progress;
   StateLimits born = progress.limits;
@@ -80,8 +79,9 @@ void include_limits(const kernels::BlockReport<Real>& report, State<Real>& state
   born.max_strain_rate = 0;
   const double rest = std::min(settings.max_dt, stable_dt(settings, born));
   progress.rest_dt = progress.rest_dt > 0 ? std::min(progress.rest_dt, rest) : rest;
-  start.max_speed = std::max(start.max_speed, born.max_speed);
-  start.max_sound_speed = std::max(start.max_sound_speed, born.max_sound_speed);
+  seeding::FlowTotals& flow = progress.flow;
+  flow.max_speed = std::max(flow.max_speed, born.max_speed);
+  flow.max_sound_speed = std::max(flow.max_sound_speed, born.max_sound_speed);
   StateLimits& limits = progress.limits;
   limits.max_speed = std::max(limits.max_speed, born.max_speed);
   limits.max_sound_speed = std::max(limits.max_sound_speed, born.max_sound_speed);
@@ -106,20 +106,20 @@ SnowFlow<Real>::SnowFlow(const seeding::Flow& flow, const Method<Real>& method) 
 }
 
 template <class Real>
-void SnowFlow<Real>::open(State<Real>& state, StartState& start) {
+void SnowFlow<Real>::open(State<Real>& state) {
   if (!sinks_.empty()) remove_in_sinks(state);
-  emit(state, start);
+  emit(state);
 }
 
 template <class Real>
-void SnowFlow<Real>::run(State<Real>& state, StartState& start) {
-  emit(state, start);  // first: after particles left, the blocks of the step are not known
+void SnowFlow<Real>::run(State<Real>& state) {
+  emit(state);  // first: after particles left, the blocks of the step are not known
   if (!sinks_.empty() && is_sink_check_due(state.progress, state.method.settings.cell_size))
     remove_in_sinks(state);
 }
 
 template <class Real>
-void SnowFlow<Real>::emit(State<Real>& state, StartState& start) {
+void SnowFlow<Real>::emit(State<Real>& state) {
   Progress& progress = state.progress;
   const std::size_t before = state.particles.size();
   std::vector<seeding::Birth> births;
@@ -153,7 +153,7 @@ void SnowFlow<Real>::emit(State<Real>& state, StartState& start) {
   const kernels::BlockReport<Real> report = state.refresh(before, after);
   if (report.overflowed > 0) throw std::invalid_argument("an emitter is outside the lattice");
   state.note_touching(before, after);
-  include_limits(report, state, start);
+  include_limits(report, state);
 }
 
 /// True if a block may hold particles that go. Blocks are those at the beginning of the last step,

@@ -17,10 +17,9 @@ class SnowFlow {
   SnowFlow(const seeding::Flow& flow, const Method<Real>& method);
 
   /// Adds and removes the particles that come and go before the first step.
-  /// @param start  gets the speeds of particles that come
-  void open(State<Real>& state, StartState& start);
+  void open(State<Real>& state);
   /// Does the same after every step.
-  void run(State<Real>& state, StartState& start);
+  void run(State<Real>& state);
 
   /// Births of each emitter that found no room so far.
   std::vector<std::uint64_t> withheld() const;
@@ -38,7 +37,7 @@ class SnowFlow {
     bool outside;
   };
 
-  void emit(State<Real>& state, StartState& start);
+  void emit(State<Real>& state);
   void remove_in_sinks(State<Real>& state) const;
   static bool may_remove(const Sink& sink, std::uint64_t block, const Lattice& lattice);
 

@@ -137,6 +137,11 @@ PolygonMesh parse_stl(std::string_view bytes, const std::string& name) {
     refuse_input(name,
                  "neither an ascii STL, which begins with \"solid\", nor a binary one, of 84 "
                  "bytes and 50 for each triangle");
+  const std::size_t size = bytes.size() - std::min(bytes.size(), stl_header);
+  if (count > 0 && count < size / stl_triangle && size % stl_triangle == 0)
+    refuse_input(name, "its header counts " + std::to_string(count) + " triangles, and " +
+                           std::to_string(size / stl_triangle) +
+                           " are in the file: some would be missing");
   PolygonMesh mesh =
       count > 0 ? parse_binary_stl(bytes, count, name) : AsciiStl(bytes, name).read();
   if (mesh.polygons.empty()) refuse_input(name, "no triangles");

@@ -48,6 +48,7 @@ struct FlowTotals {
   std::uint64_t emitted = 0, removed = 0;     ///< particles
   std::uint64_t withheld = 0;                 ///< particles that found no room so far
   double emitted_mass = 0, removed_mass = 0;  ///< kg
+  double max_speed = 0, max_sound_speed = 0;  ///< m/s, of emitted snow at its birth
 };
 
 /// kg/m3 of an emitter's snow at birth, without variation.

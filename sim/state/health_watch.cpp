@@ -143,6 +143,8 @@ void HealthWatch::diverge(const BrokenRule& broken, const Progress& progress,
   d.value = broken.value;
   d.limit = broken.limit;
   d.start = start;
+  d.start.max_speed = std::max(start.max_speed, progress.flow.max_speed);
+  d.start.max_sound_speed = std::max(start.max_sound_speed, progress.flow.max_sound_speed);
   d.last_steps = last_steps(progress.steps);
   health::find_culprits(particles, settings, materials, d);
   divergence_ = d;

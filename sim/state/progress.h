@@ -44,6 +44,6 @@ struct Progress {
 };
 static_assert(std::is_trivially_copyable_v<Progress>);
 // Only numbers of 8 bytes: padding would put stray bytes into files.
-static_assert(sizeof(std::size_t) == 8 && sizeof(Progress) == 8 * 37);
+static_assert(sizeof(std::size_t) == 8 && sizeof(Progress) == 8 * 39);
 
 }  // namespace neve::sim::engine

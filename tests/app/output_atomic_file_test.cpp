@@ -139,6 +139,20 @@ std::string named_with_start(const std::filesystem::path& file, const std::strin
   return std::string(mine).replace(start, mine.find('.', start) - start, other);
 }
 
+/// As one that holds links to the pictures of a movie.
+TEST(Temporary, AnAbandonedFolderIsRemovedWithoutWhatItsLinksLeadTo) {
+  const TemporaryFolder folder;
+  folder.write("picture.png", "mine");
+  for (const std::string& name :
+       {named_with_start(folder / "movie.mp4.pictures", "1"), std::string(".mine.tmp")}) {
+    std::filesystem::create_directory(folder / name);
+    std::filesystem::create_symlink(folder / "picture.png", folder / name / "0000.png");
+  }
+  app::output::remove_abandoned(folder.path());
+  EXPECT_EQ(file_count(folder.path()), 2u) << "the picture and the folder with a name of its own";
+  EXPECT_EQ(read_text(folder / "picture.png"), "mine");
+}
+
 /// Numbers of processes are given again: this one has that of another that began before it.
 TEST(Temporary, WhatAProcessLeftWhoseNumberAnotherHasIsRemoved) {
   const TemporaryFolder folder;

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -458,6 +459,14 @@ TEST(SceneErrors, FilesThatAreNoScenesAreExplained) {
   EXPECT_EQ(file_error_of("/nowhere/s.toml"),
             "/nowhere/s.toml: error: No such file or directory; there is no folder /nowhere");
   EXPECT_EQ(file_error_of(directory), directory + ": error: is a directory; name a scene file");
+  const std::string circle = directory + "/circle.toml";
+  std::filesystem::create_symlink("circle.toml", circle);
+  EXPECT_NE(file_error_of(circle).find("; it is a link to nothing"), std::string::npos)
+      << file_error_of(circle);
+  const std::string mesh =
+      error_of("[[body]]\nname = \"b\"\nshape.mesh.file = \"" + circle + "\"\n");
+  EXPECT_TRUE(mesh.ends_with(circle + ", which is a link to nothing")) << mesh;
+  EXPECT_EQ(scene::name_of_scene("..toml"), "scene") << "out/. would be the folder of all runs";
   const std::string empty = directory + "/empty.toml";
   std::ofstream(empty).close();
   EXPECT_EQ(file_error_of(empty),

@@ -99,5 +99,19 @@ TEST(ShotTimeCode, IsCountedFromTheFirstFrame) {
   EXPECT_THROW(scene_of("[shot]\ntime_code = \"10:00:00:24\"\n"), app::scene::toml::SceneError);
 }
 
+TEST(ShotTimeCode, IsRequiredOfAMovieAtItsOwnRate) {
+  const auto scene = scene_of("fps = 25\n[shot]\ntime_code = \"10:00:00:24\"\n");
+  for (const double movie_fps : {0.0, 25.0, 50.0})
+    EXPECT_NO_THROW(app::scene::require_time_code(scene, movie_fps)) << movie_fps;
+  for (const double movie_fps : {24.0, 12.5}) try {
+      app::scene::require_time_code(scene, movie_fps);
+      ADD_FAILURE() << movie_fps << " is not refused";
+    } catch (const app::UsageError& error) {
+      EXPECT_NE(error.message.find("\"10:00:00:24\" is not a time code of"), std::string::npos)
+          << error.message;
+    }
+  EXPECT_NO_THROW(app::scene::require_time_code(scene_of("first_frame = 1001\n"), 12.5));
+}
+
 }  // namespace
 }  // namespace neve::test

@@ -360,9 +360,26 @@ TEST(Moments, StayWithinTheirMemory) {
   EXPECT_EQ(kept.find(39 / 24.0, 24)->frame, frames[8]);
   EXPECT_EQ(kept.find_newest(24)->frame, 40);
   EXPECT_FALSE(kept.find(39 / 24.0, 24, frames[8]));
-  kept.forget_after(frames[3]);
+  kept.forget_after(frames[3], 0);
   EXPECT_EQ(kept.frames().size(), 4u);
   EXPECT_EQ(kept.bytes(), 400u);
+}
+
+/// A fork inside a frame: a moment of the same frame that is later belongs to the other branch.
+TEST(Moments, AForkForgetsLaterStepsOfItsOwnFrame) {
+  Moments kept(1000);
+  for (const int frame : {0, 1, 2}) {
+    Moment one;
+    one.frame = frame;
+    one.steps = static_cast<std::size_t>(10 * frame + 5);
+    one.state.resize(100);
+    kept.keep(std::move(one));
+  }
+  kept.forget_after(2, 25);
+  EXPECT_EQ(kept.frames(), (std::vector<int>{0, 1, 2}));
+  kept.forget_after(2, 24);
+  EXPECT_EQ(kept.frames(), (std::vector<int>{0, 1}));
+  EXPECT_EQ(kept.bytes(), 200u);
 }
 
 TEST(Times, ATypedTimeMeansTheFrameThatEndsThere) {

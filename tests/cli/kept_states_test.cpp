@@ -83,6 +83,8 @@ TEST_F(KeptStates, WithoutThemTheRunsAreMadeAgainAndItIsSaid) {
       << done.errors;
   EXPECT_TRUE(contains(done.errors, "--keep-states keeps them, in about")) << done.errors;
   EXPECT_FALSE(exists("s.cdb/runs/0000/states"));
+  const auto one = sweep("s.cdb", {"--size", "64x36", "--only", "0"});
+  EXPECT_TRUE(contains(one.errors, "1 run is made again")) << one.errors;
   const auto plan = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--keep-states", "--dry-run"});
   EXPECT_TRUE(contains(plan.output, "kept states take about")) << plan.output;
 }

@@ -178,6 +178,7 @@ TEST_F(Plates, WrongPlatesAndShuttersAreRefusedBeforeTheRun) {
   const render::Image small{8, 8, 3, std::vector<std::uint8_t>(192)};
   app::output::write_file(folder / "small.png", render::encode_png(small));
   refused({"--plate", "small.png"}, 3, "the plate is 8x8 and the view particles is 160x90");
+  refused({"--plate", "small.png"}, 3, "pictures are at least 16x16");
   EXPECT_FALSE(exists("out/flying/run.json"));
 }
 

@@ -84,6 +84,27 @@ TEST_F(Resume, ACheckpointOfOtherSourcesIsNamed) {
   EXPECT_FALSE(contains(again.errors, "other sources")) << again.errors;
 }
 
+/// Builds from other sources may lay a state out in another way: its first bytes say so.
+TEST_F(Resume, AStateThatAnotherBuildWroteInItsOwnWayIsPassedOverOrRefused) {
+  ASSERT_EQ(render("out", {"--frames", "0-2"}).exit_code, 0);
+  const auto hash_at = [&] {
+    const auto dump = neve({"dump", "out", "--at", "0.1", "--json"});
+    EXPECT_EQ(dump.exit_code, 0) << dump.errors;
+    return app::parse_json(std::string_view(dump.output)).value("state_hash", "");
+  };
+  const std::string before = hash_at();
+  app::output::Checkpoint checkpoint = *app::output::find_checkpoint(folder / "out").checkpoint;
+  checkpoint.state[7] ^= 1;
+  app::output::write_checkpoint(folder / "out", checkpoint);
+  std::filesystem::remove_all(folder / "out/states");
+  EXPECT_EQ(hash_at(), before) << "simulated from the start";
+  const auto more = render("out", {"--resume"});
+  EXPECT_EQ(more.exit_code, 2) << more.errors;
+  EXPECT_TRUE(contains(more.errors, "another build of neve has begun the run in out"))
+      << more.errors;
+  EXPECT_TRUE(contains(more.errors, "--replace instead of --resume")) << more.errors;
+}
+
 TEST_F(Resume, AnotherSceneIsRefusedAndNothingIsTouched) {
   ASSERT_EQ(render("out", {"--frames", "0-2"}).exit_code, 0);
   const RunFiles before = files_of(folder / "out");

@@ -258,6 +258,34 @@ TEST(Flow, ARestoredRunContinuesBitForBit) {
   }
 }
 
+/// What a report says of the start is the same after a restore, and says nothing of later births.
+TEST(Flow, ARestoredRunKnowsTheFastestBirth) {
+  seeding::Emitter late = spout(5);
+  late.start = 0.1;
+  late.velocity = {0, -3, 0};
+  const seeding::Flow flow{{spout(5), late}, {}, 3};
+  const auto fastest_start = [&](double moment, const std::vector<std::uint8_t>* from) {
+    Simulation simulation = flowing(SolverSettings{}, {}, flow);
+    if (from) simulation.restore(*from);
+    if (!from) simulation.advance_to(moment);
+    simulation.step(1);  // across many cells: no rule allows it
+    return simulation.divergence() ? simulation.divergence()->start.max_speed : -1;
+  };
+  Simulation whole = flowing(SolverSettings{}, {}, flow);
+  whole.advance_to(0.05);
+  const std::vector<std::uint8_t> early = whole.save();
+  whole.advance_to(0.15);
+  const std::vector<std::uint8_t> later = whole.save();
+  EXPECT_EQ(fastest_start(0, &later), fastest_start(0.15, nullptr));
+  EXPECT_NEAR(fastest_start(0, &later), 3, 1e-6);
+  EXPECT_EQ(fastest_start(0, &early), fastest_start(0.05, nullptr));
+  EXPECT_LT(fastest_start(0, &early), 2.9);
+  whole.restore(early);
+  whole.step(1);
+  ASSERT_TRUE(whole.divergence());
+  EXPECT_EQ(whole.divergence()->start.max_speed, fastest_start(0.05, nullptr));
+}
+
 /// Pictures show means over the present particles: the same in a run that began with them.
 TEST(Flow, MeansAreOfTheParticlesThatAreLeft) {
   const ParticleArrays block = box_of_snow({0, 0.3, 0}, {0.1, 0.4, 0.1}, 0.01);

@@ -184,6 +184,13 @@ TEST(MeshReader, MistakesAreNamed) {
   expect(head + "2 0 1\n", "m", "face 1 has 2 corners");
   expect(head + "3 0 1\n", "m", "truncated");
   expect(head + "3 0 1 2\n3 2 1 0\n", "m", "more data than the elements of the header");
+  for (const char* format : {"binary_little_endian", "binary_big_endian"}) {
+    expect(ply(format) + std::string(17, '\1'), "m", "more data than the elements of the header");
+    EXPECT_EQ(files::parse_mesh(ply(format) + "\r\n", "m").polygons.size(), 6u)
+        << "some writers end with a byte or two of their own";
+  }
+  expect(binary_stl() + binary_stl().substr(84, 100), "m.stl",
+         "its header counts 12 triangles, and 14 are in the file");
   expect(head + "200 0 1\n", "m", "longer than the file");
   expect("ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n1\n",
          "m", "truncated: the header promises 99999999999");

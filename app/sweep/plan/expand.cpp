@@ -227,6 +227,12 @@ std::vector<Run> expand(const read::Sweep& sweep) {
   const double count = count_of(sweep);
   const bool has_seeds = sweep.settings.seeds > 0;
   const std::string fewer = has_seeds ? "fewer seeds" : "method \"lhs\" with samples";
+  if (count > read::max_runs)
+    throw LimitError(
+        fmt::format("refused: {} runs are more than the {} of the largest sweep; use {}",
+                    count < 1e15 ? fixed_text(count, 0) : scene::toml::number_text(count),
+                    read::max_runs, fewer),
+        "limits.runs", "use " + fewer);
   if (count > sweep.limits.runs)
     throw LimitError(
         fmt::format("refused: {} runs{} are more than limits.runs = {}; raise it in the sweep "

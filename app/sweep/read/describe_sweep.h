@@ -68,7 +68,7 @@ void describe(V& visit, SweepLimits& l) {
         "Longest time of a run, in seconds or as \"20m\", \"1h30m\"; 0: none.");
   visit("memory", l.memory, scene::unit::bytes, scene::between(0, scene::max_count), restart,
         "Memory of a run, in bytes or as \"6GiB\"; 0: only the scene's own limit.");
-  visit("runs", l.runs, scene::unit::none, scene::between(1, 1e6), restart,
+  visit("runs", l.runs, scene::unit::none, scene::between(1, max_runs), restart,
         "Largest number of runs; a sweep with more is refused.");
 }
 

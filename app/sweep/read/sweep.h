@@ -81,6 +81,9 @@ struct SweepSettings {
   std::string title;
 };
 
+/// Of one sweep.
+constexpr int max_runs = 100'000;
+
 struct SweepLimits {
   Duration timeout;          ///< of a run; 0: none
   std::uint64_t memory = 0;  ///< bytes, of a run; 0: only the scene's limit

@@ -18,6 +18,7 @@
 #include "app/scene/scene_file.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
+#include "app/sweep/read/sweep.h"
 #include "app/sweep/read/sweep_leaf.h"
 #include "app/sweep/store/prepare.h"
 #include "app/sweep/store/store.h"
@@ -205,9 +206,6 @@ const char* why_no_sweep(const std::filesystem::path& folder) {
   return "is a folder without a sweep in it";
 }
 
-/// More than any sweep makes.
-constexpr std::size_t max_runs = 100'000;
-
 void check(bool is_right, const char* what) {
   if (!is_right) throw std::runtime_error(what);
 }
@@ -251,10 +249,10 @@ void check_values(const Manifest& m) {
   check(m.seeds >= 1 && m.seeds <= read::max_seeds &&
             m.runs.size() % static_cast<std::size_t>(m.seeds) == 0,
         "its runs are not whole points");
-  check(m.runs.size() <= max_runs, "it has too many runs");
+  check(m.runs.size() <= std::size_t(read::max_runs), "it has too many runs");
   double places = 1;
   for (const AxisLabels& axis : m.axes) places *= static_cast<double>(axis.values.size());
-  check(places >= 1 && places <= 10.0 * max_runs, "its axes have no or too many values");
+  check(places >= 1 && places <= 10.0 * read::max_runs, "its axes have no or too many values");
   if (m.beginning) {
     check(is_amount(m.beginning->time), "its fork time is invalid");
     check(m.beginning->runs.size() <= static_cast<std::size_t>(m.seeds),
@@ -266,7 +264,7 @@ void check_values(const Manifest& m) {
     check(run.index == static_cast<int>(k), "its runs are not numbered in order");
     check_run(m, run);
   }
-  check(m.variants.size() <= max_runs, "it has too many variants");
+  check(m.variants.size() <= std::size_t(read::max_runs), "it has too many variants");
   for (std::size_t k = 0; k < m.variants.size(); ++k) {
     const Variant& variant = m.variants[k];
     check(variant.of < m.runs.size() &&

@@ -68,7 +68,9 @@ std::vector<std::string> assign_folders(const plan::SweepPlan& plan,
       const KnownRun* other =
           other_drawing(known, simulation_key_of(plan, *items[k]), wanted, used);
       if (other) used.insert(other->folder);
-      if (other && redrawn) ++(other->has_states ? redrawn->from_states : redrawn->made_again);
+      if (other && redrawn)
+        (other->has_states ? redrawn->from_states : redrawn->made_again)
+            .push_back(items[k]->run.index);
       if (other && other->has_states)
         folder = other->folder;
       else

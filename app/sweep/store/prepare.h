@@ -1,21 +1,23 @@
 #pragma once
 /// Puts a sweep on disk, ready to be run by anybody who can see the folder.
 
+#include <vector>
+
 #include "app/sweep/store/manifest.h"
 
 namespace neve::app::sweep::store {
 
-/// Runs whose simulations the folder has, with other pictures.
+/// Numbers of runs whose simulations the folder has, with other pictures.
 struct Redrawn {
-  int from_states = 0;
-  int made_again = 0;  ///< without states
+  std::vector<int> from_states;
+  std::vector<int> made_again;  ///< without states
 };
 
 /// DIR/manifest.json, DIR/sweep.toml, and for each run a folder with scene.toml and status.json.
 /// A run that the folder knows by its key keeps its folder and its state.
 /// One of the same simulation that was drawn otherwise gives its folder, if it has states.
 /// @param plan with the shared camera and ranges
-/// @param redrawn  is told how many runs are drawn otherwise than before; may be null
+/// @param redrawn  is told which runs are drawn otherwise than before; may be null
 /// @throws IoError
 Manifest prepare_sweep(const plan::SweepPlan& plan, Redrawn* redrawn = nullptr);
 
