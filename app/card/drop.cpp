@@ -37,9 +37,13 @@ Experiment drop(const Subject& subject) {
                 {"powder", last.powder},
                 {"mean_J_P", last.mean_J_P}};
   const double growth = last.spread / first.spread;
-  e.words.push_back(has_broken     ? "bursts"
-                    : growth > 1.5 ? "squashed, in one piece"
-                                   : "stays a ball");
+  // Crumbs that lie in a heap touch in cells of this size, and are loose: snow that is squashed is
+  // packed by it.
+  constexpr double wide = 1.5, loose = 1.2;
+  e.words.push_back(has_broken              ? "bursts"
+                    : growth <= wide        ? "stays a ball"
+                    : last.mean_J_P > loose ? "crumbles into a heap"
+                                            : "squashed, in one piece");
   e.words.push_back(rough_text(growth) + " times as wide");
   if (has_broken)
     e.words.push_back(rough_text(100 * (1 - last.largest_fragment)) + " % lies apart");

@@ -9,7 +9,9 @@
 #include "app/scene/names.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
+#include "app/setup/curves.h"
 #include "app/support/errors.h"
+#include "app/timeline/changes.h"
 
 namespace neve::app::card {
 
@@ -89,6 +91,7 @@ std::vector<Source> sources_of(const CardOptions& options) {
   timeline::Edits edits{options.overrides};
   edits.agreement = options.is_agreed ? timeline::Agreement::given : timeline::Agreement::asked;
   edits.is_start_only = true;
+  edits.takes_cards = true;
   std::vector<Source> sources;
   std::vector<timeline::Origin> origins;
   std::vector<std::string> titles;
@@ -100,6 +103,9 @@ std::vector<Source> sources_of(const CardOptions& options) {
     sources.insert(sources.end(), cards.begin(), cards.end());
     if (!cards.empty()) continue;
     origins.push_back(origin);
+    scene::Scene& scene = origins.back().scene;
+    scene = setup::with_curves(
+        timeline::with_changes(scene, timeline::changes_of(scene, origin.changes)), 0);
     titles.push_back(origins.back().name());
   }
   for (const scene::Preset preset : options.presets) {

@@ -41,13 +41,8 @@ namespace neve::app::cli {
 
 namespace {
 
-/// A strip shows many frames: one of them has to be named. A card shows none.
+/// A strip shows many frames: one of them has to be named.
 void refuse_strip(const run::RenderOptions& options, const run::RenderJob& job) {
-  if (job.picture && !job.picture->cards.empty())
-    throw UsageError(
-        options.scene,
-        "is a card of " + joined(job.picture->cards, ", ") + ", not a picture of a run",
-        "neve card " + shell_path(options.scene) + " makes it again");
   if (options.from) return;
   if (job.picture && job.picture->strip && !options.frames)
     throw UsageError(

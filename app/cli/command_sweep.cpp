@@ -113,7 +113,8 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
                           {"commands", count}})
               << "\n";
   progress.note(fmt::format("{} {} in {}; then: neve sweep collect {}", count,
-                            count == 1 ? "command" : "commands", options.emit, folder.string()));
+                            count == 1 ? "command" : "commands", options.emit,
+                            shell_path(folder.string())));
 }
 
 sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,

@@ -1,6 +1,7 @@
 #include "app/exports/encode.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -60,8 +61,15 @@ void append_rows(const Table& table, std::string& bytes) {
   if (table.mesh) put_column(table.mesh->normal, table.rows, record, bytes.data() + to);
 }
 
-/// Bytes of the largest array that a zip archive without extensions holds, headers aside.
-constexpr double zip_limit = 4294967295.0 - 4096;
+/// Rows of an archive without the further fields of ZIP64, whose places are numbers of 32 bits.
+double most_in_zip(const Table& columns) {
+  constexpr double zip_limit = 4294967295.0, file_overhead = 512, other_files = 8;
+  double row_bytes = 0;
+  for (const Column& column : columns.columns)
+    row_bytes += static_cast<double>(number_size(column)) * column.components;
+  const double files = static_cast<double>(columns.columns.size()) + other_files;
+  return std::floor((zip_limit - file_overhead * files) / std::max(1.0, row_bytes));
+}
 
 }  // namespace
 
@@ -160,10 +168,7 @@ std::string encode(const ExportMoment& moment) {
 void check_capacity(const scene::Export& spec, const Table& columns, double particles) {
   double most = std::numeric_limits<double>::infinity();
   if (spec.format == scene::ExportFormat::bgeo) most = std::numeric_limits<std::int32_t>::max();
-  if (spec.format == scene::ExportFormat::npz)
-    for (const Column& column : columns.columns)
-      most =
-          std::min(most, zip_limit / static_cast<double>(number_size(column)) / column.components);
+  if (spec.format == scene::ExportFormat::npz) most = most_in_zip(columns);
   if (particles <= most) return;
   throw LimitError("refused: a file of format " + std::string(scene::name(spec.format)) +
                        " holds at most " + fixed_text(most, 0) +

@@ -10,6 +10,7 @@
 
 #include "app/scene/coarsen.h"
 #include "app/setup/auto_ranges.h"
+#include "app/setup/curves.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/clock.h"
@@ -175,10 +176,12 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
   const sim::ParticleArrays particles = setup::seed_scene(*coarse).particles;
   result.particles =
       static_cast<double>(particles.x.size()) + setup::planned_emission(*coarse, last / scene.fps);
-  sim::Simulation simulation = setup::make_simulation(*coarse, particles, 1);
+  scene::Scene now = setup::with_curves(scene, 0), coarse_now = setup::with_curves(*coarse, 0);
+  sim::Simulation simulation = setup::make_simulation(coarse_now, particles, 1);
   result.spread = spread_of(simulation);
   const auto start = Clock::now();
-  FrameForecast frame_forecast = foresee_frame(scene, *coarse, 1, simulation.step_limits(), {}, {});
+  FrameForecast frame_forecast =
+      foresee_frame(now, coarse_now, 1, simulation.step_limits(), {}, {});
   // Where few particles lie far apart, or meet meshes, a step costs far more than they do.
   constexpr double min_work_of_step = 400, max_steps_of_frame = 1e15;
   double seconds = 0;
@@ -188,6 +191,11 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
     // The frame's start and end both count; where time runs out the last frames are as the one
     // before.
     if (!is_over && run.work < budget.particle_steps && !is_late()) {
+      if (!scene.curves.empty()) {
+        now = setup::with_curves(scene, frame);
+        coarse_now = setup::with_curves(*coarse, frame);
+        simulation.apply(coarse_now.solver, coarse_now.materials, scene::sim_colliders(coarse_now));
+      }
       const double work_of_step =
           std::max(min_work_of_step, static_cast<double>(simulation.particle_count()));
       const sim::StepLimits before = simulation.step_limits();
@@ -210,8 +218,8 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
                      static_cast<double>(report.steps) * (to - from) / (simulation.time() - from)));
       const sim::ParticleArrays state = simulation.particles();
       frame_forecast =
-          foresee_frame(scene, *coarse, frame, worst_of(before, simulation.step_limits()), report,
-                        rarity_of(*coarse, state, particle_count));
+          foresee_frame(now, coarse_now, frame, worst_of(before, simulation.step_limits()), report,
+                        rarity_of(coarse_now, state, particle_count));
       result.mean_J_P = mean_of(state.J_P);
       frame_forecast.spread = spread_of(simulation);
       run.reached = frame;

@@ -11,6 +11,7 @@
 #include "app/health/slowness.h"
 #include "app/scene/coarsen.h"
 #include "app/setup/auto_ranges.h"
+#include "app/setup/curves.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
@@ -126,7 +127,8 @@ forecast::Cost Check::seconds() const {
   return seconds_per_step * (foreseen.steps_of_start() + dust);
 }
 
-Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, double coarsening) {
+Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, double coarsening) {
+  const scene::Scene scene = setup::with_curves(given, 0);
   Check check;
   check.plan = plan;
   check.coarsening = coarsening;
@@ -142,7 +144,7 @@ Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads, d
   check_resolution(scene, check.findings, coarsening);
   check_emitters(scene, check.findings, coarsening);
   check_sinks(scene, check.impact_speed, check.findings);
-  check_unused(scene, coarsening, check.findings);
+  check_unused(given, coarsening, check.findings);
   check_dust(scene, check.impact_speed, check.findings);
   if (plan.particles <= max_seeded && plan.memory <= plan.memory_limit) {
     const setup::SeededScene seeded = setup::seed_scene(scene);

@@ -87,7 +87,7 @@ void check_curves(const scene::Scene& scene, std::vector<Finding>& findings) {
         {Severity::note, curve.parameter,
          fmt::format("follows {} keyframes, from {} to {}", curve.keyframes.size(), first[k].value,
                      setup::curve_values(scene, scene::last_frame(scene))[k].value),
-         "the forecast is for the first value"});
+         "the forecast follows it in a coarse copy"});
     for (const scene::FlatParam& param : params)
       if (param.address == curve.parameter && !param.is_default() &&
           value_text(param.value) != first[k].value)

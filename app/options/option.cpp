@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <system_error>
 
 #include "app/support/errors.h"
@@ -78,6 +81,28 @@ void refuse_input(const std::string& flag, const std::string& output, const std:
     throw UsageError(flag, output + " is what the command reads", "name another file");
 }
 
+/// A picture, table or log in the place of what a run consists of would take it from the run.
+void refuse_part_of_run(const std::string& flag, const std::string& output) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::is_regular_file(output, error)) return;
+  const fs::path file = fs::absolute(output, error).lexically_normal();
+  const auto refuse = [&](const fs::path& folder) {
+    throw UsageError(flag, output + " belongs to the run in " + folder.string(),
+                     "name another file");
+  };
+  for (const char* own : {"run.json", "manifest.json", "status.json"})
+    if (file.filename() == own) refuse(file.parent_path());
+  // Pictures are in the folder of their view, movies beside it.
+  const fs::path above = file.parent_path();
+  for (const fs::path& folder : {above, above.parent_path()}) {
+    std::ifstream record(folder / "run.json", std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(record), {}};
+    const std::string name = fs::relative(file, folder, error).generic_string();
+    if (text.find("\n    \"" + name + "\": \"") != std::string::npos) refuse(folder);
+  }
+}
+
 void Command::check_all() const {
   const auto is_given = [this](const std::string& flag) { return find(flag)->is_given(); };
   for (const Option& option : options) {
@@ -90,13 +115,16 @@ void Command::check_all() const {
         throw UsageError(option.name(), rule.message, rule.hint);
   }
   for (const auto& check : checks) check();
-  for (const char* flag : {"--out", "--emit", "--log", "--record"})
-    for (const Option& input : options) {
-      const Option* output = find(flag);
-      if (!output || &input == output) continue;
-      for (const std::string& file : output->given)
-        for (const std::string& read : input.given) refuse_input(flag, file, read);
+  for (const char* flag : {"--out", "--emit", "--log", "--record"}) {
+    const Option* output = find(flag);
+    if (!output) continue;
+    for (const std::string& file : output->given) {
+      refuse_part_of_run(flag, file);
+      for (const Option& input : options)
+        if (&input != output)
+          for (const std::string& read : input.given) refuse_input(flag, file, read);
     }
+  }
 }
 
 }  // namespace neve::app::options

@@ -49,6 +49,44 @@ std::string hash_of(const std::string& text) {
   return hash_text(hash_bytes(text.data(), text.size()));
 }
 
+namespace {
+
+void add_metrics(const Metrics& metrics, Json& json) {
+  json["spread"] = number_or_null(metrics.spread);
+  json["height"] = number_or_null(metrics.height);
+  json["mean_J_P"] = number_or_null(metrics.mean_J_P);
+  json["fragments"] = metrics.fragments;
+  json["largest_fragment"] = number_or_null(metrics.largest_fragment);
+  json["powder"] = number_or_null(metrics.powder);
+  json["crumbs"] = number_or_null(metrics.crumbs);
+}
+
+Metrics metrics_of(const Json& json) {
+  Metrics metrics{
+      output::number_or_nan(json.at("spread")), output::number_or_nan(json.at("height")),
+      output::number_or_nan(json.at("mean_J_P")), whole_number<std::size_t>(json.at("fragments")),
+      output::number_or_nan(json.at("largest_fragment"))};
+  for (const auto& [name, value] :
+       {std::pair{"powder", &metrics.powder}, std::pair{"crumbs", &metrics.crumbs}})
+    *value = json.contains(name) ? output::number_or_nan(json.at(name)) : std::nan("");
+  return metrics;
+}
+
+Json bodies_json(const std::vector<BodyRecord>& bodies) {
+  Json json = Json::array();
+  for (const BodyRecord& body : bodies) json.push_back(to_json(body));
+  return json;
+}
+
+Json to_json(const RunStart& start) {
+  Json json;
+  add_metrics(start.metrics, json);
+  json["bodies"] = bodies_json(start.bodies);
+  return json;
+}
+
+}  // namespace
+
 Json to_json(const FrameRecord& frame) {
   const bool has_steps = frame.advance.steps > 0;
   const sim::Summary& s = frame.summary;
@@ -82,18 +120,11 @@ Json to_json(const FrameRecord& frame) {
   json["denser_than_ice"] = number_or_null(s.denser_than_ice);
   json["max_depth"] = number_or_null(s.max_depth);
   json["max_depth_cells"] = number_or_null(frame.metrics.max_depth_cells);
-  json["spread"] = number_or_null(frame.metrics.spread);
-  json["height"] = number_or_null(frame.metrics.height);
-  json["mean_J_P"] = number_or_null(frame.metrics.mean_J_P);
-  json["fragments"] = frame.metrics.fragments;
-  json["largest_fragment"] = number_or_null(frame.metrics.largest_fragment);
-  json["powder"] = number_or_null(frame.metrics.powder);
-  json["crumbs"] = number_or_null(frame.metrics.crumbs);
+  add_metrics(frame.metrics, json);
   if (s.dust.born > 0) json["dust"] = to_json(s.dust);
   json["forces"] = Json::array();
   for (const ColliderForce& force : frame.forces) json["forces"].push_back(to_json(force));
-  json["bodies"] = Json::array();
-  for (const BodyRecord& body : frame.bodies) json["bodies"].push_back(to_json(body));
+  json["bodies"] = bodies_json(frame.bodies);
   json["state_hash"] = hash_text(frame.state_hash);
   return json;
 }
@@ -199,13 +230,7 @@ FrameRecord frame_record(const Json& json) {
   frame.state_hash = std::stoull(json.at("state_hash").get<std::string>(), nullptr, 16);
   // Runs of earlier versions have none.
   if (!json.contains("spread")) return frame;
-  frame.metrics = {
-      output::number_or_nan(json.at("spread")), output::number_or_nan(json.at("height")),
-      output::number_or_nan(json.at("mean_J_P")), whole_number<std::size_t>(json.at("fragments")),
-      output::number_or_nan(json.at("largest_fragment"))};
-  for (const auto& [name, value] :
-       {std::pair{"powder", &frame.metrics.powder}, std::pair{"crumbs", &frame.metrics.crumbs}})
-    *value = json.contains(name) ? output::number_or_nan(json.at(name)) : std::nan("");
+  frame.metrics = metrics_of(json);
   if (!json.contains("max_depth")) return frame;
   s.max_depth = output::number_or_nan(json.at("max_depth"));
   frame.metrics.max_depth_cells = output::number_or_nan(json.at("max_depth_cells"));
@@ -249,6 +274,25 @@ std::vector<FrameRecord> frame_records(const Json& run) {
     frames.clear();
   }
   return frames;
+}
+
+std::optional<RunStart> start_of(const Json& run) {
+  RunStart start;
+  try {
+    if (run.contains("start")) {
+      const Json& json = run.at("start");
+      start.metrics = metrics_of(json);
+      for (const Json& body : json.at("bodies")) start.bodies.push_back(body_record(body));
+      return start;
+    }
+    const FrameRecord first = frame_record(run.at("frames").at(0));
+    if (first.frame != run.at("first_number")) return std::nullopt;
+    return RunStart{first.metrics, first.bodies};
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
 }
 
 FileHashes file_hashes(const Json& run) {
@@ -335,6 +379,7 @@ Json to_json(const RunRecord& run) {
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
   json["first_number"] = run.first_number;
+  if (run.start) json["start"] = to_json(*run.start);
   json["world_offset"] = run.world_offset ? output::vector_json(*run.world_offset) : Json();
   json["slate"] = run.slate ? Json(*run.slate) : Json();
   if (run.frames_from_states > 0) json["frames_from_states"] = run.frames_from_states;

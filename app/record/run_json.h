@@ -43,6 +43,12 @@ struct FrameRecord {
   std::vector<BodyRecord> bodies;     ///< at the end, those that move by themselves
 };
 
+/// What is measured from the start of a run, of one whose frames begin later.
+struct RunStart {
+  Metrics metrics;  ///< without max_depth_cells
+  std::vector<BodyRecord> bodies;
+};
+
 /// Steps of the frame times its particles.
 double particle_steps(const FrameRecord& frame);
 
@@ -77,9 +83,10 @@ struct RunRecord {
   std::vector<std::string> overrides;
   std::vector<scene::LiveChange> changes;  ///< made while it ran
   double coarsening = 1;                   ///< factor of --coarsen
-  Json prediction;         ///< of --predict, for full resolution, as predict::to_json; null without
-  Json forked;             ///< where it left another run; null: nowhere
-  std::string simulation;  ///< hash of all that the bits of its states depend on
+  Json prediction;  ///< of --predict, for full resolution, as predict::to_json; null without
+  Json forked;      ///< where it left another run; null: nowhere
+  std::optional<RunStart> start;  ///< where frame 0 is not among the frames
+  std::string simulation;         ///< hash of all that the bits of its states depend on
   std::map<std::string, std::string>
       scene_files{};                               ///< that the scene names, with the hash of each
   std::vector<std::string> views;                  ///< that this command draws
@@ -123,6 +130,9 @@ Json to_json(const sim::DustTotals& dust);
 /// Reads the output of to_json; the rest of advance and summary has its defaults.
 /// @throws nlohmann::json::exception
 FrameRecord frame_record(const Json& json);
+
+/// Of its own, or of its first frame where that is frame 0; nothing in a run of an earlier version.
+std::optional<RunStart> start_of(const Json& run);
 
 /// In the order of frames; in the place of an earlier record of the same frame.
 void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame);

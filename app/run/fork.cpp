@@ -9,6 +9,7 @@
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/value.h"
+#include "app/setup/curves.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
@@ -47,15 +48,6 @@ void take_live_numbers(const scene::Scene& before, Fork& fork) {
   fork.changes = std::move(changes);
 }
 
-/// A curve would give it its own value again in the next frame.
-void refuse_curves(const scene::Scene& before, const std::vector<scene::Override>& changes) {
-  for (const scene::Curve& curve : before.curves)
-    for (const scene::Override& change : changes)
-      if (change.address == curve.parameter)
-        throw UsageError("--from", curve.parameter + " follows its curve " + curve.name,
-                         "change curve." + curve.name + ".keyframes instead");
-}
-
 }  // namespace
 
 void require_whole_frame(const scene::Scene& scene, double time, const char* flag) {
@@ -74,7 +66,7 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   job.fork = Fork{*options.from, scene::parse_overrides(options.overrides)};
   const scene::Scene before = with_all_changes(job);
   take_live_numbers(before, *job.fork);
-  refuse_curves(before, job.fork->changes);
+  setup::refuse_followers(before, job.fork->changes);
   const scene::Scene forked = scene::apply(before, job.fork->changes, job.scene_file);
   timeline::require_live(before, forked, "--from");
   const int first = timeline::frame_at(job.fork->time, job.scene.fps) + 1;

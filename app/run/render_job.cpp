@@ -114,8 +114,10 @@ RenderJob make_job(const RenderOptions& options) {
   timeline::Edits edits{options.overrides, options.coarsening, options.is_fast};
   if (options.frames) edits.last_frame = options.frames->last;
   if (options.is_agreed || options.dry_run) edits.agreement = timeline::Agreement::given;
+  edits.coarsened = options.coarsened.value_or(1);
   edits.is_start_only = options.is_start_only;
-  edits.continues_run = options.resume;
+  // Of another folder it is another drawing of the frames that the run has.
+  edits.continues_run = options.resume && options.out.empty();
   if (options.from) edits.overrides.clear();  // changes on its way, see set_fork()
   RenderJob job{timeline::Origin::of(options.scene, edits), options};
   job.folder = job.run.empty() ? out_folder() / job.name() : job.run;

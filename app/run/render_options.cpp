@@ -128,6 +128,9 @@ void describe_scene(options::Command& visit, RenderOptions& o, const char* help)
 void describe(options::Command& visit, RenderOptions& o) {
   visit.about("render", "Simulate a scene and draw its frames");
   describe_scene(visit, o);
+  visit("--coarsened", o.coarsened, options::coarsening(),
+        "Says that the scene file was coarsened before, as those in the folder of a sweep with "
+        "--coarsen N: advice then has the numbers to give to the sweep");
   visit("--predict", o.predicts,
         "With --coarsen N: run coarse copies to the last frame first, and say in captions and "
         "run.json what the run at full resolution will do there: breaks, holds or undecided, and "

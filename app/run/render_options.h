@@ -17,8 +17,9 @@ struct RenderOptions {
   std::string scene;  ///< a scene file or a picture; empty: the default scene
   std::vector<std::string> overrides;
   std::optional<double> coarsening;
-  bool is_fast = false;        ///< with the settings of forecast::fast_look
-  bool predicts = false;       ///< the run at full resolution, by further copies
+  std::optional<double> coarsened;  ///< what the scene file was by before
+  bool is_fast = false;             ///< with the settings of forecast::fast_look
+  bool predicts = false;            ///< the run at full resolution, by further copies
   std::optional<double> from;  ///< s: a fork of the scene's run there, the overrides are changes
   std::optional<setup::FrameRange> frames;
   std::vector<std::string> views;

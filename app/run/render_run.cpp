@@ -12,6 +12,8 @@
 #include "app/run/step_warnings.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
+#include "app/setup/curves.h"
+#include "app/setup/seed_scene.h"
 #include "app/support/clock.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -41,6 +43,18 @@ record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simu
   for (const std::string& view : record.views)
     record.view_records[view].drawing = drawing_of(job, picture, view);
   return record;
+}
+
+/// As a picture of frame 0 would record it; of a run that is there no more it is made again.
+record::RunStart start_of_run(const timeline::Timeline& timeline) {
+  const auto start_in = [&](const sim::Simulation& simulation) {
+    return record::RunStart{
+        record::measure(simulation.particles(), timeline.start().solver.cell_size),
+        record::bodies_of(simulation.colliders(), 0)};
+  };
+  if (timeline.simulation().steps() == 0) return start_in(timeline.simulation());
+  return start_in(setup::make_simulation(setup::with_curves(timeline.start(), 0),
+                                         timeline.seeded().particles, 1));
 }
 
 }  // namespace
@@ -133,6 +147,7 @@ std::vector<int> RenderRun::begin() {
     if (found->flawed.empty()) continue_from(found->moment);
   }
   ledger_.record().retries = timeline_.here().retries;
+  if (frames_.first > 0) ledger_.record().start = start_of_run(timeline_);
   note_warnings();
   ledger_.open();
   return found ? found->flawed : std::vector<int>{};

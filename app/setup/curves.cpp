@@ -73,6 +73,14 @@ scene::Scene with_curves(const scene::Scene& scene, int frame) {
   return values.empty() ? scene : scene::apply(scene, values);
 }
 
+void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes) {
+  for (const scene::Curve& curve : scene.curves)
+    for (const scene::Override& change : changes)
+      if (change.address == curve.parameter)
+        change.fail(change.key, curve.parameter + " follows its curve " + curve.name,
+                    "change curve." + curve.name + ".keyframes instead");
+}
+
 std::string curves_text(const scene::Scene& scene, int frame) {
   std::vector<std::string> parts;
   for (const scene::Curve& curve : scene.curves) {

@@ -17,6 +17,10 @@ std::vector<scene::Override> curve_values(const scene::Scene& scene, int frame);
 /// The scene with these values. @throws UsageError, SceneError
 scene::Scene with_curves(const scene::Scene& scene, int frame);
 
+/// A curve has the last word: a change of its parameter would do nothing.
+/// @throws UsageError or SceneError that names the flag or the place of the change
+void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes);
+
 /// "wetness 0.31, gravity 0 -9.81 0": the values of a frame, for captions; "" without curves.
 std::string curves_text(const scene::Scene& scene, int frame);
 

@@ -41,15 +41,15 @@ void vary_body(const scene::Scene& scene, std::size_t index, const sim::seeding:
   }
 }
 
-/// Appends values of the last particles, or the default where there are none; the list stays empty
-/// while all have the default.
+/// Appends values of the last particles, or that of their body where there are none; the list stays
+/// empty while all have the usual value.
 template <class T>
-void append_or_default(const std::vector<T>& values, const T& usual, std::size_t first,
-                       std::size_t end, std::vector<T>& all) {
-  if (values.empty() && all.empty()) return;
+void append_or_default(const std::vector<T>& values, const T& usual, const T& of_body,
+                       std::size_t first, std::size_t end, std::vector<T>& all) {
+  if (values.empty() && all.empty() && of_body == usual) return;
   all.resize(first, usual);
   all.insert(all.end(), values.begin(), values.end());
-  all.resize(end, usual);
+  all.resize(end, of_body);
 }
 
 void multiply(const std::vector<double>& factors, std::size_t first, std::size_t end,
@@ -60,11 +60,13 @@ void multiply(const std::vector<double>& factors, std::size_t first, std::size_t
 }
 
 /// All that the snow of a file has been through, of the particles that were appended last.
-void append_history(const sim::seeding::SeededBody& seeded, sim::ParticleArrays& particles) {
+void append_history(const sim::seeding::SeededBody& seeded, double J_P,
+                    sim::ParticleArrays& particles) {
   const std::size_t end = particles.x.size(), first = end - seeded.x.size();
-  append_or_default(seeded.J_P, 1.0, first, end, particles.J_P);
-  append_or_default(seeded.F_E, sim::Mat3d(sim::Mat3d::Identity()), first, end, particles.F_E);
-  append_or_default(seeded.C, sim::Mat3d(sim::Mat3d::Zero()), first, end, particles.C);
+  const sim::Mat3d rest = sim::Mat3d::Identity(), still = sim::Mat3d::Zero();
+  append_or_default(seeded.J_P, 1.0, J_P, first, end, particles.J_P);
+  append_or_default(seeded.F_E, rest, rest, first, end, particles.F_E);
+  append_or_default(seeded.C, still, still, first, end, particles.C);
   multiply(seeded.stiffness, first, end, particles.stiffness);
   multiply(seeded.threshold, first, end, particles.threshold);
   if (particles.stiffness.size() != particles.threshold.size()) {
@@ -116,15 +118,15 @@ void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArra
     if (!seeded.v.empty()) v_p += seeded.v[p];
     particles.x.push_back(x_p);
     particles.v.push_back(v_p);
-    const double V0 = volume / body.J_P;
+    // A share of the body's space is a volume as it is now; that of a file is one of before.
+    const double J_P = seeded.J_P.empty() ? body.J_P : seeded.V.empty() ? seeded.J_P[p] : 1.0;
+    const double V0 = volume / J_P;
     particles.m.push_back(seeded.m.empty() ? scene.materials[material].density * V0 : seeded.m[p]);
     particles.V0.push_back(is_given ? V0 : 0.0);
-    if (body.J_P != 1) particles.J_P.resize(particles.x.size() - 1, 1.0);
-    if (body.J_P != 1 || !particles.J_P.empty()) particles.J_P.push_back(body.J_P);
     particles.material.push_back(static_cast<int>(material));
   }
   vary_body(scene, index, seeded, particles);
-  append_history(seeded, particles);
+  append_history(seeded, body.J_P, particles);
 }
 
 sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,

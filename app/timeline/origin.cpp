@@ -15,6 +15,7 @@
 #include "app/scene/override.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
+#include "app/setup/curves.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
@@ -34,6 +35,7 @@ void read_scene(const Edits& edits, const Read& read, Origin& origin) {
   origin.overrides.insert(origin.overrides.end(), edits.overrides.begin(), edits.overrides.end());
   std::vector<scene::Override> changes = scene::parse_overrides(edits.overrides);
   origin.scene = read(changes);
+  setup::refuse_followers(origin.scene, changes);
   if (edits.is_fast) {
     scene::Scene coarse = origin.scene;
     if (edits.coarsening) scene::coarsen(coarse, *edits.coarsening);
@@ -77,6 +79,10 @@ record::PictureRecord open_picture(const std::string& file, Agreement agreement)
 /// The frame and the scene inside a picture.
 void read_picture(const Edits& edits, Origin& origin) {
   record::PictureRecord record = open_picture(origin.scene_file, edits.agreement);
+  if (!record.cards.empty() && !edits.takes_cards)
+    throw UsageError(origin.scene_file,
+                     "is a card of " + joined(record.cards, ", ") + ", not a picture of a run",
+                     "neve card " + shell_path(origin.scene_file) + " makes it again");
   origin.overrides = record.overrides;
   origin.changes = record.changes;
   origin.coarsening = record.coarsening;
@@ -186,6 +192,7 @@ bool is_folder(const std::string& path) {
 
 Origin Origin::of(const std::string& named, const Edits& edits) {
   Origin origin;
+  origin.coarsening = edits.coarsened;
   origin.scene_file = named.empty() ? default_scene().string() : named;
   std::error_code error;
   if (is_folder(named) && fs::exists(output::run_json_path(named), error))

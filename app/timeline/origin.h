@@ -27,7 +27,9 @@ struct Edits {
   Agreement agreement =
       Agreement::asked;        ///< to the cost and the files of a picture that came alone
   bool is_start_only = false;  ///< a picture's frame is not made, its scene is looked at
+  bool takes_cards = false;    ///< pictures of cards, whose scene is a stand-in
   bool continues_run = false;  ///< all frames of a run's scene are wanted, not those it has
+  double coarsened = 1;        ///< a scene file was coarsened by that before
 };
 
 struct Origin {

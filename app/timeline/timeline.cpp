@@ -63,6 +63,7 @@ Timeline::Timeline(const scene::Scene& start, std::vector<scene::LiveChange> cha
 /// The simulation is a new one.
 void Timeline::begin() {
   here_ = {};
+  rehearsed_.reset();
   here_.scene = std::make_shared<const scene::Scene>(setup::with_curves(start_, 0));
   made_ = 0;
   curves_at_ = 0;
@@ -156,6 +157,7 @@ void Timeline::change(const scene::Scene& changed) {
 }
 
 void Timeline::fork() {
+  rehearsed_.reset();
   scene::forget_changes_after(changes_, simulation_.steps());
   made_ = std::min(made_, changes_.size());
   moments_.forget_after(here_.frame, simulation_.steps());
@@ -186,6 +188,7 @@ void Timeline::restore(const Moment& moment) {
       follow_curves(curves);
     }
     restore_state(moment);
+    rehearsed_.reset();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -215,10 +218,11 @@ bool Timeline::go_to(double time) {
     restore(*kept);
     if (watch_.after_jump) watch_.after_jump(here_.frame);
   }
-  is_stopped_ = false;
+  is_stopped_ = is_interrupted();  // moments that are kept take no step that could be stopped
   const int last = frame_at(time, fps());
   while (here_.frame < last && !must_stop()) advance_frame();
   if (is_not_after(time, simulation_.time())) return !must_stop();
+  if (!must_stop()) rehearse();
   const auto end_of_next_step = [&] {
     return simulation_.time() + simulation_.choose_dt(frame_end() - simulation_.time()).dt;
   };
@@ -232,7 +236,7 @@ sim::AdvanceReport Timeline::advance(double time, std::size_t last_step) {
     is_stopped_ = watch_.after_step && watch_.after_step();
     return is_stopped_;
   };
-  if (here_.scene->solver.on_divergence != sim::OnDivergence::retry)
+  if (rehearsed_ || here_.scene->solver.on_divergence != sim::OnDivergence::retry)
     return simulation_.advance_to(time, after_step, last_step);
   if (last_step == no_step || simulation_.dt_scale() < 1)
     return sim::advance_retrying(simulation_, time, after_step, here_.retries);
@@ -247,6 +251,33 @@ sim::AdvanceReport Timeline::advance(double time, std::size_t last_step) {
                     : sim::AdvanceReport{};  // interrupted: the frame is simulated as a whole
 }
 
+/// Finds the dt that the run has on its way to the next change or the end of the frame, which is
+/// known there only, and comes back: steps inside the frame are then those of the run.
+void Timeline::rehearse() {
+  begin_frame();
+  if (rehearsed_ || here_.scene->solver.on_divergence != sim::OnDivergence::retry) return;
+  const std::vector<std::uint8_t> start = simulation_.save();
+  const double scale = simulation_.dt_scale();
+  const std::size_t retries = here_.retries.size(), steps = simulation_.steps();
+  advance(frame_end(), next_stop());
+  if (is_stopped_ && simulation_.steps() == steps) return;
+  rehearsed_ = {simulation_.steps(), simulation_.dt_scale()};
+  simulation_.restore(start);
+  simulation_.set_dt_scale(here_.retries.size() > retries ? here_.retries.back().dt_scale : scale);
+}
+
+void Timeline::end_rehearsed() {
+  if (!rehearsed_ || simulation_.steps() < rehearsed_->end) return;
+  simulation_.set_dt_scale(rehearsed_->scale_after);
+  rehearsed_.reset();
+}
+
+/// The step before which something is to be done inside the frame.
+std::size_t Timeline::next_stop() const {
+  if (rehearsed_) return rehearsed_->end;
+  return made_ < changes_.size() ? changes_[made_].step : no_step;
+}
+
 void Timeline::begin_frame() {
   if (here_.is_frame_end()) {
     here_.advance = {};
@@ -259,21 +290,26 @@ bool Timeline::advance_frame() {
   begin_frame();
   const double end = frame_end();
   for (;;) {
-    const std::size_t next = made_ < changes_.size() ? changes_[made_].step : no_step;
+    const std::size_t next = next_stop();
     here_.advance.append(advance(end, next));
     if (simulation_.divergence()) break;
-    make_due();
+    end_rehearsed();
+    if (!rehearsed_) make_due();
     if (simulation_.time() >= end || simulation_.steps() != next) break;
   }
   return end_frame();
 }
 
 void Timeline::advance_step() {
-  begin_frame();
+  rehearse();
+  if (is_stopped_) return;
   here_.advance.append(simulation_.advance_to(
       frame_end(), [this] { return is_stopped_ = watch_.after_step && watch_.after_step(); },
       simulation_.steps() + 1));
-  if (!simulation_.divergence()) make_due();
+  if (!simulation_.divergence()) {
+    end_rehearsed();
+    if (!rehearsed_) make_due();
+  }
   end_frame();
 }
 

@@ -102,6 +102,9 @@ class Timeline {
   void make_due();
   sim::AdvanceReport advance(double time, std::size_t last_step);
   void begin_frame();
+  void rehearse();
+  void end_rehearsed();
+  std::size_t next_stop() const;
   bool end_frame();
   bool must_stop() const { return is_stopped_ || simulation_.divergence().has_value(); }
 
@@ -116,6 +119,13 @@ class Timeline {
   std::size_t made_ = 0;  ///< changes that here_.scene has
   int curves_at_ = 0;     ///< frame whose values here_.scene has
   bool is_stopped_ = false;
+  /// Steps of a frame that may go back, up to the next change or the end of the frame: the factor
+  /// of their dt is known to hold, or to break a rule after all retries.
+  struct Rehearsed {
+    std::size_t end;     ///< the step after them
+    double scale_after;  ///< of every dt from there on
+  };
+  std::optional<Rehearsed> rehearsed_;
   mutable std::optional<sim::Summary> summary_;
 };
 

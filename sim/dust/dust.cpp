@@ -137,7 +137,9 @@ void Dust::advance(double time, std::span<const SnowGrain> snow, const DustScene
 }
 
 void Dust::start_at(double time) {
+  const DustTotals totals = cloud_.totals;
   *this = {};
+  cloud_.totals = totals;
   progress_.time = time;
 }
 

@@ -67,10 +67,10 @@ void Engine<Real>::run_dust(bool is_frame_end) {
 template <class Real>
 void Engine<Real>::take_step(double dt) {
   const Method<Real>& method = state_.method;
-  if (state_.particles.size() == 0) return state_.advance_time(dt);
-  if (method.takes_stages()) return take_stages(dt);
   solve_ = {};
   took_explicit_ = false;
+  if (state_.particles.size() == 0) return state_.advance_time(dt);
+  if (method.takes_stages()) return take_stages(dt);
   if (method.settings.is_implicit())
     take_implicit(dt, max_halvings);
   else
@@ -227,8 +227,9 @@ void Engine<Real>::apply(const SolverSettings& settings, const std::vector<Mater
 
 template <class Real>
 std::vector<std::uint8_t> Engine<Real>::save() const {
-  return joined(engine::save(state_, flow_),
-                has_dust() ? dust_.save() : std::vector<std::uint8_t>());
+  return joined(engine::save(state_, flow_), has_dust() || dust_.cloud().totals.born > 0
+                                                 ? dust_.save()
+                                                 : std::vector<std::uint8_t>());
 }
 
 template <class Real>

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "app/forecast/forecast.h"
 #include "app/health/check.h"
+#include "app/scene/override.h"
 #include "app/scene/read.h"
+#include "app/support/errors.h"
 #include "app/timeline/timeline.h"
 
 namespace neve::app {
@@ -179,6 +182,39 @@ TEST(Curves, MistakesAreToldAtTheirPlace) {
       "parameter = \"solver.cfl\"\nkeyframes = [{ time = 0, value = 1 }]\n[[curve]]\nparameter = "
       "\"solver.cfl\"\nkeyframes = [{ time = 0, value = 1 }]",
       "solver.cfl has the curve 1 already");
+}
+
+TEST(Curves, ForecastsFollowThem) {
+  const auto steps = [](const std::string& more, double youngs_modulus) {
+    scene::Scene scene = falling(more);
+    scene.materials[0].youngs_modulus = youngs_modulus;
+    return forecast::foresee(scene, 300, scene.frames, {1e9, 1e9}).steps().expected;
+  };
+  const std::string curve =
+      "[[curve]]\nparameter = \"material.snow.youngs_modulus\"\n"
+      "interpolation = \"step\"\nkeyframes = [{ time = 0, value = 1e5 }";
+  const double soft = steps("", 1e5);
+  EXPECT_EQ(steps(curve + "]\n", 1e7), soft);
+  // Half of the frames are ten times as stiff in the speed of sound.
+  const double rising = steps(curve + ", { time = 0.125, value = 1e7 }]\n", 1e5);
+  EXPECT_GT(rising, 3 * soft);
+  EXPECT_LT(rising, 10 * soft);
+}
+
+TEST(Curves, ChangesOfWhatFollowsOneAreRefused) {
+  const scene::Scene scene = falling(curves);
+  try {
+    setup::refuse_followers(
+        scene, scene::parse_overrides({"solver.cfl=0.3", "material.snow.hardening=2"}));
+    FAIL() << "not refused";
+  } catch (const UsageError& error) {
+    EXPECT_EQ(error.where, "--set material.snow.hardening=2");
+    EXPECT_NE(error.message.find("material.snow.hardening follows its curve 3"), std::string::npos)
+        << error.message;
+    EXPECT_EQ(error.hint, "change curve.3.keyframes instead");
+  }
+  setup::refuse_followers(scene,
+                          scene::parse_overrides({"solver.cfl=0.3", "curve.fall.keyframes=[]"}));
 }
 
 }  // namespace

@@ -57,11 +57,12 @@ TEST(Exports, MoreParticlesThanAFormatHoldsAreRefused) {
     EXPECT_EQ(refusal(format, ExportAttribute::J_P, many), "");
   EXPECT_EQ(refusal(ExportFormat::bgeo, ExportAttribute::F_E, 2147483647), "");
   EXPECT_NE(refusal(ExportFormat::bgeo, ExportAttribute::F_E, 2147483648.0), "");
-  // 4 GiB hold 119 million tensors of nine floats, and 178 million places, which are always there.
-  EXPECT_EQ(refusal(ExportFormat::npz, ExportAttribute::F_E, 119e6), "");
-  EXPECT_NE(refusal(ExportFormat::npz, ExportAttribute::F_E, 120e6), "");
-  EXPECT_EQ(refusal(ExportFormat::npz, ExportAttribute::id, 178e6), "");
-  EXPECT_NE(refusal(ExportFormat::npz, ExportAttribute::id, 179e6), "");
+  // All arrays of a file are in 4 GiB: places of three doubles, which are always there, and with
+  // them tensors of nine floats (60 bytes, 71.6 million) or numbers of four bytes (153.4 million).
+  EXPECT_EQ(refusal(ExportFormat::npz, ExportAttribute::F_E, 71.5e6), "");
+  EXPECT_NE(refusal(ExportFormat::npz, ExportAttribute::F_E, 71.6e6), "");
+  EXPECT_EQ(refusal(ExportFormat::npz, ExportAttribute::id, 153.3e6), "");
+  EXPECT_NE(refusal(ExportFormat::npz, ExportAttribute::id, 153.4e6), "");
 }
 
 TEST(Exports, AGridAroundSnowThatIsFarApartIsRefused) {

@@ -106,6 +106,30 @@ TEST(SceneFlow, AMomentWithoutParticlesIsDrawnAndMeasured) {
   EXPECT_EQ(app::record::measure(snapshot.particles, 0.02).fragments, 0u);
 }
 
+/// Loose snow is less dense by J_P, whatever bodies stand before or behind it.
+TEST(SceneFlow, BodiesOfLooseSnowAreLoose) {
+  const auto body = [](const std::string& name, double x, const std::string& more) {
+    return "[[body]]\nname = \"" + name + "\"\nvolumes = \"given\"\n" + more +
+           "shape = { box = { center = [" + std::to_string(x) +
+           ", 0, 0], size = [0.2, 0.2, 0.2] } }\n";
+  };
+  const std::string packed = body("packed", 0, ""), loose = body("loose", 1, "J_P = 1.5\n");
+  for (const std::string& text : {packed + loose, loose + packed, loose}) {
+    const scene::Scene scene = scene::read_scene_text(text, "s.toml");
+    const setup::SeededScene seeded = setup::seed_scene(scene);
+    const sim::ParticleArrays& p = seeded.particles;
+    ASSERT_EQ(p.J_P.size(), p.x.size());
+    const double share =
+        0.008 * static_cast<double>(scene.bodies.size()) / static_cast<double>(p.x.size());
+    for (std::size_t q = 0; q < p.x.size(); ++q) {
+      const double J_P = p.x[q].x() > 0.5 ? 1.5 : 1;
+      EXPECT_EQ(p.J_P[q], J_P);
+      EXPECT_NEAR(p.V0[q], share / J_P, 1e-12 * share);
+      EXPECT_NEAR(p.m[q], scene.materials[0].density * share / J_P, 1e-9 * share);
+    }
+  }
+}
+
 TEST(SceneFlow, IdsStayWhereParticlesWereRemoved) {
   app::scene::Scene scene = flow_scene(R"(
 [[body]]

@@ -240,6 +240,62 @@ TEST(Timeline, ChangesInsideARetriedFrameWaitForItsEnd) {
   EXPECT_GT(went_back, 0u) << "nothing broke: the test looks at nothing";
 }
 
+/// A frame that goes back has the dt of its last attempt from its beginning on, and is known to at
+/// its end: a moment inside it is one of that attempt, and the frames after it are those of the
+/// run.
+TEST(Timeline, AMomentInsideAFrameThatGoesBackIsOneOfTheRun) {
+  const scene::Scene scene = scene::read_scene_text(R"(
+frames = 3
+[solver]
+cell_size = 0.04
+time_step = "fixed"
+dt = 2.4e-3
+on_divergence = "retry"
+[material.snow]
+hardening = 30
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.2, 0], radius = 0.12 } }
+velocity = [0, -4, 0]
+[[collider]]
+name = "floor"
+shape = { plane = {} }
+)",
+                                                    "s.toml");
+  const auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(scene));
+  Timeline run(scene, {}, seeded, 1, Moments());
+  std::vector<std::uint64_t> hashes;
+  std::vector<std::size_t> retries;
+  for (int frame = 0; frame < 3; ++frame) {
+    ASSERT_TRUE(run.advance_frame());
+    hashes.push_back(run.simulation().state_hash());
+    retries.push_back(run.here().retries.size());
+  }
+  ASSERT_GT(retries[0], 0u);
+  for (const double inside : {0.004, 0.02, 0.041}) {
+    Timeline jumping(scene, {}, seeded, 1, Moments());
+    ASSERT_TRUE(jumping.go_to(inside));
+    EXPECT_LE(jumping.simulation().time(), inside);
+    EXPECT_EQ(jumping.here().retries.size(), retries[0]);
+    for (int frame = 0; frame < 3; ++frame) {
+      ASSERT_TRUE(jumping.go_to((frame + 1) / 24.0));
+      EXPECT_EQ(jumping.simulation().state_hash(), hashes[static_cast<std::size_t>(frame)])
+          << "after " << inside << " s, frame " << frame + 1;
+      EXPECT_EQ(jumping.here().retries.size(), retries[static_cast<std::size_t>(frame)]);
+    }
+  }
+  Timeline stepping(scene, {}, seeded, 1, Moments());
+  while (stepping.here().frame < 3) {
+    stepping.advance_step();
+    ASSERT_FALSE(stepping.simulation().divergence());
+    if (stepping.here().is_frame_end()) {
+      EXPECT_EQ(stepping.simulation().state_hash(),
+                hashes[static_cast<std::size_t>(stepping.here().frame - 1)]);
+    }
+  }
+  EXPECT_EQ(stepping.here().steps, run.here().steps);
+}
+
 TEST(Timeline, PassesOverChangesOfViewsThatAreNotDrawn) {
   const Counted run(test::changed_scene(), {{0, "view.smoke.smoke.density_scale", "2"},
                                             {0, "mosaic.all.columns", "2"},

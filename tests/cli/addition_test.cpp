@@ -248,6 +248,33 @@ TEST_F(Addition, ExportsOfARunStayWhenAViewIsAdded) {
   EXPECT_TRUE(contains(refused.errors, "other exports")) << refused.errors;
 }
 
+/// A run may be longer than its scene; a drawing of it elsewhere has all of it, resumed or not.
+TEST_F(Addition, AnotherDrawingOfAnExtendedRunHasAllOfItsFrames) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"a", "--no-movie", "--resume", "--frames", "0-6"});
+  render({"a", "--no-movie", "--view", "smoke", "--out", "b", "--frames", "0-2"});
+  render({"a", "--no-movie", "--view", "smoke", "--out", "b", "--resume"});
+  EXPECT_EQ(hashes("b"), hashes("a"));
+  EXPECT_EQ(hashes("b").size(), 7u);
+}
+
+/// What a run consists of is replaced by commands that draw the run, by no other.
+TEST_F(Addition, OtherOutputsDoNotReplaceItsFiles) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const std::string record = read_text(folder / "a/run.json");
+  const auto dumped = neve({"dump", "a", "--at", "0.1", "--out", "a/run.json"});
+  EXPECT_EQ(dumped.exit_code, 2);
+  EXPECT_TRUE(contains(dumped.errors, "a/run.json belongs to the run in")) << dumped.errors;
+  const auto before = pictures("a/particles");
+  const auto strip = neve({"strip", "a", "--out", "a/particles/0001.png"});
+  EXPECT_EQ(strip.exit_code, 2);
+  EXPECT_TRUE(contains(strip.errors, "a/particles/0001.png belongs to the run in")) << strip.errors;
+  EXPECT_TRUE(pictures("a/particles") == before);
+  EXPECT_EQ(read_text(folder / "a/run.json"), record);
+  for (int time = 0; time < 2; ++time)
+    EXPECT_EQ(neve({"strip", "a", "--out", "a/strip.png"}).exit_code, 0) << "its own";
+}
+
 TEST_F(Addition, AnInterruptedRunIsFinishedByItsNameAlone) {
   render({"scene.toml", "--out", "whole", "--no-movie"});
   render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-2"});

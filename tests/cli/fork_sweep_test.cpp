@@ -5,6 +5,8 @@
 
 #include "app/output/checkpoint.h"
 #include "app/record/picture_record.h"
+#include "app/sweep/store/manifest.h"
+#include "app/sweep/store/results.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/child.h"
 
@@ -172,6 +174,47 @@ TEST_F(ForkSweep, ForecastsCountTheBeginningOnce) {
   EXPECT_LT(forked, 0.8 * plain);
   EXPECT_GT(forked, 0.1 * plain);
   EXPECT_FALSE(exists("out"));
+}
+
+/// A body in free fall that tears snow on its way: the table tells what happened since the start of
+/// the run, whether or not the runs share their beginning.
+TEST_F(ForkSweep, TheTableMeasuresFromTheStartOfTheRun) {
+  folder.write("fall.toml", R"(
+frames = 8
+[solver]
+cell_size = 0.1
+[[body]]
+shape = { sphere = { center = [5, 1, 0], radius = 0.3 } }
+[[collider]]
+name = "b"
+shape = { sphere = { center = [0, 2, 0], radius = 0.1 } }
+mass = 1
+)");
+  const auto results_of = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sweep",  "fall.toml", "-p",    "solver.flip_ratio=0.9,0.95",
+                                   "--size", "64x64",     "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto done = neve(words);
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    return app::sweep::store::read_results(folder / out,
+                                           app::sweep::store::read_manifest(folder / out));
+  };
+  const auto whole = results_of("whole.cdb", {}), forked = results_of("f.cdb", {"--fork", "0.25s"}),
+             late = results_of("late.cdb", {"--frames", "6-8"});
+  const auto& infos = app::sweep::store::metric_infos();
+  int compared = 0;
+  for (std::size_t k = 0; k < infos.size(); ++k) {
+    const std::string name = infos[k].name;
+    if (name != "body_fall" && name != "body_way") continue;
+    ++compared;
+    const double fall = whole[0].metrics[k].value();
+    EXPECT_NEAR(fall, 0.5 * 9.81 / 9, 0.02) << "1/3 s of free fall";
+    EXPECT_EQ(forked[0].metrics[k], fall) << name;
+    EXPECT_EQ(late[0].metrics[k], fall) << name;
+  }
+  EXPECT_EQ(compared, 2);
+  EXPECT_EQ(forked[0].whole, whole[0].whole);
+  EXPECT_EQ(late[0].whole, whole[0].whole);
 }
 
 TEST_F(ForkSweep, AxesThatNeedARestartAreRefusedWithThoseThatDoNot) {

@@ -132,6 +132,20 @@ TEST_F(Fork, ABranchOfABranchHasTheChangesOfBoth) {
   EXPECT_EQ(json_of("d/run.json")["changes"].size(), 1u);
 }
 
+/// The card is of the snow that the branch has, and no run itself.
+TEST_F(Fork, ACardOfABranchHasItsChange) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  ASSERT_EQ(
+      render({"a", "--from", "0.1s", "--set", "material.snow.hardening=3", "--out", "b"}).exit_code,
+      0);
+  const auto card = neve({"card", "b", "--out", "b.png", "--json"});
+  ASSERT_EQ(card.exit_code, 0) << card.errors;
+  EXPECT_EQ(app::parse_json(std::string_view(card.output))["cards"][0]["material"]["hardening"], 3);
+  const auto strip = neve({"strip", "b.png"});
+  EXPECT_EQ(strip.exit_code, 2);
+  EXPECT_TRUE(contains(strip.errors, "not a picture of a run")) << strip.errors;
+}
+
 TEST_F(Fork, AKilledBranchIsResumed) {
   ASSERT_EQ(render({"scene.toml", "--out", "a", "--frames", "12"}).exit_code, 0);
   const std::vector<std::string> fork{"a",

@@ -86,6 +86,35 @@ TEST_F(SweepCli, RunsThatAreNotThereAreRefusedBeforeAnythingStarts) {
                        "share 7/8 of 4 runs is empty"));
 }
 
+TEST_F(SweepCli, AnEmptyListOfRunsIsNotAllOfThem) {
+  const auto result = neve({"sweep", "sweep.toml", "--only", ""});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.errors, "is a variable of the shell not set?")) << result.errors;
+  EXPECT_FALSE(exists("out"));
+}
+
+/// The paper's snow has no cohesion of its own: the sheet would say that it makes no difference.
+TEST_F(SweepCli, ParametersThatTheSceneDoesNotUseAreNamed) {
+  const auto result =
+      neve({"sweep", "scene.toml", "-p", "material.snow.cohesion=0.1,1", "-p",
+            "material.snow.hardening=5,10", "--size", "64x64", "--frames", "4", "--out", "s.cdb"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const std::string idle = "material.snow.cohesion changes nothing here";
+  EXPECT_TRUE(contains(result.errors, idle)) << result.errors;
+  EXPECT_FALSE(contains(result.errors, "hardening changes nothing")) << result.errors;
+  EXPECT_TRUE(contains(read_text(folder / "s.cdb/report.html"), idle));
+}
+
+/// With --coarsen a remedy has the number that the next sweep is given.
+TEST_F(SweepCli, RemediesOfCoarseRunsHaveTheNumbersToType) {
+  const auto result =
+      neve({"sweep", "scene.toml", "--coarsen", "2", "--set", "solver.time_step=fixed", "-p",
+            "solver.dt=2e-4,2e-2", "--size", "64x64", "--out", "s.cdb"});
+  EXPECT_TRUE(contains(status("0001", "s.cdb").value("reason", ""), "(--coarsen 2 makes it "))
+      << status("0001", "s.cdb") << result.errors;
+  EXPECT_EQ(json_of("s.cdb/runs/0000/run.json").value("coarsen", 1.0), 2);
+}
+
 TEST_F(SweepCli, AnAxisOfOneValueIsAWarning) {
   const auto result = neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5", "--dry-run"});
   EXPECT_EQ(result.exit_code, 0);

@@ -386,6 +386,33 @@ TEST(DustOfARun, StateWithoutItIsTakenAndItStartsThere) {
   EXPECT_EQ(with_dust.state_hash(), plain.state_hash());
 }
 
+/// Totals and numbers of motes outlive the last mote: a run that sheds none for a while, saved
+/// there or not, counts on.
+TEST(DustOfARun, TotalsStayWhileThereIsNone) {
+  Material without = powder();
+  without.dust = 0;
+  SolverSettings settings = dusty();
+  settings.dust.life = 0.002;
+  Simulation whole = dusty_impact(settings, powder(), 1);
+  whole.advance_to(0.03);
+  whole.apply(settings, {without}, floor_and_post());
+  whole.advance_to(0.08);
+  ASSERT_TRUE(whole.dust().x.empty());
+  const std::uint64_t born = whole.summary().dust.born;
+  ASSERT_GT(born, 50u);
+  Simulation again = dusty_impact(settings, without, 1);
+  again.restore(whole.save());
+  EXPECT_EQ(again.summary().dust.born, born);
+  for (Simulation* run : {&whole, &again}) {
+    run->apply(settings, {powder()}, floor_and_post());
+    run->advance_to(0.1);
+    EXPECT_GT(run->dust().totals.born, born);
+    for (const std::uint64_t id : run->dust().id) EXPECT_GT(id, born);
+  }
+  expect_same_dust(again.dust(), whole.dust());
+  EXPECT_EQ(again.save(), whole.save());
+}
+
 TEST(DustOfARun, DamagedBytesAreRefusedAndNothingChanges) {
   Simulation simulation = dusty_impact(dusty(), powder(), 2);
   simulation.advance_to(0.04);

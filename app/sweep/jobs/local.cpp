@@ -462,6 +462,9 @@ class LocalJobs {
     run::RenderOptions options;
     options.scene = "scene.toml";
     if (is_branch) options = manifest_.beginning->fork_of(run, "../..");
+    // Forks have it from the run that they leave.
+    const double coarsening = manifest_.coarsening_of(run);
+    if (!is_branch && coarsening > 1) options.coarsened = coarsening;
     options.out = ".";
     options.frames = run.frames;
     options.threads = threads;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "app/forecast/step_cost.h"
+#include "app/setup/curves.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/interrupt.h"
 #include "app/support/progress.h"
@@ -101,7 +102,8 @@ Timing time_run(const PlannedRun& item) {
   if (item.plan.particles > max_timed) return {};
   const setup::SeededScene seeded = setup::seed_scene(item.scene);
   if (seeded.particles.x.empty()) return {};
-  sim::Simulation simulation = setup::make_simulation(item.scene, seeded.particles, 1);
+  sim::Simulation simulation =
+      setup::make_simulation(setup::with_curves(item.scene, 0), seeded.particles, 1);
   Timing timing{0, forecast::spread_of(simulation)};
   const forecast::StepTime step =
       forecast::measure_steps(simulation, 1 / item.scene.fps, {20, 0.5});

@@ -61,6 +61,13 @@ void check_engine(const std::string& flag, const std::string& name) {
                      "expected local or slurm; --shard and --emit work with any scheduler");
 }
 
+/// Nothing, of a variable of the shell that is not set, must not mean all runs.
+void check_list(const std::string& flag, const std::string& text) {
+  if (text.empty())
+    throw UsageError(flag, "the list is empty",
+                     "expected numbers of runs, as in 3,7-12; is a variable of the shell not set?");
+}
+
 void describe_retry(options::Command& visit, std::string& states, const char* help) {
   visit("--retry-failed", states, options::text("STATES", "timeout,crashed"), help).or_alone("all");
 }
@@ -97,7 +104,7 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
       "With --coarsen N: when all runs have ended, make K points at full resolution as well, with "
       "all of their seeds, in the same folder: the undecided ones first, then the best of --best; "
       "tiles show these, and the report says how well coarse ranked full");
-  visit("--refine-runs", o.refine_runs, options::text("LIST", "3,7-9"),
+  visit("--refine-runs", o.refine_runs, options::text("LIST", "3,7-9", check_list),
         "With --coarsen N: make these runs at full resolution as well, as in 3,7-9; with --seeds "
         "the points that they are of");
   visit("--best", o.best, options::text("METRIC", "height"),
@@ -128,7 +135,8 @@ void describe_runs(options::Command& visit, SweepOptions& o) {
 
 /// The runs that are chosen, and the machines that make them.
 void describe_places(options::Command& visit, SweepOptions& o) {
-  visit("--only", o.only, options::text("LIST", "3,7-12"), "Make only these runs, as in 3,7-12");
+  visit("--only", o.only, options::text("LIST", "3,7-12", check_list),
+        "Make only these runs, as in 3,7-12");
   visit("--budget", o.budget, budget(),
         "Stop after this time, as in 20m or 1h30m; the same command continues. A run is not "
         "started if its forecast ends later");

@@ -16,6 +16,7 @@
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
+#include "app/setup/curves.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/support/text.h"
@@ -108,6 +109,7 @@ class SceneMaker {
                              ? scene::apply(*at_fork_, all, sweep_.scene_file)
                              : scene::read_scene_text(text_, sweep_.scene_file,
                                                       scene::base_dir_of(sweep_.scene_file), all);
+    setup::refuse_followers(scene, all);
     scene::place_in_world(scene, sweep_.scene_file);
     scene::coarsen(scene, coarsening);
     return scene;

@@ -298,6 +298,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
     if (!line.empty()) progress.note(line);
 
   progress.clear();
+  for (const std::string& line : store::idle_lines(manifest, results)) progress.warning(line);
   for (const std::string& line : store::warning_lines(manifest, results)) progress.warning(line);
 
   // An interrupted sweep ends without pictures.

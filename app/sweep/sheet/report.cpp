@@ -135,24 +135,28 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
                         const std::vector<store::RunResult>& results, const SheetLayout& layout,
                         const std::vector<std::uint8_t>& sheet_png, std::size_t pages,
                         const std::vector<predict::Prediction>& predictions) {
+  std::string hints;
+  for (const std::string& line : store::idle_lines(manifest, results))
+    hints += "<p class=\"hint\">" + render::overlay::xml_text(line) + "</p>";
   const std::string ranking =
       store::ranking_line(manifest, results, store::full_results(folder, manifest));
   std::string script;
   for (const char* file : {"study.js", "noise.js", "page.js", "stars.js", "walk.js", "lists.js",
                            "charts.js", "start.js"})
     script += find_embedded_report(file);
-  return fill_page(find_embedded_report("page.html"),
-                   {{"title", render::overlay::xml_text(manifest.title)},
-                    {"summary", render::overlay::xml_text(summary_of(manifest, results))},
-                    {"ranking", ranking.empty() ? ""
-                                                : "<p class=\"hint\" id=\"ranking\">" +
-                                                      render::overlay::xml_text(ranking) + "</p>"},
-                    {"style", std::string(find_embedded_report("style.css"))},
-                    {"script", script},
-                    {"data", script_json(report_data(folder, manifest, results, predictions))},
-                    {"stars", script_json(store::to_json(manifest.marks))},
-                    {"effects", effects_section(manifest, results)},
-                    {"more", more_section(manifest, results, layout, sheet_png, pages)}});
+  return fill_page(
+      find_embedded_report("page.html"),
+      {{"title", render::overlay::xml_text(manifest.title)},
+       {"summary", render::overlay::xml_text(summary_of(manifest, results))},
+       {"ranking", hints + (ranking.empty() ? ""
+                                            : "<p class=\"hint\" id=\"ranking\">" +
+                                                  render::overlay::xml_text(ranking) + "</p>")},
+       {"style", std::string(find_embedded_report("style.css"))},
+       {"script", script},
+       {"data", script_json(report_data(folder, manifest, results, predictions))},
+       {"stars", script_json(store::to_json(manifest.marks))},
+       {"effects", effects_section(manifest, results)},
+       {"more", more_section(manifest, results, layout, sheet_png, pages)}});
 }
 
 std::string report_with_marks(std::string page, const store::Marks& marks) {

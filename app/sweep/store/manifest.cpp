@@ -250,6 +250,7 @@ void check_values(const Manifest& m) {
             m.runs.size() % static_cast<std::size_t>(m.seeds) == 0,
         "its runs are not whole points");
   check(m.runs.size() <= std::size_t(read::max_runs), "it has too many runs");
+  check(m.coarsening >= 1 && m.coarsening <= 1e6, "the cells of its runs are wrong");
   double places = 1;
   for (const AxisLabels& axis : m.axes) places *= static_cast<double>(axis.values.size());
   check(places >= 1 && places <= 10.0 * read::max_runs, "its axes have no or too many values");
@@ -320,6 +321,12 @@ std::vector<int> Manifest::with_variants(std::vector<int> indices) const {
   return indices;
 }
 
+double Manifest::coarsening_of(const Run& run) const {
+  for (const Variant& variant : variants)
+    if (&variant.run == &run) return variant.coarsening;
+  return coarsening;
+}
+
 int Manifest::first_frame() const {
   int first = runs.empty() ? 0 : runs.front().frames.first;
   for (const Run& run : runs) first = std::min(first, run.frames.first);
@@ -376,6 +383,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
     variant.run.key = keys[plan.runs.size() + k];
     variant.run.folder = folders[plan.runs.size() + k];
   }
+  m.coarsening = plan.coarsening;
   m.coarsened = scene::coarsened_words(plan.base, plan.coarsening);
   if (m.coarsened.starts_with(", ")) m.coarsened.erase(0, 2);
   m.keeps_states = plan.keeps_states;
@@ -460,6 +468,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));
   for (const Variant& variant : m.variants) json["variants"].push_back(variant_json(variant));
+  if (m.coarsening > 1) json["coarsen"] = m.coarsening;
   if (!m.coarsened.empty()) json["coarsened"] = m.coarsened;
   output::write_file(manifest_path(folder), record::with_own_hash(json));
 }
@@ -514,6 +523,7 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     if (json.contains("beginning")) m.beginning = beginning_of(json.at("beginning"));
     for (const Json& variant : json.value("variants", Json::array()))
       m.variants.push_back(variant_of(variant));
+    m.coarsening = json.value("coarsen", 1.0);
     m.coarsened = json.value("coarsened", "");
     m.seeds = whole_number_or(json, "seeds", 1);
     m.keeps_states = json.value("keeps_states", false);

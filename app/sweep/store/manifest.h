@@ -80,6 +80,7 @@ struct Manifest {
   std::optional<std::vector<std::string>> varied;
   std::vector<Run> runs;
   std::vector<Variant> variants{};
+  double coarsening = 1;    ///< of the runs
   std::string coarsened{};  ///< "coarsened 2x, thresholds for cells of 0.02 m"; "" of other sweeps
   /// Runs of each point, which follow each other and differ in their seed alone.
   int seeds = 1;
@@ -101,6 +102,8 @@ struct Manifest {
   int last_index() const;
   /// These runs, and the variants of their points.
   std::vector<int> with_variants(std::vector<int> indices) const;
+
+  double coarsening_of(const Run& run) const;
 
   int first_frame() const;
   int last_frame() const;

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <map>
+#include <set>
 #include <system_error>
 
 #include "app/output/sequence.h"
 #include "app/record/run_json.h"
 #include "app/record/verify.h"
+#include "app/scene/flat.h"
 #include "app/support/errors.h"
 
 namespace neve::app::sweep::store {
@@ -22,7 +25,9 @@ std::optional<double> finite(double x) {
 }
 
 /// In the order of metric_infos().
+/// @param start  of the run, not of its frames
 std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRecord>& frames,
+                                              const record::RunStart& start,
                                               const RunStatus& status,
                                               std::optional<double> diverged_at) {
   if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
@@ -55,8 +60,8 @@ std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRec
           finite(max_speed),
           finite(max_force),
           finite(max_pressure),
-          record::largest_fall(frames.front().bodies, last.bodies),
-          record::largest_way(frames.front().bodies, last.bodies),
+          record::largest_fall(start.bodies, last.bodies),
+          record::largest_way(start.bodies, last.bodies),
           max_body_speed,
           steps,
           finite(status.seconds)};
@@ -65,13 +70,17 @@ std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRec
 /// Contents of DIR/run.json besides its frames; missing values are omitted.
 struct RunNotes {
   std::vector<std::string> warnings;
-  std::optional<double> diverged_at;  ///< step
+  std::optional<double> diverged_at;  ///< step, counted from the fork
+  std::optional<record::RunStart> start;
 };
 
 RunNotes notes_of(const Json& run) {
   RunNotes notes;
   try {
-    if (run.contains("divergence")) notes.diverged_at = run["divergence"].at("step").get<double>();
+    notes.start = record::start_of(run);
+    if (run.contains("divergence"))
+      notes.diverged_at = run["divergence"].at("step").get<double>() -
+                          (run.contains("forked") ? run["forked"].at("step").get<double>() : 0);
     notes.warnings = run.value("warnings", notes.warnings);
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
@@ -161,11 +170,15 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
     result.flaws = "status.json is damaged";
   else if (result.status.key == run.key)
     result.flaws = flaws_of_run(folder, run, result.status);
-  result.metrics = metrics_of(frames, result.status, notes.diverged_at);
+  if (!notes.start && !frames.empty())
+    notes.start = {frames.front().metrics, frames.front().bodies};
+  result.metrics = metrics_of(frames, notes.start.value_or(record::RunStart{}), result.status,
+                              notes.diverged_at);
   if (!frames.empty() && is_whole(run, result)) {
-    const record::Metrics &first = frames.front().metrics, &last = frames.back().metrics;
+    const record::Metrics &first = notes.start->metrics, &last = frames.back().metrics;
     result.has_broken = record::has_broken(first, last);
     if (first.largest_fragment > 0) result.whole = last.largest_fragment / first.largest_fragment;
+    if (result.status.state == RunState::ok) result.end_hash = frames.back().state_hash;
   }
   return result;
 }
@@ -174,6 +187,38 @@ std::vector<RunResult> read_results(const std::filesystem::path& folder, const M
   std::vector<RunResult> results;
   for (const Run& run : manifest.runs) results.push_back(read_result(folder, run, manifest.view));
   return results;
+}
+
+std::vector<std::string> idle_lines(const Manifest& manifest,
+                                    const std::vector<RunResult>& results) {
+  // By parameter: runs that have equal values of all others, and their states.
+  std::map<std::string, std::map<std::string, std::set<std::uint64_t>>> states;
+  std::map<std::string, std::map<std::string, std::set<std::string>>> values;
+  for (std::size_t k = 0; k < std::min(results.size(), manifest.runs.size()); ++k) {
+    const Run& run = manifest.runs[k];
+    if (results[k].end_hash == 0) continue;
+    for (const scene::Override& one : run.settings) {
+      if (!scene::concerns_simulation(one.address)) continue;
+      std::string others = std::to_string(run.frames.last);
+      for (const scene::Override& other : run.settings)
+        if (other.address != one.address) others += "\n" + other.address + "=" + other.value;
+      states[one.address][others].insert(results[k].end_hash);
+      values[one.address][others].insert(one.value);
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& [address, groups] : states) {
+    const auto& of_address = values.at(address);
+    const bool is_compared =
+        std::ranges::any_of(of_address, [](const auto& group) { return group.second.size() > 1; });
+    const bool is_idle =
+        std::ranges::all_of(groups, [](const auto& group) { return group.second.size() == 1; });
+    if (is_compared && is_idle)
+      lines.push_back(address +
+                      " changes nothing here: runs that differ in it alone end in the "
+                      "same state; neve check says which settings a scene does not use");
+  }
+  return lines;
 }
 
 std::string warning_count_text(std::size_t count) {

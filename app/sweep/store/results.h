@@ -1,6 +1,7 @@
 #pragma once
 /// Results of the runs of a sweep, read from their folders.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,7 @@ struct RunResult {
   std::optional<bool> has_broken{};
   std::optional<double> whole{};    ///< its largest piece as a share of that of its first picture
   std::vector<SnowPlace> places{};  ///< of the frames that have a picture
+  std::uint64_t end_hash = 0;       ///< of the state at the last frame of a run that got there
 
   std::optional<int> last_frame() const {
     return frames.empty() ? std::nullopt : std::optional(frames.back());
@@ -66,6 +68,10 @@ std::vector<RunResult> read_results(const std::filesystem::path& folder, const M
 
 /// "1 warning", "2 warnings"
 std::string warning_count_text(std::size_t count);
+
+/// Parameters that change nothing: runs that differ in one alone end with the same bits.
+std::vector<std::string> idle_lines(const Manifest& manifest,
+                                    const std::vector<RunResult>& results);
 
 /// "run 3: WARNING; WARNING" for each of the first five runs that have some, then how many more.
 std::vector<std::string> warning_lines(const Manifest& manifest,
