@@ -384,6 +384,26 @@ Hypothesis hardening(const Case& c) {
       c.at("hardening")};
 }
 
+/// A step is chosen by the sound before it: snow that is packed in it may end much stiffer.
+Hypothesis hardened_within_a_step(const Case& c) {
+  constexpr double much = 2;  // times the speed of sound before
+  const auto& steps = c.d.last_steps;
+  if (c.is_fixed || !c.is_hardened() || steps.size() < 2) return std::nullopt;
+  const double before = steps[steps.size() - 2].max_sound_speed, after = c.d.sound_speed;
+  if (!(sim::health::hardening_factor(c.material, c.d.J_P) > 1) || !(after > much * before))
+    return std::nullopt;
+  return Diagnosis{
+      Cause::hardening,
+      fmt::format(
+          "one step of {} s packed snow to J_P = {}, and its sound became {} times as fast{}",
+          rough_text(c.d.dt), rough_text(c.d.J_P), rough_text(after / before),
+          hardening_text(c.material).replace(0, 4, " with")),
+      fmt::format("solver.on_divergence = \"retry\", which takes such steps again with half of dt, "
+                  "or {} = 20",
+                  c.at("max_hardening")),
+      "solver.on_divergence"};
+}
+
 Hypothesis doubts_of_the_law(const Case& c) {
   const std::vector<Finding> doubts = law_findings(c.material);
   if (doubts.empty()) return std::nullopt;
@@ -456,7 +476,8 @@ Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence,
   for (const auto hypothesis :
        {bypass, initial_state, units, raised_limits, too_long_at_rest, collider_speed,
         colliders_closing, incompressible, hardened_beyond_fixed_step, shock, too_soft, hardening,
-        far_flight, raised_acoustic_limit, doubts_of_the_law, rounding, thin})
+        hardened_within_a_step, far_flight, raised_acoustic_limit, doubts_of_the_law, rounding,
+        thin})
     if (Hypothesis found = hypothesis(c)) {
       found->coarsening = coarsening;
       return *found;

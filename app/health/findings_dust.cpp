@@ -57,7 +57,9 @@ void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& f
       {Severity::note, address,
        fmt::format("up to {} particles of dust, and the air around them, take time beside the snow",
                    about_count_text(d.particles)),
-       "material." + dusty->name + ".dust = 0 is the same snow without it"});
+       "material." + dusty->name +
+           (d.spray_drag > 0 ? ".dust = 0 and dust.spray_drag = 0 are snow without air"
+                             : ".dust = 0 is the same snow without it")});
 }
 
 }  // namespace neve::app::health

@@ -292,6 +292,28 @@ TEST(Diagnosis, DiagnosisNamesHardeningOfAdaptiveSteps) {
   EXPECT_EQ(app::health::diagnose(scene, d).cause, app::health::Cause::unexplained);
 }
 
+/// Soft snow that hardens much: a step that was right for the sound before it packs it too far.
+TEST(Diagnosis, DiagnosisNamesAStepThatHardenedSnow) {
+  const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");
+  sim::Divergence d;
+  d.rule = "acoustic_cfl";
+  d.J_P = 0.9;
+  d.dt = 1e-3;
+  d.sound_speed = 70;
+  d.start.max_speed = 3;
+  d.start.max_sound_speed = 20;
+  d.last_steps.resize(2);
+  d.last_steps[0].max_sound_speed = 14;
+  const app::health::Diagnosis diagnosis = app::health::diagnose(scene, d);
+  EXPECT_EQ(diagnosis.cause, app::health::Cause::hardening) << diagnosis.evidence;
+  EXPECT_NE(diagnosis.evidence.find("its sound became 5 times as fast with hardening = 10"),
+            std::string::npos)
+      << diagnosis.evidence;
+  EXPECT_NE(diagnosis.remedy.find("solver.on_divergence = \"retry\""), std::string::npos);
+  d.sound_speed = 20;
+  EXPECT_NE(app::health::diagnose(scene, d).cause, app::health::Cause::hardening);
+}
+
 TEST(Diagnosis, DiagnosisKeepsTheLastStepsInOrder) {
   const app::scene::Scene scene = scene_of(fault("acoustic limit raised"));
   const sim::Simulation simulation = run(scene, app::setup::seed_scene(scene).particles);

@@ -108,7 +108,7 @@ TEST(Wishes, TablesHaveALineForEachChange) {
   const auto lines = [](const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   };
-  EXPECT_EQ(lines(advice::wishes_table(all)), changes + 3);
+  EXPECT_EQ(lines(advice::wishes_table(all)), changes + 4);
   EXPECT_EQ(lines(advice::wishes_markdown(all)), changes + 2);
   EXPECT_EQ(parse_json(std::string_view(advice::wishes_json(all))).size(), all.size());
   ASSERT_EQ(advice::wishes_for("stick").size(), 1u);

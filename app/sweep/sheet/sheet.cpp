@@ -312,17 +312,32 @@ render::Image SheetMaker::compose(const SheetLayout& layout, const std::vector<T
   return renderer_.draw_over(render::compose(layout.width, layout.height, paper, pictures), words);
 }
 
+namespace {
+
+/// "frame 12   t = 0.500 s"; runs of other lengths or rates have their own moments.
+std::string moment_text(const store::Manifest& manifest, int frame) {
+  const auto varies = [&](const char* address) {
+    return std::ranges::any_of(manifest.runs,
+                               [&](const Run& run) { return !run.setting(address).empty(); });
+  };
+  const bool are_shorter =
+      std::ranges::any_of(manifest.runs, [&](const Run& run) { return run.frames.last < frame; });
+  return "frame " + std::to_string(frame) +
+         (varies("fps") ? "" : "   t = " + fixed_text(manifest.time_of(frame), 3) + " s") +
+         (are_shorter ? ", or the last of a shorter run" : "");
+}
+
+}  // namespace
+
 render::Image SheetMaker::sheet(int frame, std::size_t page) {
   const SheetLayout& layout = pages_[page].layout;
   std::vector<Tile> tiles;
   for (const SheetTile& place : layout.tiles)
     tiles.push_back({&manifest_.runs[place.run], &results_[place.run], frame, place.x, place.y});
-  const std::string line =
-      "frame " + std::to_string(frame) + "   t = " + fixed_text(manifest_.time_of(frame), 3) +
-      " s" + dot + counts_ +
-      (pages_.size() > 1
-           ? dot + ("page " + std::to_string(page + 1)) + " of " + std::to_string(pages_.size())
-           : "");
+  const std::string line = moment_text(manifest_, frame) + dot + counts_ +
+                           (pages_.size() > 1 ? dot + ("page " + std::to_string(page + 1)) +
+                                                    " of " + std::to_string(pages_.size())
+                                              : "");
   render::Frame words = frame_of(layout, line);
   draw_key(layout.key, static_cast<float>(layout.height - layout.key_height),
            static_cast<float>(layout.width), static_cast<float>(layout.font_size), words);
