@@ -71,25 +71,22 @@ Unit unit(const shapes::Torus& s) {
 Unit unit(const shapes::Mesh& s) {
   const std::shared_ptr<const shapes::MeshSurface> surface = shapes::mesh_surface(s);
   const std::vector<Vec3d>& vertices = surface->mesh().vertices;
-  // From a vertex, not from the file's origin, which may be far away.
-  const Vec3d from = vertices.front();
-  double volume = 0;
-  Vec3d first = Vec3d::Zero();
-  Mat3d second = Mat3d::Zero();
-  for (const auto& t : surface->mesh().triangles) {
-    const Vec3d a = vertices[t[0]] - from, b = vertices[t[1]] - from, c = vertices[t[2]] - from;
-    const double part = a.dot(b.cross(c)) / 6;
-    const Vec3d sum = a + b + c;
-    volume += part;
-    first += part / 4 * sum;
-    second += part / 20 *
-              (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+  shapes::Moments moments;
+  if (surface->mesh().moments) {
+    moments = *surface->mesh().moments;
+  } else {
+    // From a vertex, not from the file's origin, which may be far away.
+    moments.from = vertices.front();
+    for (const auto& t : surface->mesh().triangles)
+      moments.add_tetrahedron(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
   }
+  const double volume = moments.volume;
   if (!(volume > 0)) throw std::invalid_argument("its mesh has no volume that could have a mass");
-  const Vec3d centre = first / volume;
-  const Mat3d about = second - volume * centre * centre.transpose();
-  const double filled = shapes::volume({s, Vec3d::Zero()});
-  return {filled, from + centre, filled / volume * (about.trace() * Mat3d::Identity() - about)};
+  const Vec3d centre = moments.first / volume;
+  const Mat3d about = moments.second - volume * centre * centre.transpose();
+  const double filled = surface->mesh().moments ? volume : shapes::volume({s, Vec3d::Zero()});
+  return {filled, moments.from + centre,
+          filled / volume * (about.trace() * Mat3d::Identity() - about)};
 }
 
 template <class Form>

@@ -12,9 +12,9 @@ struct MassProperties {
   Mat3d inertia = Mat3d::Identity();  ///< kg m2, about the centre of mass
 };
 
-/// Exact for the analytic forms. Of meshes it is that of the polyhedron, by sums over tetrahedra
-/// from the origin to each face (Eberly, Polyhedral mass properties (revisited), 2002), scaled to
-/// the volume that the mesh is filled with.
+/// Exact for the analytic forms, and for meshes: by sums over tetrahedra to each face, also where
+/// parts lie in one another. Where parts of a mesh cross it is measured, and of an open mesh all of
+/// it (shapes::SolidMesh::moments).
 /// @throws ShapeError when a mesh cannot be read or is open; std::invalid_argument for shapes that
 ///         have no finite volume or deform
 MassProperties mass_properties(const shapes::Shape& shape, double density);

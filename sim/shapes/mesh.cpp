@@ -102,6 +102,7 @@ SolidMesh scaled(SolidMesh mesh, double scale, const std::string& name) {
     throw ShapeError(name + ": the scale of a mesh must be a finite number above 0");
   for (Vec3d& x : mesh.vertices) x *= scale;
   mesh.volume *= scale * scale * scale;
+  if (mesh.moments) mesh.moments->scale(scale);
   const Bounds b = bounds_of(mesh);
   const double across = (b.max - b.min).maxCoeff();
   const std::string what = name + ": with scale = " + number_text(scale) + " the mesh is ";

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/files/obj_reader.h"
+#include "sim/shapes/moments.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::sim::shapes {
@@ -39,6 +41,9 @@ struct SolidMesh {
   Inside inside = Inside::positive;
   MeshReading reading{};
   std::vector<std::array<std::uint32_t, 2>> open_edges{};
+  /// Of what is inside, where the faces together are something else: parts in one another may count
+  /// twice or with the wrong sign, and an open mesh has no sum.
+  std::optional<Moments> moments{};
 };
 
 /// Tight bounds of the rotated mesh.

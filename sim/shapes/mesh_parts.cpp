@@ -41,7 +41,11 @@ class Parts {
         bounds_(bounds_of(mesh)),
         columns_(mesh.vertices, mesh.triangles, bounds_),
         containers_(count),
-        volume_(count, 0.0) {}
+        volume_(count, 0.0),
+        turn_(count, 1),
+        share_(count, 1) {
+    missing_.from = 0.5 * (bounds_.min + bounds_.max);  // keeps digits, as enclosed_by_faces()
+  }
 
   void turn_outward();
   void measure();
@@ -53,6 +57,7 @@ class Parts {
   }
   void find_volumes();
   void find_containers();
+  void find_shares();
   PartCounts parts_around(const Vec3d& p, std::uint32_t but);
   bool contains(std::uint32_t outer, std::uint32_t inner) const {
     return std::ranges::binary_search(containers_[inner], outer);
@@ -60,17 +65,26 @@ class Parts {
   bool do_cross(const PartCounts& around);
   /// False, and nothing is added, where the line would take too long.
   bool measure_line(const Vec3d& p);
+  bool is_inside(int depth) const {
+    return mesh_.inside == Inside::odd ? depth % 2 != 0 : depth > 0;
+  }
+  /// @param area  m2, of the cross section of a line
+  void find_moments(double area);
 
   SolidMesh& mesh_;
   const std::vector<std::uint32_t>& part_;
   Bounds bounds_;
   Columns columns_;
   std::vector<std::vector<std::uint32_t>> containers_;  ///< of each part, in order
-  std::vector<double> volume_;                          ///< m3, of each part, as it is wound
+  std::vector<double> volume_;                          ///< m3, of each part, as it was wound
+  std::vector<int> turn_;   ///< of each part, how it is wound: 1 outward, -1 inward
+  std::vector<int> share_;  ///< how often the faces of each part count in the moments: -1, 0, 1
   std::size_t tests_ = 0;
   // Sums of lengths over lines, m.
   double wrong_ = 0;  ///< that the faces together count wrong
   double crossed_ = 0, inside_out_ = 0;
+  double missed_ = 0;  ///< that the faces by their shares count wrong, more or less
+  Moments missing_;    ///< what the faces by their shares lack, over m2
   std::vector<std::tuple<double, int, std::uint32_t>> meetings_;
   std::vector<std::uint32_t> chain_;
 };
@@ -150,9 +164,21 @@ void Parts::turn_outward() {
     mesh_.reading.turned_parts += is_inward[p] && !is_nested;
   }
   const bool is_even_odd = mesh_.inside == Inside::odd;
+  for (std::size_t p = 0; p < turn_.size(); ++p) turn_[p] = is_solid[p] || is_even_odd ? 1 : -1;
+  find_shares();
   for (std::size_t t = 0; t < part_.size(); ++t)
     if (is_inward[part_[t]] == (is_solid[part_[t]] || is_even_odd))
       std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+}
+
+/// Faces of a part lie between what is around the part and what is in it. Only if one of these is
+/// inside, and the other is not, do they bound anything.
+void Parts::find_shares() {
+  for (std::size_t p = 0; p < share_.size(); ++p) {
+    int around = 0;
+    for (const std::uint32_t other : containers_[p]) around += turn_[other];
+    share_[p] = turn_[p] * ((is_inside(around + turn_[p]) ? 1 : 0) - (is_inside(around) ? 1 : 0));
+  }
 }
 
 /// Whether two of the parts around a place are not in one another, or one is there twice.
@@ -172,7 +198,8 @@ bool Parts::do_cross(const PartCounts& around) {
 }
 
 bool Parts::measure_line(const Vec3d& p) {
-  const double before[] = {wrong_, crossed_, inside_out_};
+  const double before[] = {wrong_, crossed_, inside_out_, missed_};
+  const Moments missing_before = missing_;
   meetings_.clear();
   const auto [begin, end] = columns_.at(p);
   tests_ += static_cast<std::size_t>(end - begin);
@@ -183,20 +210,27 @@ bool Parts::measure_line(const Vec3d& p) {
   }
   std::sort(meetings_.begin(), meetings_.end());
   PartCounts around;
-  int depth = 0;
+  int depth = 0, counted = 0;
   for (std::size_t k = 0; k + 1 < meetings_.size(); ++k) {
     const auto& [from, w, part] = meetings_[k];
     depth -= w;
+    counted -= w * share_[part];
     add(around, part, -w);
     tests_ += around.size();
     if (tests_ > max_tests) {
-      std::tie(wrong_, crossed_, inside_out_) = std::tie(before[0], before[1], before[2]);
+      std::tie(wrong_, crossed_, inside_out_, missed_) =
+          std::tie(before[0], before[1], before[2], before[3]);
+      missing_ = missing_before;
       return false;
     }
     const double length = std::get<0>(meetings_[k + 1]) - from;
-    if (length <= 0 || depth == 0 || depth == 1) continue;
-    const bool is_inside = mesh_.inside == Inside::odd ? depth % 2 != 0 : depth > 0;
-    wrong_ += length * ((is_inside ? 1 : 0) - depth);
+    if (length <= 0) continue;
+    if (const int lacking = (is_inside(depth) ? 1 : 0) - counted; lacking != 0) {
+      missed_ += length * std::abs(lacking);
+      missing_.add_rod({from + 0.5 * length, p.y(), p.z()}, length, lacking);
+    }
+    if (depth == 0 || depth == 1) continue;
+    wrong_ += length * ((is_inside(depth) ? 1 : 0) - depth);
     if (depth < 0 && mesh_.inside == Inside::positive) inside_out_ += length;
     if (depth > 1 && do_cross(around)) crossed_ += length;
   }
@@ -217,10 +251,25 @@ void Parts::measure() {
   }
   if (n == 0) return;
   const double area = size.y() * size.z() / n;
+  find_moments(area);
   if (std::abs(wrong_) * area <= min_overlap * std::abs(mesh_.volume)) return;
   mesh_.volume += wrong_ * area;
   mesh_.reading.crossed = crossed_ * area / mesh_.volume;
   mesh_.reading.inside_out = inside_out_ * area / mesh_.volume;
+}
+
+void Parts::find_moments(double area) {
+  const bool are_measured = missed_ * area > min_overlap * std::abs(mesh_.volume);
+  if (!are_measured && std::ranges::count(share_, 1) == std::ssize(share_)) return;
+  Moments all;
+  all.from = missing_.from;
+  for (std::uint32_t t = 0; t < part_.size(); ++t) {
+    if (share_[part_[t]] == 0) continue;
+    const auto [a, b, c] = corners(t);
+    all.add_tetrahedron(a, b, c, share_[part_[t]]);
+  }
+  if (are_measured) all.add(missing_, area);
+  mesh_.moments = all;
 }
 
 }  // namespace

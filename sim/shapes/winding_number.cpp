@@ -121,12 +121,15 @@ void measure_winding(SolidMesh& mesh, const std::string& name) {
   constexpr double golden = 1.22074408460575947536;
   const WindingNumber winding(mesh.vertices, mesh.triangles);
   const Bounds b = bounds_of(mesh);
-  int inside = 0, inside_out = 0, in_doubt = 0, inverse_doubt = 0;
+  int inside = 0, inside_out = 0, in_doubt = 0, inverse_doubt = 0, twice = 0;
+  Moments filled[2];  // of what is wound outward, and of what is wound inward
+  for (Moments& moments : filled) moments.from = 0.5 * (b.min + b.max);
   for (int n = 0; n < count; ++n) {
     Vec3d u;
     double step = 1;
     for (double& x : u) x = std::fmod(0.5 + n * (step /= golden), 1);
-    const double w = winding.at(b.min + u.cwiseProduct(b.max - b.min), &looked);
+    const Vec3d p = b.min + u.cwiseProduct(b.max - b.min);
+    const double w = winding.at(p, &looked);
     if (looked > max_looked)
       throw ShapeError(name +
                        ": the mesh is open, and so many of its faces reach across it that it takes "
@@ -134,9 +137,14 @@ void measure_winding(SolidMesh& mesh, const std::string& name) {
                        "where its inside is; close its holes, or cut long faces into short ones");
     inside += w > 0.5;
     inside_out += w < -0.5;
+    if (std::abs(w) > 0.5) filled[w < 0].add_point(p, (b.max - b.min).prod() / count);
+    twice += std::abs(w) > 1.5;
     in_doubt += std::abs(w - 0.5) < 0.25;
     inverse_doubt += std::abs(w + 0.5) < 0.25;
   }
+  // The sum over all faces is right where they close and enclose everything once.
+  if (mesh.reading.open_edges > 0 || twice > 0 || std::min(inside, inside_out) > 0)
+    mesh.moments = filled[inside_out > inside];
   if (inside_out > inside) {
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
     mesh.reading.turned_parts = mesh.reading.parts;

@@ -45,8 +45,9 @@ class WindingNumber {
   std::vector<Node> nodes_;
 };
 
-/// Sets the volume of a mesh with Inside::above_half, by samples to about 0.5 %, and the share of
-/// it that is in doubt; turns all faces where they are wound inward.
+/// Sets the volume of a mesh with Inside::above_half, by samples to about 0.5 %, its moments by the
+/// same ones where not all faces together have them, and the share of it that is in doubt; turns
+/// all faces where they are wound inward.
 /// @param name  only for errors
 /// @throws ShapeError where each question would look at thousands of triangles
 void measure_winding(SolidMesh& mesh, const std::string& name);
