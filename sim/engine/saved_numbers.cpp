@@ -169,6 +169,7 @@ void require_healthy_counters(const Progress& p) {
 void require_healthy_offset(const shapes::PoseOffset& offset) {
   require_not_negative("a collider with since", offset.since);
   require_not_negative("a collider with delay", offset.delay);
+  require_finite("a collider with joint_angle", offset.joint_angle);
   for (const double moved : offset.moved) require_finite("a collider with moved", moved);
   const Mat3d gram = offset.turned.transpose() * offset.turned;
   if (!(gram - Mat3d::Identity()).isZero(1e-6) || !(offset.turned.determinant() > 0))

@@ -26,7 +26,7 @@ struct SavedHead {
 static_assert(std::has_unique_object_representations_v<SavedHead>);
 
 struct SavedOffset {
-  double since, moved[3], turned[9], delay;
+  double since, moved[3], turned[9], delay, joint_angle;
 };
 
 /// Of a body that moves by itself.
@@ -67,6 +67,7 @@ SavedOffset saved(const shapes::PoseOffset& offset) {
   SavedOffset out{};
   out.since = offset.since;
   out.delay = offset.delay;
+  out.joint_angle = offset.joint_angle;
   for (int a = 0; a < 3; ++a) out.moved[a] = offset.moved[a];
   for (int q = 0; q < 9; ++q) out.turned[q] = offset.turned(q / 3, q % 3);
   return out;
@@ -76,6 +77,7 @@ shapes::PoseOffset restored(const SavedOffset& in) {
   shapes::PoseOffset out;
   out.since = in.since;
   out.delay = in.delay;
+  out.joint_angle = in.joint_angle;
   for (int a = 0; a < 3; ++a) out.moved[a] = in.moved[a];
   for (int q = 0; q < 9; ++q) out.turned(q / 3, q % 3) = in.turned[q];
   return out;

@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "sim/base/hash.h"
 #include "sim/health/limits.h"
@@ -149,6 +151,9 @@ std::uint64_t StateReader<Real>::state_hash() const {
     hash = hash_bytes(pose.angular_velocity.data(), sizeof(Vec3d), hash);
     hash = hash_bytes(body.pose_offset.moved.data(), sizeof(Vec3d), hash);
     hash = hash_bytes(body.pose_offset.turned.data(), sizeof(Mat3d), hash);
+    // The angle within a turn is said by the rotation.
+    const double turns = std::round(body.pose_offset.joint_angle / (2 * std::numbers::pi));
+    if (turns != 0) hash = hash_bytes(&turns, sizeof turns, hash);
     // Ids of particles have 32 bits.
     sum += mix64(~static_cast<std::uint64_t>(k), hash);
   }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace neve::sim::rigid {
 
@@ -46,6 +47,12 @@ double spring(double stiffness, double damping, double beyond, double speed, dou
 
 }  // namespace
 
+double hinge_angle(const Vec3d& axis, const Mat3d& turned, double near) {
+  constexpr double whole = 2 * std::numbers::pi;
+  const double least = axis.dot(vector_of(turned)), turns = std::round((near - least) / whole);
+  return turns == 0 ? least : least + whole * turns;
+}
+
 Held::Held(btRigidBody& body, const shapes::Collider& collider, const MassProperties& mass,
            const Mat3d& rotation)
     : btTypedConstraint(D6_CONSTRAINT_TYPE, body),
@@ -64,9 +71,10 @@ bool Held::holds(const shapes::RigidBody& body) {
          body.spring_damping > 0;
 }
 
-void Held::set_place(const Vec3d& centre, const Mat3d& rotation) {
+void Held::set_place(const Vec3d& centre, const Mat3d& rotation, double angle) {
   centre_ = centre;
   now_ = rotation;
+  angle_ = angle;
 }
 
 std::vector<Held::Row> Held::rows() const {
@@ -120,8 +128,8 @@ void Held::add_springs(double dt, const Vec3d& velocity, const Vec3d& spin, cons
     // The joint will turn the momentum of the free body into this spin.
     const double turning = axis_.dot(inertia * spin) - mass_ * axis_.dot(arm.cross(velocity));
     moment += axis_ * spring(held_.joint_stiffness, held_.joint_damping,
-                             axis_.dot(vector_of(now_ * rotation_.transpose())), turning / about,
-                             about, dt);
+                             hinge_angle(axis_, now_ * rotation_.transpose(), angle_),
+                             turning / about, about, dt);
   }
 }
 

@@ -8,6 +8,10 @@
 
 namespace neve::sim::rigid {
 
+/// rad, about the axis of a hinge; a rotation says it but for whole turns.
+/// @param turned  since the start, about the axis  @param near  what the angle is nearest to
+double hinge_angle(const Vec3d& axis, const Mat3d& turned, double near);
+
 /// Rows of Bullet's solver, all of them rigid. Errors of place are taken back by the share `erp` of
 /// the solver, step by step.
 class Held final : public btTypedConstraint {
@@ -19,8 +23,8 @@ class Held final : public btTypedConstraint {
   static bool holds(const shapes::RigidBody& body);
 
   /// Before the rows are asked for.
-  /// @param rotation  as in the constructor, now
-  void set_place(const Vec3d& centre, const Mat3d& rotation);
+  /// @param rotation  as in the constructor, now  @param angle  rad, of a hinge, with whole turns
+  void set_place(const Vec3d& centre, const Mat3d& rotation, double angle);
 
   /// The impulse of the springs in a step of dt, and its moment about the centre of mass: exact for
   /// the one freedom that the joint leaves, and stable for any stiffness (implicit Euler).
@@ -48,6 +52,7 @@ class Held final : public btTypedConstraint {
   Vec3d axis_;  ///< of the joint, in the axes of the world
   Vec3d centre_;
   Mat3d now_;
+  double angle_ = 0;
 };
 
 }  // namespace neve::sim::rigid

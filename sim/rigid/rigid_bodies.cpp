@@ -217,7 +217,7 @@ class RigidBodies::World {
     thing.body->updateInertiaTensor();
     thing.body->setLinearVelocity(to_bullet(body.before.velocity));
     thing.body->setAngularVelocity(to_bullet(body.before.spin));
-    if (thing.held) thing.held->set_place(body.before.centre, form);
+    if (thing.held) thing.held->set_place(body.before.centre, form, body.joint_angle);
   }
 
   static void push(const Body& body, Thing& thing, double dt, const Vec3d& gravity,
@@ -446,6 +446,7 @@ void RigidBodies::begin(const std::vector<shapes::Collider>& colliders, double t
     body.before = motion_of(pose, body.axes * body.mass.centre);
     body.after = body.before;
     body.point = pose.point - body.before.centre;
+    body.joint_angle = colliders[body.collider].pose_offset.joint_angle;
   }
   world_->place(bodies_, colliders, time);
 }
@@ -478,11 +479,19 @@ void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& 
   const Mat3d rotation = attitude.toRotationMatrix();
   const Vec3d arm = rotation * body.axes * body.mass.centre;
   const Vec3d point = body.after.centre + dt * body.after.velocity - arm;
+  const Mat3d since_start = rotation * rotation_from_degrees(collider.shape.rotation).transpose();
+  double joint_angle = 0;
+  if (collider.body.joint == shapes::Joint::hinge) {
+    const Vec3d axis = collider.body.joint_axis.stableNormalized();
+    joint_angle = hinge_angle(axis, since_start, body.joint_angle + dt * axis.dot(body.after.spin));
+  }
   collider.pose_offset = {
-      time, point - shapes::center(collider.shape),
-      rotation * rotation_from_degrees(collider.shape.rotation).transpose(),
+      time,
+      point - shapes::center(collider.shape),
+      since_start,
       collider.pose_offset.delay,
-      std::array{Vec3d(body.after.velocity - body.after.spin.cross(arm)), body.after.spin}};
+      std::array{Vec3d(body.after.velocity - body.after.spin.cross(arm)), body.after.spin},
+      joint_angle};
 }
 
 }  // namespace neve::sim::rigid

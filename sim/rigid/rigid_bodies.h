@@ -78,7 +78,8 @@ class RigidBodies {
     double furthest;   ///< m, of its places from the centre of mass
     bool is_convex;
     Motion before, after;
-    Vec3d point{0, 0, 0};  ///< see point()
+    Vec3d point{0, 0, 0};    ///< see point()
+    double joint_angle = 0;  ///< rad, before the step; see PoseOffset
   };
   class World;
 

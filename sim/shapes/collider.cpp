@@ -232,9 +232,12 @@ PoseOffset offset_after(const Collider& before, const Collider& after, double ti
 PoseOffset body_offset_after(const Collider& before, const Collider& after, double time) {
   if (same_motion(before, after)) return before.pose_offset;
   const Pose now = pose_at(before, time);
-  return {time, now.point - center(before.shape),
+  return {time,
+          now.point - center(before.shape),
           now.rotation * rotation_from_degrees(before.shape.rotation).transpose(),
-          before.pose_offset.delay};
+          before.pose_offset.delay,
+          {},
+          before.pose_offset.joint_angle};
 }
 
 PoseOffset delayed(PoseOffset offset, double seconds) {

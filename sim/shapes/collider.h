@@ -23,6 +23,9 @@ struct PoseOffset {
   double delay = 0;                  ///< s that steps did not move it: keyframes are so much later
   /// m/s and rad/s from then on, of a body that moves by itself; absent: as the collider says.
   std::optional<std::array<Vec3d, 2>> motion{};
+  /// rad, of a body that hangs from a hinge: since the start, with its whole turns, which `turned`
+  /// cannot say.
+  double joint_angle = 0;
 };
 
 /// Directions of the world that a body may not move along or turn about.

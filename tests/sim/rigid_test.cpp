@@ -188,6 +188,43 @@ TEST(RigidSnow, SavedAndRestoredItTakesTheSameSteps) {
   }
 }
 
+/// A lever that its spring has let turn by more than half a turn, far above some snow.
+Simulation wound() {
+  shapes::Collider lever = box_of(700, {0, 5, 0}, {0.3, 0.05, 0.05});
+  lever.body.joint = shapes::Joint::hinge;
+  lever.body.joint_point = {0, 5, 0};
+  lever.body.joint_axis = {0, 0, 1};
+  lever.body.joint_stiffness = 20;
+  lever.angular_velocity = {0, 0, 400};
+  return Simulation(settings_with_beta(0), {Material{}}, {lever}, falling_snow(), 1);
+}
+
+/// The rotation of a body cannot say its turns: they are saved beside it, and stay after changes.
+TEST(RigidSnow, TurnsOfAHingeAreSaved) {
+  Simulation whole = wound();
+  whole.advance_to(0.015);
+  const std::vector<std::uint8_t> saved = whole.save();
+  const double angle = whole.colliders()[0].pose_offset.joint_angle;
+  ASSERT_GT(angle, 4) << "it has not turned by more than half a turn";
+  Simulation resumed = wound();
+  resumed.restore_healthy(saved);
+  EXPECT_EQ(resumed.state_hash(), whole.state_hash());
+  // Other parameters leave it wound up, and so does a push.
+  Simulation pushed = wound();
+  pushed.restore_healthy(saved);
+  std::vector<shapes::Collider> list = pushed.colliders();
+  list[0].body.joint_stiffness *= 2;
+  list[0].angular_velocity = {0, 0, 1};
+  pushed.apply(settings_with_beta(0), {Material{}}, list);
+  EXPECT_EQ(pushed.colliders()[0].pose_offset.joint_angle, angle);
+  whole.advance_to(0.05);
+  resumed.advance_to(0.05);
+  EXPECT_EQ(resumed.state_hash(), whole.state_hash());
+  EXPECT_EQ(motion_of(resumed, 0).angular_velocity, motion_of(whole, 0).angular_velocity);
+  pushed.advance_to(0.02);
+  EXPECT_LT(motion_of(pushed, 0).angular_velocity.z(), 0) << "the spring pushed it onward";
+}
+
 /// A hash that saw snow alone would call two runs equal that part ways at the next contact.
 TEST(RigidSnow, TheHashSeesWhereBodiesAre) {
   Simulation a = thrown(0, 1);
