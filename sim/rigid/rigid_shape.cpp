@@ -67,6 +67,72 @@ class Compound final : public RigidShape {
   btCompoundShape shape_;
 };
 
+/// Posts of a terrain. Beyond them it goes on level, as it does for snow (shapes::HeightField): as
+/// if the posts of the border stood there again and again, as far as a body reaches.
+class Posts final : public btHeightfieldTerrainShape {
+ public:
+  BT_DECLARE_ALIGNED_ALLOCATOR();
+
+  /// @param heights  kept by the caller
+  Posts(const files::HeightGrid& grid, const std::vector<double>& heights, double low, double high)
+      : btHeightfieldTerrainShape(static_cast<int>(grid.columns), static_cast<int>(grid.rows),
+                                  heights.data(), low, high, 1, false),
+        spacing_(grid.spacing),
+        last_{static_cast<double>(grid.columns - 1), static_cast<double>(grid.rows - 1)} {
+    setLocalScaling(btVector3(grid.spacing, 1, grid.spacing));
+  }
+
+  void getAabb(const btTransform& place, btVector3& low, btVector3& high) const override {
+    btHeightfieldTerrainShape::getAabb(place, low, high);
+    const btMatrix3x3 axes = place.getBasis().absolute();
+    const btVector3 beyond =
+        btVector3(shapes::no_ground, 0, shapes::no_ground).dot3(axes[0], axes[1], axes[2]);
+    low -= beyond;
+    high += beyond;
+  }
+
+  void processAllTriangles(btTriangleCallback* visit, const btVector3& low,
+                           const btVector3& high) const override {
+    const Cells east(low.x(), high.x(), spacing_, last_[0]),
+        south(low.z(), high.z(), spacing_, last_[1]);
+    if (east.are_between_posts && south.are_between_posts)
+      return btHeightfieldTerrainShape::processAllTriangles(visit, low, high);
+    // Cut and ordered as Bullet does it between posts.
+    for (double z = south.first; z <= south.last; ++z)
+      for (double x = east.first; x <= east.last; ++x) {
+        btVector3 first[] = {post(x, z), post(x, z + 1), post(x + 1, z)};
+        visit->processTriangle(first, 0, 0);
+        btVector3 second[] = {first[2], first[1], post(x + 1, z + 1)};
+        visit->processTriangle(second, 0, 0);
+      }
+  }
+
+ private:
+  /// Cells along one side that a box touches, counted from the first post.
+  struct Cells {
+    double first, last;
+    bool are_between_posts;
+    Cells(double low, double high, double spacing, double last_post)
+        : first(std::floor(low / spacing + 0.5 * last_post)),
+          last(std::floor(high / spacing + 0.5 * last_post)),
+          are_between_posts(first >= 0 && last < last_post) {
+      // So far away that numbers are no cells: a run that has long diverged.
+      constexpr double most = 1e15;
+      if (!(first > -most && last < most)) first = 0, last = -1;
+    }
+  };
+
+  /// Of a place between posts or beyond them.
+  btVector3 post(double x, double z) const {
+    const double column = std::clamp(x, 0.0, last_[0]), row = std::clamp(z, 0.0, last_[1]);
+    btVector3 at;
+    getVertex(static_cast<int>(column), static_cast<int>(row), at);
+    return at + btVector3(spacing_ * (x - column), 0, spacing_ * (z - row));
+  }
+
+  const double spacing_, last_[2];
+};
+
 /// Holes are so deep that nothing stands in them.
 class Ground final : public RigidShape {
  public:
@@ -80,10 +146,7 @@ class Ground final : public RigidShape {
         heights_.push_back(std::isfinite(height) ? height : deep);
       }
     const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
-    auto shape = std::make_unique<btHeightfieldTerrainShape>(
-        static_cast<int>(grid.columns), static_cast<int>(grid.rows), heights_.data(), *low, *high,
-        1, false);
-    shape->setLocalScaling(btVector3(grid.spacing, 1, grid.spacing));
+    auto shape = std::make_unique<Posts>(grid, heights_, *low, *high);
     // Bullet has the middle of its box at the origin.
     const auto middle = [](double first, double last) { return 0.5 * (first + last); };
     const btVector3 to(middle(field.x_of(0), field.x_of(grid.columns - 1)), middle(*low, *high),
@@ -95,7 +158,7 @@ class Ground final : public RigidShape {
 
  private:
   std::vector<double> heights_;
-  std::unique_ptr<btHeightfieldTerrainShape> field_;
+  std::unique_ptr<Posts> field_;
   btCompoundShape shape_;
 };
 

@@ -40,6 +40,43 @@ bool add_triangles(const std::vector<Corner>& corners, SolidMesh& closed) {
 
 }  // namespace
 
+/// Source: Eberly, Polyhedral mass properties (revisited), 2002.
+void Moments::add_tetrahedron(const Vec3d& a, const Vec3d& b, const Vec3d& c, double times) {
+  const Vec3d u = a - from, v = b - from, w = c - from;
+  const double part = times * u.dot(v.cross(w)) / 6;
+  const Vec3d sum = u + v + w;
+  volume += part;
+  first += part / 4 * sum;
+  second += part / 20 *
+            (u * u.transpose() + v * v.transpose() + w * w.transpose() + sum * sum.transpose());
+}
+
+void Moments::add_point(const Vec3d& at, double part) {
+  const Vec3d arm = at - from;
+  volume += part;
+  first += part * arm;
+  second += part * arm * arm.transpose();
+}
+
+void Moments::add_rod(const Vec3d& middle, double length, double area) {
+  add_point(middle, length * area);
+  second(0, 0) += length * area * length * length / 12;
+}
+
+void Moments::add(const Moments& other, double times) {
+  volume += times * other.volume;
+  first += times * other.first;
+  second += times * other.second;
+}
+
+void Moments::scale(double factor) {
+  const double cube = factor * factor * factor;
+  from *= factor;
+  volume *= cube;
+  first *= cube * factor;
+  second *= cube * factor * factor;
+}
+
 Bounds bounds_of(const SolidMesh& mesh, const Mat3d& rotation) {
   Bounds b{Vec3d::Constant(INFINITY), Vec3d::Constant(-INFINITY)};
   for (const auto& triangle : mesh.triangles)

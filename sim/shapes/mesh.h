@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sim/files/obj_reader.h"
-#include "sim/shapes/moments.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::sim::shapes {
@@ -30,6 +29,26 @@ struct MeshReading {
 
 /// Which places are inside triangles, by the winding number about them.
 enum class Inside { positive, odd, above_half };
+
+/// Volume of a region and its moments about a place: what its mass, centre of mass and inertia
+/// follow from. Parts are added; what is added with a negative number is taken away.
+struct Moments {
+  Vec3d from{0, 0, 0};           ///< m, the place
+  double volume = 0;             ///< m3
+  Vec3d first{0, 0, 0};          ///< m4
+  Mat3d second = Mat3d::Zero();  ///< m5
+
+  /// The tetrahedron between the place and a triangle, negative where the triangle looks at the
+  /// place. All faces of a polyhedron together are the polyhedron.
+  void add_tetrahedron(const Vec3d& a, const Vec3d& b, const Vec3d& c, double times = 1);
+  void add_point(const Vec3d& at, double part);
+  /// Along x, of a thin cross section. @param middle  of it
+  void add_rod(const Vec3d& middle, double length, double area);
+  /// @param other  about the same place
+  void add(const Moments& other, double times);
+  /// Of the region in another unit of length.
+  void scale(double factor);
+};
 
 /// Triangles that enclose a volume, oriented outward.
 struct SolidMesh {
