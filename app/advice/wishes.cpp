@@ -133,9 +133,8 @@ std::string wishes_table(const std::vector<const Wish*>& wishes) {
     }
   }
   text +=
-      "\nThe law of a material is its model: neo_hookean, the paper's snow, where the scene names "
-      "none; neve new "
-      "writes cam_clay.\n"
+      "\nThe law of a material is its model: that of cam clay in scenes of neve new, otherwise the "
+      "paper's snow.\n"
       "neve card --preset wet draws what a kind of snow bears and does, and has it as numbers.\n";
   return text;
 }

@@ -62,7 +62,7 @@ void append_rows(const Table& table, std::string& bytes) {
 }
 
 /// Rows of an archive without the further fields of ZIP64, whose places are numbers of 32 bits.
-double most_in_zip(const Table& columns) {
+double max_rows_in_zip(const Table& columns) {
   constexpr double zip_limit = 4294967295.0, file_overhead = 512, other_files = 8;
   double row_bytes = 0;
   for (const Column& column : columns.columns)
@@ -168,7 +168,7 @@ std::string encode(const ExportMoment& moment) {
 void check_capacity(const scene::Export& spec, const Table& columns, double particles) {
   double most = std::numeric_limits<double>::infinity();
   if (spec.format == scene::ExportFormat::bgeo) most = std::numeric_limits<std::int32_t>::max();
-  if (spec.format == scene::ExportFormat::npz) most = most_in_zip(columns);
+  if (spec.format == scene::ExportFormat::npz) most = max_rows_in_zip(columns);
   if (particles <= most) return;
   throw LimitError("refused: a file of format " + std::string(scene::name(spec.format)) +
                        " holds at most " + fixed_text(most, 0) +

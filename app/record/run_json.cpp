@@ -78,7 +78,7 @@ Json bodies_json(const std::vector<BodyRecord>& bodies) {
   return json;
 }
 
-Json to_json(const RunStart& start) {
+Json start_json(const RunStart& start) {
   Json json;
   add_metrics(start.metrics, json);
   json["bodies"] = bodies_json(start.bodies);
@@ -379,7 +379,7 @@ Json to_json(const RunRecord& run) {
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
   json["first_number"] = run.first_number;
-  if (run.start) json["start"] = to_json(*run.start);
+  if (run.start) json["start"] = start_json(*run.start);
   json["world_offset"] = run.world_offset ? output::vector_json(*run.world_offset) : Json();
   json["slate"] = run.slate ? Json(*run.slate) : Json();
   if (run.frames_from_states > 0) json["frames_from_states"] = run.frames_from_states;

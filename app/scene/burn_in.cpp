@@ -91,7 +91,7 @@ void require_time_code(const Scene& scene, double movie_fps) {
   if (code.empty() || movie_fps == 0 || frames_of_time_code(code, movie_fps)) return;
   throw UsageError("--movie-fps " + rough_text(movie_fps),
                    "shot.time_code = " + no_time_code_text(code, movie_fps),
-                   "--set shot.time_code= with one that it has, or leave out --movie-fps");
+                   "--set shot.time_code= with one that it has, or remove --movie-fps");
 }
 
 std::array<std::string, 6> burnt_in(const Scene& scene, const PictureWords& words) {

@@ -98,27 +98,38 @@ class Posts final : public btHeightfieldTerrainShape {
     if (east.are_between_posts && south.are_between_posts)
       return btHeightfieldTerrainShape::processAllTriangles(visit, low, high);
     // Cut and ordered as Bullet does it between posts.
-    for (double z = south.first; z <= south.last; ++z)
-      for (double x = east.first; x <= east.last; ++x) {
-        btVector3 first[] = {post(x, z), post(x, z + 1), post(x + 1, z)};
+    for (double z = south.first, to_z; z <= south.last; z = to_z) {
+      to_z = south.end_of(z);
+      for (double x = east.first, to_x; x <= east.last; x = to_x) {
+        to_x = east.end_of(x);
+        btVector3 first[] = {post(x, z), post(x, to_z), post(to_x, z)};
         visit->processTriangle(first, 0, 0);
-        btVector3 second[] = {first[2], first[1], post(x + 1, z + 1)};
+        btVector3 second[] = {first[2], first[1], post(to_x, to_z)};
         visit->processTriangle(second, 0, 0);
       }
+    }
   }
 
  private:
   /// Cells along one side that a box touches, counted from the first post.
   struct Cells {
-    double first, last;
+    double first, last, last_post;
     bool are_between_posts;
-    Cells(double low, double high, double spacing, double last_post)
-        : first(std::floor(low / spacing + 0.5 * last_post)),
-          last(std::floor(high / spacing + 0.5 * last_post)),
+    Cells(double low, double high, double spacing, double last_of_posts)
+        : first(std::floor(low / spacing + 0.5 * last_of_posts)),
+          last(std::floor(high / spacing + 0.5 * last_of_posts)),
+          last_post(last_of_posts),
           are_between_posts(first >= 0 && last < last_post) {
       // So far away that numbers are no cells: a run that has long diverged.
       constexpr double most = 1e15;
       if (!(first > -most && last < most)) first = 0, last = -1;
+    }
+    /// Where the next cell begins. Of many beyond the posts, where nothing changes along this side,
+    /// it is one: a large body over small cells would have no end of them.
+    double end_of(double cell) const {
+      constexpr double many = 64;
+      const double border = cell < 0 ? std::min(0.0, last + 1) : last + 1;
+      return (cell < 0 || cell >= last_post) && border - cell > many ? border : cell + 1;
     }
   };
 

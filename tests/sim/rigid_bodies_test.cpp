@@ -615,6 +615,23 @@ TEST(RigidBodies, BodiesRestOnATerrainBeyondItsPosts) {
     }
 }
 
+/// A body that is a thousand cells across: a million of them in each step would take minutes.
+TEST(RigidBodies, ALargeBodyRestsBeyondPostsThatAreCloseToEachOther) {
+  const TemporaryFolder folder;
+  shapes::Collider ground;
+  ground.name = "ground";
+  shapes::Terrain terrain;
+  terrain.file =
+      folder.write("fine.asc", height_grid(3, 3, 0.01, [](double, double) { return 0.2; }))
+          .string();
+  ground.shape.form = terrain;
+  BodiesAlone world({ground, box_of(700, {30, 1.21, 3}, {10, 2, 10})});
+  world.run(1, 1e-3);
+  // Two hundredths of its height: contact is soft.
+  EXPECT_NEAR(world.pose(1).point.y(), 1.2, 0.04);
+  EXPECT_LE(world.pose(1).velocity.norm(), 1e-2);
+}
+
 /// Over the border, over a corner and beside a slope a body goes as if there were posts.
 /// Differences are rounding alone: 3000 steps, and a metre or two.
 TEST(RigidBodies, ATerrainGoesOnAsIfThereWerePosts) {
