@@ -26,6 +26,7 @@
 #include "app/run/step_warnings.h"
 #include "app/scene/burn_in.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/override.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/resolve.h"
@@ -195,6 +196,8 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
   health::check_resolution(job.scene, findings, job.coarsening);
   health::check_meshes(job.scene, findings);
   health::check_collider_overlaps(job.scene, seeded, findings);
+  health::check_idle(job.scene, scene::addresses_of(scene::parse_overrides(job.options.overrides)),
+                     findings);
   health::check_meetings(job.scene, seeded, findings);
   check_title(job.scene.title, findings);
   if (job.shutter > 0 && job.shutter < 1)

@@ -171,6 +171,20 @@ void print_sweep_result(const sweep::plan::SweepOptions& options,
                             folder.string()));
 }
 
+/// Parameters that no run uses; values that are the same in all of them are no axis.
+void warn_of_idle_axes(const sweep::plan::SweepPlan& plan, Progress& progress) {
+  std::map<std::string, std::string> idle;
+  std::set<std::string> used;
+  for (const sweep::plan::PlannedRun& item : plan.runs)
+    for (const scene::Override& setting : item.run.settings) {
+      const std::string why = health::why_idle(item.scene, setting.address);
+      if (why.empty()) used.insert(setting.address);
+      idle.emplace(setting.address, why);
+    }
+  for (const auto& [address, why] : idle)
+    if (!used.contains(address)) progress.warning(address + " changes nothing here: " + why);
+}
+
 /// Runs whose scenes are equal although their settings are not, at most five.
 void warn_of_equal_runs(const sweep::plan::SweepPlan& plan, Progress& progress) {
   int warnings = 0;
@@ -436,6 +450,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
     progress.warning(value + " is in its list twice: the run is made once and shown twice");
   warn_of_single_values(plan.sweep, progress);
   warn_of_equal_runs(plan, progress);
+  warn_of_idle_axes(plan, progress);
   warn_of_numbers(plan, options.coarsening.value_or(1), progress);
   note_repeated_points(plan, progress);
   const sweep::plan::Refinement refinement = sweep::plan::refinement_of(options, plan);

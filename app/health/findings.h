@@ -62,6 +62,13 @@ void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& 
 /// @param coarsening the N of --coarsen
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings);
 
+/// Why a value at an address changes nothing in a scene: it belongs to another law, or to steps
+/// that are chosen otherwise; "" where it may change something.
+std::string why_idle(const scene::Scene& scene, const std::string& address);
+/// What somebody set and that is idle.
+void check_idle(const scene::Scene& scene, const std::vector<std::string>& addresses,
+                std::vector<Finding>& findings);
+
 /// Dust that never flies, that nothing shows, and that it takes time. @param speed m/s, of the
 /// fastest snow
 void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& findings);

@@ -3,12 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <span>
 
 #include "app/health/findings.h"
 #include "app/scene/flat.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/curves.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::app::health {
@@ -189,6 +191,37 @@ void check_transfer_settings(const sim::SolverSettings& s, std::vector<Finding>&
 }
 
 }  // namespace
+
+std::string why_idle(const scene::Scene& scene, const std::string& address) {
+  if (address == "solver.dt" && scene.solver.time_step == sim::TimeStep::adaptive)
+    return "adaptive steps are chosen by the state; it is for time_step = \"fixed\"";
+  for (const sim::Material& m : scene.materials) {
+    const std::string table = "material." + m.name + ".";
+    if (!address.starts_with(table)) continue;
+    const auto has = [&](std::span<const sim::laws::Parameter> list) {
+      return std::ranges::any_of(list, [&](const sim::laws::Parameter& p) {
+        return p.key == address.substr(table.size());
+      });
+    };
+    const sim::laws::Law& law = sim::laws::of(m);
+    if (has(sim::laws::all_parameters()) && !has(law.parameters))
+      return fmt::format("material {} has model = \"{}\", which does not use it", m.name, law.name);
+  }
+  return {};
+}
+
+void check_idle(const scene::Scene& scene, const std::vector<std::string>& addresses,
+                std::vector<Finding>& findings) {
+  const auto is_told = [&](const std::string& address) {
+    return std::ranges::find(findings, address, &Finding::address) != findings.end();
+  };
+  for (const std::string& address : addresses)
+    if (const std::string why = why_idle(scene, address); !why.empty() && !is_told(address))
+      findings.push_back(
+          {Severity::warning, address,
+           fmt::format("{} has no effect: {}", address.substr(address.rfind('.') + 1), why),
+           "neve params --wishes names parameters by what they do"});
+}
 
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings) {
   // Most snow escapes from an emitter that only touches a sink; a third lost is a mistake.

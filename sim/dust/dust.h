@@ -39,8 +39,8 @@ class Dust {
   /// A step up to a time. @param snow  all of it
   void advance(double time, std::span<const SnowGrain> snow, const DustScene& scene);
 
-  /// Forgets the air, and is at a time: no step was due before. Totals, and with them the numbers of
-  /// motes, stay.
+  /// Forgets the air, and is at a time: no step was due before. Totals, and with them the numbers
+  /// of motes, stay.
   void start_at(double time);
   /// See Air::forget_solids.
   void forget_solids() { air_.forget_solids(); }

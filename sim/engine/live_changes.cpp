@@ -7,6 +7,7 @@
 
 #include "sim/engine/state_reader.h"
 #include "sim/engine/still_grid.h"
+#include "sim/laws/law.h"
 #include "sim/state/records.h"
 
 namespace neve::sim::engine {
@@ -29,14 +30,12 @@ void require_live(const std::vector<Material>& before, const std::vector<Materia
     if (before[k].density != after[k].density) refuse("the density of " + before[k].name);
 }
 
+/// Parameters that the law does not use change nothing.
 bool same_law(const Material& a, const Material& b) {
+  const auto is_same = [&](const laws::Parameter& p) { return p.of(a) == p.of(b); };
   return a.model == b.model && a.youngs_modulus == b.youngs_modulus &&
-         a.poisson_ratio == b.poisson_ratio && a.hardening == b.hardening &&
-         a.critical_compression == b.critical_compression &&
-         a.critical_stretch == b.critical_stretch && a.min_J_P == b.min_J_P &&
-         a.max_J_P == b.max_J_P && a.max_hardening == b.max_hardening &&
-         a.friction_angle == b.friction_angle &&
-         a.consolidation_pressure == b.consolidation_pressure && a.own == b.own;
+         a.poisson_ratio == b.poisson_ratio && a.min_J_P == b.min_J_P && a.max_J_P == b.max_J_P &&
+         a.max_hardening == b.max_hardening && std::ranges::all_of(laws::of(a).parameters, is_same);
 }
 
 /// The collider that continues as `after`, which has number k: the one of its name, of several the

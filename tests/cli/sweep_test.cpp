@@ -103,6 +103,19 @@ TEST_F(SweepCli, ParametersThatTheSceneDoesNotUseAreNamed) {
   EXPECT_TRUE(contains(result.errors, idle)) << result.errors;
   EXPECT_FALSE(contains(result.errors, "hardening changes nothing")) << result.errors;
   EXPECT_TRUE(contains(read_text(folder / "s.cdb/report.html"), idle));
+  const std::string why = "material snow has model = \"snow\", which does not use it";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"sweep", "scene.toml", "-p", "material.snow.cohesion=0.1,1",
+                                 "--dry-run"},
+        {"check", "scene.toml", "--set", "material.snow.cohesion=1"},
+        {"render", "scene.toml", "--frames", "0", "--no-movie", "--set",
+         "material.snow.cohesion=1"}}) {
+    const auto told = neve(words);
+    EXPECT_TRUE(contains(told.errors + told.output, why)) << told.errors << told.output;
+  }
+  const auto both = neve({"sweep", "scene.toml", "-p", "material.snow.cohesion=0.1,1", "-p",
+                          "material.snow.model=snow,cam_clay", "--dry-run"});
+  EXPECT_FALSE(contains(both.errors, "changes nothing")) << both.errors;
 }
 
 /// With --coarsen a remedy has the number that the next sweep is given.

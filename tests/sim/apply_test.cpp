@@ -74,6 +74,20 @@ TEST(Apply, ApplyingEqualSettingsChangesNoBit) {
   }
 }
 
+TEST(Apply, ParametersOfOtherLawsChangeNoBit) {
+  World world;
+  Simulation simulation = crushed(world), untouched = crushed(world);
+  world.materials[0].friction_angle += 10;
+  world.materials[0].consolidation_pressure += 1000;
+  for (double& number : world.materials[0].own) number += 0.5;
+  world.materials[1].critical_stretch *= 2;
+  world.apply_to(simulation);
+  EXPECT_EQ(simulation.save(), untouched.save());
+  advance(simulation, 20);
+  advance(untouched, 20);
+  EXPECT_EQ(simulation.save(), untouched.save());
+}
+
 TEST(Apply, ApplyingRefusesChangesThatNeedARestart) {
   const World world;
   Simulation simulation = crushed(world);
