@@ -124,7 +124,8 @@ Experiment tilt(const Subject& subject) {
     if (slides_at > 0 && e.y.back() > seen_to_slide * depth) break;
   }
   show_layer(simulation, stage, angle, e);
-  const bool slides = slides_at > 0;
+  // An elastic layer swings, and leaves its balance without sliding away.
+  const bool slides = slides_at > 0 && e.y.back() > seen_to_slide * depth / 3;
   e.measures = {{"angle", slides ? slides_at : NAN}};
   e.words.push_back(slides ? "slides at " + rough_text(slides_at) + "\u00b0"
                            : "holds at " + rough_text(angle) + "\u00b0");

@@ -196,8 +196,6 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
   health::check_resolution(job.scene, findings, job.coarsening);
   health::check_meshes(job.scene, findings);
   health::check_collider_overlaps(job.scene, seeded, findings);
-  health::check_idle(job.scene, scene::addresses_of(scene::parse_overrides(job.options.overrides)),
-                     findings);
   health::check_meetings(job.scene, seeded, findings);
   check_title(job.scene.title, findings);
   if (job.shutter > 0 && job.shutter < 1)
@@ -207,6 +205,11 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
                         fmt::format("a share of the frame is 360 times as many degrees: {}",
                                     rough_text(360 * job.shutter))});
   if (!job.passes.empty()) check_passes(job.scene, findings);
+  // Of the command, not of the run: a sweep says it once for all of its runs.
+  std::vector<health::Finding> idle;
+  health::check_idle(job.scene, scene::addresses_of(scene::parse_overrides(job.options.overrides)),
+                     idle);
+  for (const health::Finding& finding : idle) progress.warning(health::sentence(finding));
   for (const health::Finding& finding : findings) {
     job.warnings.push_back(finding.what);
     if (finding.severity == health::Severity::note)

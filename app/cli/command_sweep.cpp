@@ -171,16 +171,17 @@ void print_sweep_result(const sweep::plan::SweepOptions& options,
                             folder.string()));
 }
 
-/// Parameters that no run uses; values that are the same in all of them are no axis.
+/// Parameters of axes and of --set that no run uses.
 void warn_of_idle_axes(const sweep::plan::SweepPlan& plan, Progress& progress) {
   std::map<std::string, std::string> idle;
   std::set<std::string> used;
   for (const sweep::plan::PlannedRun& item : plan.runs)
-    for (const scene::Override& setting : item.run.settings) {
-      const std::string why = health::why_idle(item.scene, setting.address);
-      if (why.empty()) used.insert(setting.address);
-      idle.emplace(setting.address, why);
-    }
+    for (const auto* settings : {&item.run.settings, &plan.sweep.fixed})
+      for (const scene::Override& setting : *settings) {
+        const std::string why = health::why_idle(item.scene, setting.address);
+        if (why.empty()) used.insert(setting.address);
+        idle.emplace(setting.address, why);
+      }
   for (const auto& [address, why] : idle)
     if (!used.contains(address)) progress.warning(address + " changes nothing here: " + why);
 }

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <array>
 #include <filesystem>
 #include <iostream>
 
@@ -27,6 +28,7 @@ struct Findings {
   /// Why a folder without flaws is not finished; "" if it is.
   std::string unfinished;
   bool is_in_use = false;  ///< by a process that still runs
+  bool is_run = true;      ///< or a sweep: they can be resumed
 
   bool is_whole() const { return flaws.empty() && unfinished.empty(); }
 };
@@ -44,18 +46,25 @@ Findings verify_run_folder(const fs::path& folder) {
   return findings;
 }
 
-/// The folder of `neve export --out`.
-Findings verify_export_folder(const record::Verification& found) {
-  Findings findings{found.status, found.files, found.flaws, {}, false};
+/// The folder of `neve export --out`, or of `neve compare --out`.
+Findings verify_listed_folder(const record::Verification& found) {
+  Findings findings{found.status, found.files, found.flaws, {}, false, false};
   if (found.status == "interrupted") findings.unfinished = "the export is not finished";
   return findings;
+}
+
+/// Lists of files of a folder that no run has made.
+std::array<fs::path, 2> lists_of(const fs::path& folder) {
+  return {output::export_list_path(folder), output::comparison_list_path(folder)};
 }
 
 Findings verify_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(output::run_json_path(folder), error)) return verify_run_folder(folder);
-  const std::optional<record::Verification> found = record::verify_export(folder);
-  return found ? verify_export_folder(*found) : verify_run_folder(folder);
+  for (const fs::path& list : lists_of(folder))
+    if (const std::optional<record::Verification> found = record::verify_list(list))
+      return verify_listed_folder(*found);
+  return verify_run_folder(folder);
 }
 
 /// The runs of a sweep, each at its path in the folder.
@@ -113,7 +122,8 @@ bool has_rest_of_run(const fs::path& folder) {
 /// @throws IoError for a folder that no run has written to
 void require_run(const fs::path& folder) {
   std::error_code error;
-  for (const fs::path& list : {output::run_json_path(folder), output::export_list_path(folder)})
+  if (fs::exists(output::run_json_path(folder), error)) return;
+  for (const fs::path& list : lists_of(folder))
     if (fs::exists(list, error)) return;
   if (has_rest_of_run(folder)) return;
   const FolderAdvice advice = advice_on_folder(folder);
@@ -144,7 +154,9 @@ void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const F
     std::cout << folder << ": complete, " << findings.files << " files unchanged\n";
   else if (!findings.is_in_use)
     std::cout << (is_sweep ? "repeat the command of the sweep to make the rest\n"
-                           : "repeat the command that made it, with --resume, to make the rest\n");
+                  : findings.is_run
+                      ? "repeat the command that made it, with --resume, to make the rest\n"
+                      : "repeat the command that made it\n");
 }
 
 }  // namespace

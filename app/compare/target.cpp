@@ -68,10 +68,6 @@ std::vector<Mode> modes_for(const PairOptions& options, TargetKind kind) {
   return options.modes.empty() ? std::vector<Mode>{Mode::beside} : options.modes;
 }
 
-fs::path list_path(const fs::path& folder) {
-  return folder / "compare.json";
-}
-
 }  // namespace
 
 Target::Target(const PairOptions& options)
@@ -117,7 +113,8 @@ void Target::begin() {
   }
   output::make_folder(out_);
   lock_.emplace(out_, "neve compare");
-  record::remove_listed(out_, record::file_hashes(record::read_json(list_path(out_))));
+  record::remove_listed(out_,
+                        record::file_hashes(record::read_json(output::comparison_list_path(out_))));
   for (const Mode mode : modes_)
     if (mode != Mode::metrics) output::make_own_folder(folder_of(mode));
 }
@@ -174,7 +171,7 @@ void Target::finish() {
   record::FileHashes hashes;
   for (const output::WrittenFile& file : files_)
     hashes[file.file.lexically_relative(out_).generic_string()] = record::hash_text(file.hash);
-  output::write_file(list_path(out_),
+  output::write_file(output::comparison_list_path(out_),
                      record::with_own_hash({{"version", version}, {"files", hashes}}));
 }
 

@@ -345,9 +345,9 @@ Hypothesis shock(const Case& c) {
 }
 
 /// " and hardening = 10", where the law hardens.
-std::string hardening_text(const sim::Material& m) {
+std::string hardening_text(const char* joint, const sim::Material& m) {
   const sim::laws::Parameter* rate = sim::laws::of(m).rate;
-  return rate ? fmt::format(" and {} = {}", rate->key, rough_text(rate->of(m))) : "";
+  return rate ? fmt::format(" {} {} = {}", joint, rate->key, rough_text(rate->of(m))) : "";
 }
 
 Hypothesis too_soft(const Case& c) {
@@ -361,7 +361,7 @@ Hypothesis too_soft(const Case& c) {
       Cause::too_soft,
       fmt::format("snow of youngs_modulus = {}{} is too soft for its impact at {} m/s: it was "
                   "packed to {} kg/m3",
-                  rough_text(c.material.youngs_modulus), hardening_text(c.material),
+                  rough_text(c.material.youngs_modulus), hardening_text("and", c.material),
                   rough_text(speed), rough_text(c.material.density / c.d.J_P)),
       c.material.min_J_P < usual.min_J_P
           ? fmt::format("{}, or {} = {}, where snow yields without hardening further", stiffer,
@@ -392,16 +392,23 @@ Hypothesis hardened_within_a_step(const Case& c) {
   const double before = steps[steps.size() - 2].max_sound_speed, after = c.d.sound_speed;
   if (!(sim::health::hardening_factor(c.material, c.d.J_P) > 1) || !(after > much * before))
     return std::nullopt;
+  constexpr double usual_bound = 20;
+  const bool goes_back = c.scene.solver.on_divergence == sim::OnDivergence::retry;
+  const std::string bounded =
+      c.material.max_hardening > usual_bound
+          ? ", or " + c.at("max_hardening") + " = " + rough_text(usual_bound)
+          : "";
   return Diagnosis{
       Cause::hardening,
       fmt::format(
           "one step of {} s packed snow to J_P = {}, and its sound became {} times as fast{}",
           rough_text(c.d.dt), rough_text(c.d.J_P), rough_text(after / before),
-          hardening_text(c.material).replace(0, 4, " with")),
-      fmt::format("solver.on_divergence = \"retry\", which takes such steps again with half of dt, "
-                  "or {} = 20",
-                  c.at("max_hardening")),
-      "solver.on_divergence"};
+          hardening_text("with", c.material)),
+      goes_back ? fmt::format("a smaller solver.acoustic_cfl than {}{}",
+                              rough_text(c.scene.solver.acoustic_cfl), bounded)
+                : "solver.on_divergence = \"retry\", which takes such steps again with half of dt" +
+                      bounded,
+      goes_back ? "solver.acoustic_cfl" : "solver.on_divergence"};
 }
 
 Hypothesis doubts_of_the_law(const Case& c) {

@@ -81,27 +81,41 @@ void refuse_input(const std::string& flag, const std::string& output, const std:
     throw UsageError(flag, output + " is what the command reads", "name another file");
 }
 
-/// A picture, table or log in the place of what a run consists of would take it from the run.
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A picture, table or log in the place of what a run or sweep consists of would take it from them.
 void refuse_part_of_run(const std::string& flag, const std::string& output) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (!fs::is_regular_file(output, error)) return;
   const fs::path file = fs::absolute(output, error).lexically_normal();
   const auto refuse = [&](const fs::path& folder) {
-    throw UsageError(flag, output + " belongs to the run in " + folder.string(),
+    throw UsageError(flag, output + " belongs to what neve wrote into " + folder.string(),
                      "name another file");
   };
-  for (const char* own : {"run.json", "manifest.json", "status.json"})
-    if (file.filename() == own) refuse(file.parent_path());
+  struct Record {
+    const char *name, *key;
+  };
+  for (const Record& own : {Record{"run.json", "\n  \"frames\": "},
+                            {"manifest.json", "\n  \"runs\": "},
+                            {"status.json", "\n  \"state\": "}})
+    if (file.filename() == own.name && text_of(file).find(own.key) != std::string::npos)
+      refuse(file.parent_path());
   // Pictures are in the folder of their view, movies beside it.
   const fs::path above = file.parent_path();
   for (const fs::path& folder : {above, above.parent_path()}) {
-    std::ifstream record(folder / "run.json", std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(record), {}};
     const std::string name = fs::relative(file, folder, error).generic_string();
-    if (text.find("\n    \"" + name + "\": \"") != std::string::npos) refuse(folder);
+    if (text_of(folder / "run.json").find("\n    \"" + name + "\": \"") != std::string::npos)
+      refuse(folder);
   }
 }
+
+}  // namespace
 
 void Command::check_all() const {
   const auto is_given = [this](const std::string& flag) { return find(flag)->is_given(); };

@@ -20,12 +20,12 @@ const char* movie_suffix(MovieFormat format);
 /// The encoder of ffmpeg: "libx264".
 const char* movie_encoder(MovieFormat format);
 
-/// How a movie is to be made.
 /// Whether files of this format say the time code of their first picture.
 constexpr bool holds_time_code(MovieFormat format) {
   return format != MovieFormat::gif && format != MovieFormat::webp;
 }
 
+/// How a movie is to be made.
 struct MovieStyle {
   MovieFormat format = MovieFormat::h264;
   int quality = 80;         ///< 1 to 100

@@ -45,4 +45,8 @@ fs::path export_list_path(const fs::path& folder) {
   return folder / "export.json";
 }
 
+fs::path comparison_list_path(const fs::path& folder) {
+  return folder / "compare.json";
+}
+
 }  // namespace neve::app::output

@@ -35,5 +35,7 @@ std::filesystem::path incident_path(const std::filesystem::path& folder);
 std::filesystem::path run_json_path(const std::filesystem::path& folder);
 /// The list of the files that `neve export` wrote into a folder.
 std::filesystem::path export_list_path(const std::filesystem::path& folder);
+/// That of the files that `neve compare` wrote into a folder.
+std::filesystem::path comparison_list_path(const std::filesystem::path& folder);
 
 }  // namespace neve::app::output

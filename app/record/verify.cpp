@@ -100,7 +100,8 @@ void check_other_files(const fs::path& folder, const Pictures& pictures, Verific
 
 void check_export(const fs::path& folder, Verification& result) {
   const std::string below = std::string(output::exports_folder) + "/";
-  const std::optional<Verification> exported = verify_export(folder / below, below);
+  const std::optional<Verification> exported =
+      verify_list(output::export_list_path(folder / below), below);
   if (!exported) return;
   result.files += exported->files;
   result.flaws.insert(result.flaws.end(), exported->flaws.begin(), exported->flaws.end());
@@ -221,24 +222,26 @@ Verification verify_run(const fs::path& folder) {
   return result;
 }
 
-std::optional<Verification> verify_export(const fs::path& folder, const std::string& below) {
-  const fs::path list = output::export_list_path(folder);
+std::optional<Verification> verify_list(const fs::path& list, const std::string& below) {
+  const fs::path folder = list.parent_path();
   const std::string name = below + list.filename().string();
   std::error_code error;
   if (!fs::exists(list, error)) return std::nullopt;
   Verification result;
   ++result.files;
   const Json json = read_json(list);
-  // Lists of earlier versions have no hashes.
-  const bool is_list = json.is_object() && json.contains("is_whole") &&
-                       json["is_whole"].is_boolean() &&
-                       (!json.contains("files") || json["files"].is_object());
+  // Lists of exports of earlier versions have no hashes. That of a comparison is written at its
+  // end.
+  const bool has_files = json.is_object() && json.contains("files"),
+             says_whole = json.is_object() && json.contains("is_whole");
+  const bool is_list = (has_files || says_whole) && (!has_files || json["files"].is_object()) &&
+                       (!says_whole || json["is_whole"].is_boolean());
   if (!is_list) {
     result.flaws.push_back({name, "is damaged"});
     return result;
   }
   if (!is_untouched(json)) result.flaws.push_back({name, is_another});
-  result.status = json["is_whole"].get<bool>() ? "ok" : "interrupted";
+  result.status = !says_whole || json["is_whole"].get<bool>() ? "ok" : "interrupted";
   for (const auto& [file, hash] : file_hashes(json)) {
     ++result.files;
     if (const std::string what = listed_flaw(folder, file, hash); !what.empty())

@@ -63,10 +63,10 @@ struct Verification {
 /// Reads run.json and all files that it lists, and those of `neve export` of this run.
 Verification verify_run(const std::filesystem::path& folder);
 
-/// Reads export.json and all files that it lists; empty if the folder has none.
+/// Reads export.json or compare.json and all files that it lists; empty if there is no such list.
 /// @param below  put in front of names: "exports/"
-std::optional<Verification> verify_export(const std::filesystem::path& folder,
-                                          const std::string& below = "");
+std::optional<Verification> verify_list(const std::filesystem::path& list,
+                                        const std::string& below = "");
 
 /// "particles/0003.png is missing, particles/0004.png is empty and 12 more"
 std::string flaw_text(const std::vector<Flaw>& flaws);

@@ -81,6 +81,14 @@ void refuse_followers(const scene::Scene& scene, const std::vector<scene::Overri
                     "change curve." + curve.name + ".keyframes instead");
 }
 
+std::vector<scene::Override> without_followers(const scene::Scene& scene,
+                                               std::vector<scene::Override> changes) {
+  for (const scene::Curve& curve : scene.curves)
+    std::erase_if(changes,
+                  [&](const scene::Override& change) { return change.address == curve.parameter; });
+  return changes;
+}
+
 std::string curves_text(const scene::Scene& scene, int frame) {
   std::vector<std::string> parts;
   for (const scene::Curve& curve : scene.curves) {

@@ -21,6 +21,10 @@ scene::Scene with_curves(const scene::Scene& scene, int frame);
 /// @throws UsageError or SceneError that names the flag or the place of the change
 void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes);
 
+/// Without those: what somebody tried on a slider, until the next frame.
+std::vector<scene::Override> without_followers(const scene::Scene& scene,
+                                               std::vector<scene::Override> changes);
+
 /// "wetness 0.31, gravity 0 -9.81 0": the values of a frame, for captions; "" without curves.
 std::string curves_text(const scene::Scene& scene, int frame);
 

@@ -65,10 +65,16 @@ std::shared_ptr<const Moment> Moments::use(output::FoundCheckpoint found, int fr
       file && file->frame == frame &&
       (is_of_run ? file->simd == sim::kernels::name(sim::kernels::chosen_simd_level())
                  : file->identity == identity);
-  if (is_ours && !sim::Simulation::can_read(file->state))
-    damage = file->file.string() + ": another build of neve has written it, in a way of its own";
-  else if (is_ours)
-    try {
+  if (is_ours && !sim::Simulation::can_read(file->state)) {
+    // So it has the others.
+    std::erase_if(on_disk_, [&](const auto& kept) { return kept.second.is_of_run == is_of_run; });
+    if (progress_)
+      progress_->warning(file->file.string() +
+                         ": another build of neve has written it in a way of its own; the run is "
+                         "simulated from its start");
+    return nullptr;
+  }
+  if (is_ours) try {
       return std::make_shared<const Moment>(to_moment(*std::move(file)));
     } catch (const std::bad_alloc&) {
       throw;

@@ -83,6 +83,9 @@ void read_picture(const Edits& edits, Origin& origin) {
     throw UsageError(origin.scene_file,
                      "is a card of " + joined(record.cards, ", ") + ", not a picture of a run",
                      "neve card " + shell_path(origin.scene_file) + " makes it again");
+  if (edits.coarsened > 1)
+    throw UsageError("--coarsened", "a picture knows whether its scene was coarsened",
+                     "give the scene file, or remove it");
   origin.overrides = record.overrides;
   origin.changes = record.changes;
   origin.coarsening = record.coarsening;
@@ -155,8 +158,10 @@ void require_same_files(const record::FileHashes& before, const Origin& origin) 
 }
 
 void read_run(const Edits& edits, Origin& origin) {
-  if (edits.coarsening || edits.is_fast)
-    throw UsageError(edits.coarsening ? "--coarsen" : "--fast",
+  if (edits.coarsening || edits.is_fast || edits.coarsened > 1)
+    throw UsageError(edits.coarsening ? "--coarsen"
+                     : edits.is_fast  ? "--fast"
+                                      : "--coarsened",
                      "a run has the scene it was made from",
                      "give the scene file instead of the folder to write another run");
   const std::vector<scene::Override> changes = drawing_changes(edits);

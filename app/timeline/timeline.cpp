@@ -139,6 +139,9 @@ void Timeline::make_due() {
 }
 
 void Timeline::change(const scene::Scene& changed) {
+  // A frame that may go back is one piece: a run that is made again makes changes at its end.
+  if (may_go_back() && !here_.is_frame_end() && !advance_frame())
+    throw std::runtime_error("the frame does not get to its end, where the change would be made");
   const std::shared_ptr<const scene::Scene> before = here_.scene;
   auto scene = std::make_shared<const scene::Scene>(in_order_of(*before, changed));
   // A curve goes on whatever else gives a value to its parameter.
@@ -236,8 +239,7 @@ sim::AdvanceReport Timeline::advance(double time, std::size_t last_step) {
     is_stopped_ = watch_.after_step && watch_.after_step();
     return is_stopped_;
   };
-  if (rehearsed_ || here_.scene->solver.on_divergence != sim::OnDivergence::retry)
-    return simulation_.advance_to(time, after_step, last_step);
+  if (rehearsed_ || !may_go_back()) return simulation_.advance_to(time, after_step, last_step);
   if (last_step == no_step || simulation_.dt_scale() < 1)
     return sim::advance_retrying(simulation_, time, after_step, here_.retries);
   // While nothing breaks, steps with and without retrying are the same.
@@ -255,7 +257,7 @@ sim::AdvanceReport Timeline::advance(double time, std::size_t last_step) {
 /// known there only, and comes back: steps inside the frame are then those of the run.
 void Timeline::rehearse() {
   begin_frame();
-  if (rehearsed_ || here_.scene->solver.on_divergence != sim::OnDivergence::retry) return;
+  if (rehearsed_ || !may_go_back() || simulation_.divergence()) return;
   const std::vector<std::uint8_t> start = simulation_.save();
   const double scale = simulation_.dt_scale();
   const std::size_t retries = here_.retries.size(), steps = simulation_.steps();

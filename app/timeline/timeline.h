@@ -83,7 +83,8 @@ class Timeline {
   void restore(const Moment& moment);
 
   /// Makes the changes that lead from the scene here to this one, and lists them; the run forks
-  /// then. Throws like sim::Simulation::apply; nothing has changed then.
+  /// then. Inside a frame that may go back it goes to the end of the frame before. Throws like
+  /// sim::Simulation::apply; nothing has changed then.
   void change(const scene::Scene& changed);
   /// Forks the run here: forgets later changes and later moments.
   void fork();
@@ -106,6 +107,7 @@ class Timeline {
   void end_rehearsed();
   std::size_t next_stop() const;
   bool end_frame();
+  bool may_go_back() const { return here_.scene->solver.on_divergence == sim::OnDivergence::retry; }
   bool must_stop() const { return is_stopped_ || simulation_.divergence().has_value(); }
 
   scene::Scene start_;

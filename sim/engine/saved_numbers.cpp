@@ -158,6 +158,8 @@ void require_healthy_counters(const Progress& p) {
   require_at_most("withheld", p.flow.withheld, max_count);
   require_not_negative("emitted_mass", p.flow.emitted_mass);
   require_not_negative("removed_mass", p.flow.removed_mass);
+  require_not_negative("flow.max_speed", p.flow.max_speed);
+  require_not_negative("flow.max_sound_speed", p.flow.max_sound_speed);
   require_at_most("steps_since_sink_check", p.steps_since_sink_check, max_count);
   require_not_negative("distance_since_sink_check", p.distance_since_sink_check);
   require_finite("energy.start", p.energy.start);

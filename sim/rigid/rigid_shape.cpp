@@ -121,15 +121,15 @@ class Posts final : public btHeightfieldTerrainShape {
           last_post(last_of_posts),
           are_between_posts(first >= 0 && last < last_post) {
       // So far away that numbers are no cells: a run that has long diverged.
-      constexpr double most = 1e15;
-      if (!(first > -most && last < most)) first = 0, last = -1;
+      constexpr double max_cell = 1e15;
+      if (!(first > -max_cell && last < max_cell)) first = 0, last = -1;
     }
     /// Where the next cell begins. Of many beyond the posts, where nothing changes along this side,
     /// it is one: a large body over small cells would have no end of them.
     double end_of(double cell) const {
-      constexpr double many = 64;
+      constexpr double max_single = 64;
       const double border = cell < 0 ? std::min(0.0, last + 1) : last + 1;
-      return (cell < 0 || cell >= last_post) && border - cell > many ? border : cell + 1;
+      return (cell < 0 || cell >= last_post) && border - cell > max_single ? border : cell + 1;
     }
   };
 

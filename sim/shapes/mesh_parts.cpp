@@ -249,7 +249,7 @@ void Parts::measure() {
     const double u = std::fmod(0.5 + n / golden, 1), v = std::fmod(0.5 + n / (golden * golden), 1);
     if (!measure_line(bounds_.min + Vec3d(0, u * size.y(), v * size.z()))) break;
   }
-  if (n == 0) return;
+  if (n == 0) return find_moments(0);
   const double area = size.y() * size.z() / n;
   find_moments(area);
   if (std::abs(wrong_) * area <= min_overlap * std::abs(mesh_.volume)) return;

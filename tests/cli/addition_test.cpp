@@ -264,15 +264,20 @@ TEST_F(Addition, OtherOutputsDoNotReplaceItsFiles) {
   const std::string record = read_text(folder / "a/run.json");
   const auto dumped = neve({"dump", "a", "--at", "0.1", "--out", "a/run.json"});
   EXPECT_EQ(dumped.exit_code, 2);
-  EXPECT_TRUE(contains(dumped.errors, "a/run.json belongs to the run in")) << dumped.errors;
+  EXPECT_TRUE(contains(dumped.errors, "a/run.json belongs to what neve wrote into"))
+      << dumped.errors;
   const auto before = pictures("a/particles");
   const auto strip = neve({"strip", "a", "--out", "a/particles/0001.png"});
   EXPECT_EQ(strip.exit_code, 2);
-  EXPECT_TRUE(contains(strip.errors, "a/particles/0001.png belongs to the run in")) << strip.errors;
+  EXPECT_TRUE(contains(strip.errors, "a/particles/0001.png belongs to what neve wrote into"))
+      << strip.errors;
   EXPECT_TRUE(pictures("a/particles") == before);
   EXPECT_EQ(read_text(folder / "a/run.json"), record);
-  for (int time = 0; time < 2; ++time)
+  for (int time = 0; time < 2; ++time) {
     EXPECT_EQ(neve({"strip", "a", "--out", "a/strip.png"}).exit_code, 0) << "its own";
+    EXPECT_EQ(neve({"dump", "a", "--at", "0.1", "--out", "status.json"}).exit_code, 0)
+        << "a name that somebody else has given";
+  }
 }
 
 TEST_F(Addition, AnInterruptedRunIsFinishedByItsNameAlone) {

@@ -177,6 +177,20 @@ TEST_F(Compare, AnotherComparisonReplacesTheFilesOfTheOneBefore) {
   EXPECT_TRUE(exists("both/beside/mine.txt"));
 }
 
+TEST_F(Compare, ItsFolderIsVerifiedAsThoseOfRunsAre) {
+  ASSERT_NO_FATAL_FAILURE(render_both());
+  ASSERT_EQ(compare("a", "b", {"--out", "c", "--mode", "beside", "--mode", "metrics"}).exit_code,
+            0);
+  const auto whole = neve({"verify", "c"});
+  EXPECT_EQ(whole.exit_code, 0) << whole.output << whole.errors;
+  folder.write("c/metrics.csv", "");
+  std::filesystem::remove(folder / "c/beside/0002.png");
+  const auto damaged = neve({"verify", "c"});
+  EXPECT_EQ(damaged.exit_code, 9) << damaged.errors;
+  EXPECT_TRUE(contains(damaged.output, "c/metrics.csv is empty")) << damaged.output;
+  EXPECT_TRUE(contains(damaged.output, "c/beside/0002.png is missing")) << damaged.output;
+}
+
 TEST_F(Compare, RunsOfOtherLengthAreComparedAsFarAsBothGo) {
   ASSERT_NO_FATAL_FAILURE(render("a"));
   ASSERT_NO_FATAL_FAILURE(render("short", {"--frames", "0-2"}));

@@ -148,9 +148,9 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
       find_embedded_report("page.html"),
       {{"title", render::overlay::xml_text(manifest.title)},
        {"summary", render::overlay::xml_text(summary_of(manifest, results))},
-       {"ranking", hints + (ranking.empty() ? ""
-                                            : "<p class=\"hint\" id=\"ranking\">" +
-                                                  render::overlay::xml_text(ranking) + "</p>")},
+       {"hints", hints + (ranking.empty() ? ""
+                                          : "<p class=\"hint\" id=\"ranking\">" +
+                                                render::overlay::xml_text(ranking) + "</p>")},
        {"style", std::string(find_embedded_report("style.css"))},
        {"script", script},
        {"data", script_json(report_data(folder, manifest, results, predictions))},

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
-#include <map>
 #include <set>
 #include <system_error>
+#include <unordered_map>
 
 #include "app/output/sequence.h"
 #include "app/record/run_json.h"
@@ -178,7 +179,8 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
     const record::Metrics &first = notes.start->metrics, &last = frames.back().metrics;
     result.has_broken = record::has_broken(first, last);
     if (first.largest_fragment > 0) result.whole = last.largest_fragment / first.largest_fragment;
-    if (result.status.state == RunState::ok) result.end_hash = frames.back().state_hash;
+    if (result.status.state == RunState::ok && frames.back().advance.steps > 0)
+      result.end_hash = frames.back().state_hash;
   }
   return result;
 }
@@ -189,35 +191,53 @@ std::vector<RunResult> read_results(const std::filesystem::path& folder, const M
   return results;
 }
 
-std::vector<std::string> idle_lines(const Manifest& manifest,
-                                    const std::vector<RunResult>& results) {
-  // By parameter: runs that have equal values of all others, and their states.
-  std::map<std::string, std::map<std::string, std::set<std::uint64_t>>> states;
-  std::map<std::string, std::map<std::string, std::set<std::string>>> values;
+namespace {
+
+/// Of the snow alone: its states say nothing of dust and of pictures.
+bool concerns_snow(const std::string& address) {
+  return scene::concerns_simulation(address) && !address.starts_with("dust.") &&
+         !address.ends_with(".dust");
+}
+
+std::uint64_t hash_of(const scene::Override& setting) {
+  return std::hash<std::string>()(setting.address + "=" + setting.value);
+}
+
+/// Whether runs that differ in one parameter alone have been compared, and end with the same bits.
+bool is_idle(const std::string& address, const Manifest& manifest,
+             const std::vector<RunResult>& results) {
+  struct First {
+    std::string value;
+    std::uint64_t end_hash;
+  };
+  std::unordered_map<std::uint64_t, First> firsts;  // by the values of all other parameters
+  bool is_compared = false;
   for (std::size_t k = 0; k < std::min(results.size(), manifest.runs.size()); ++k) {
     const Run& run = manifest.runs[k];
-    if (results[k].end_hash == 0) continue;
-    for (const scene::Override& one : run.settings) {
-      if (!scene::concerns_simulation(one.address)) continue;
-      std::string others = std::to_string(run.frames.last);
-      for (const scene::Override& other : run.settings)
-        if (other.address != one.address) others += "\n" + other.address + "=" + other.value;
-      states[one.address][others].insert(results[k].end_hash);
-      values[one.address][others].insert(one.value);
-    }
+    const std::string value = run.setting(address);
+    if (results[k].end_hash == 0 || value.empty()) continue;
+    auto others = static_cast<std::uint64_t>(run.frames.last);
+    for (const scene::Override& other : run.settings)
+      if (other.address != address) others += hash_of(other);
+    const auto [first, is_new] = firsts.try_emplace(others, First{value, results[k].end_hash});
+    if (first->second.end_hash != results[k].end_hash) return false;
+    is_compared = is_compared || first->second.value != value;
   }
+  return is_compared;
+}
+
+}  // namespace
+
+std::vector<std::string> idle_lines(const Manifest& manifest,
+                                    const std::vector<RunResult>& results) {
+  std::set<std::string> addresses;
+  for (const Run& run : manifest.runs)
+    for (const scene::Override& setting : run.settings) addresses.insert(setting.address);
   std::vector<std::string> lines;
-  for (const auto& [address, groups] : states) {
-    const auto& of_address = values.at(address);
-    const bool is_compared =
-        std::ranges::any_of(of_address, [](const auto& group) { return group.second.size() > 1; });
-    const bool is_idle =
-        std::ranges::all_of(groups, [](const auto& group) { return group.second.size() == 1; });
-    if (is_compared && is_idle)
+  for (const std::string& address : addresses)
+    if (concerns_snow(address) && is_idle(address, manifest, results))
       lines.push_back(address +
-                      " changes nothing here: runs that differ in it alone end in the "
-                      "same state; neve check says which settings a scene does not use");
-  }
+                      " changes no bit of the snow: runs that differ in it alone end in one state");
   return lines;
 }
 

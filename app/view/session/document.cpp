@@ -11,6 +11,7 @@
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/toml_source.h"
 #include "app/setup/coarse_run.h"
+#include "app/setup/curves.h"
 #include "app/setup/plan.h"
 #include "app/setup/resolve.h"
 
@@ -105,6 +106,7 @@ Document::Document(std::string file, std::string text, std::vector<scene::Overri
       overrides_(std::move(overrides)),
       coarsening_(coarsening) {
   scene_ = read(text_, {}, &set_by_coarsening_);
+  setup::refuse_followers(*scene_, overrides_);
   scene::Scene placed = *scene_;
   setup::resolve(placed, particle_count(placed));
   camera_ = placed.camera;

@@ -13,6 +13,7 @@
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
+#include "app/setup/curves.h"
 #include "app/support/errors.h"
 #include "app/sweep/plan/around.h"
 
@@ -36,7 +37,8 @@ std::vector<scene::FlatParam> with_presets(const scene::Scene& scene) {
 
 /// Settings of all runs of a sweep, without the numbers that its presets set.
 std::vector<scene::Override> set_in_all(const Document& document, const std::string& address) {
-  std::vector<scene::Override> all = document.all_overrides();
+  std::vector<scene::Override> all =
+      setup::without_followers(*document.scene(), document.all_overrides());
   if (!scene::is_preset_address(address)) return all;
   const std::vector<std::string> numbers = scene::addresses_set_by(address);
   std::erase_if(all, [&](const scene::Override& override) {
@@ -68,7 +70,8 @@ std::string plain_file_name(const std::string& address) {
 std::string render_command(const Document& document) {
   run::RenderOptions options;
   options.scene = document.file();
-  options.overrides = scene::texts_of(document.all_overrides());
+  options.overrides =
+      scene::texts_of(setup::without_followers(*document.scene(), document.all_overrides()));
   if (document.coarsening() > 1) options.coarsening = document.coarsening();
   return options::shell_line(options::words_of(options));
 }
