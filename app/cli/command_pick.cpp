@@ -259,6 +259,11 @@ int run_pick(const PickCommand& command) {
     std::cerr << "nothing was chosen; the same command continues from here\n";
     return exit_ok;
   }
+  // What the pair would plan takes a second, and nobody waits for it any more.
+  if (options.refines && is_interrupted()) {
+    std::cerr << "neve: interrupted; the same command continues from here\n";
+    return exit_resumable;
+  }
   const int code = options.refines ? run_sweep(game.begin_refinement()) : exit_ok;
   print_pick(game, options, *values);
   return code;

@@ -178,6 +178,9 @@ void warn_of_idle_axes(const sweep::plan::SweepPlan& plan, Progress& progress) {
   for (const sweep::plan::PlannedRun& item : plan.runs)
     for (const auto* settings : {&item.run.settings, &plan.sweep.fixed})
       for (const scene::Override& setting : *settings) {
+        // Coarsening sets it beside the cells, in a pair of --refine.
+        if (setting.address == "solver.dt" && !item.run.setting("solver.cell_size").empty())
+          continue;
         const std::string why = health::why_idle(item.scene, setting.address);
         if (why.empty()) used.insert(setting.address);
         idle.emplace(setting.address, why);
