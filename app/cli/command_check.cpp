@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <optional>
 
 #include "app/cli/commands.h"
 #include "app/health/check.h"
-#include "app/health/findings.h"
 #include "app/output/atomic_file.h"
 #include "app/picture/collider_looks.h"
 #include "app/predict/predict.h"
@@ -204,10 +202,9 @@ int run_check(const CheckCommand& command) {
   catch_interrupts();
   // Half a forecast would be a wrong one.
   const NothingToKeep reading;
-  health::Check check = health::examine(job.scene, plan, options.threads, job.coarsening);
-  health::check_idle(job.scene, scene::addresses_of(scene::parse_overrides(options.overrides)),
-                     check.findings);
-  std::ranges::stable_sort(check.findings, std::greater<>(), &health::Finding::severity);
+  const health::Check check =
+      health::examine(job.scene, plan, options.threads, job.coarsening,
+                      scene::addresses_of(scene::parse_overrides(options.overrides)));
   const forecast::FastLook look = possible_look(options, job);
   const bool is_quiet = options.verbosity == Verbosity::quiet;
   std::optional<predict::Prediction> prediction;

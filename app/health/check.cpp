@@ -127,7 +127,8 @@ forecast::Cost Check::seconds() const {
   return seconds_per_step * (foreseen.steps_of_start() + dust);
 }
 
-Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, double coarsening) {
+Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, double coarsening,
+              const std::vector<std::string>& set) {
   const scene::Scene scene = setup::with_curves(given, 0);
   Check check;
   check.plan = plan;
@@ -145,6 +146,7 @@ Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, d
   check_emitters(scene, check.findings, coarsening);
   check_sinks(scene, check.impact_speed, check.findings);
   check_unused(given, coarsening, check.findings);
+  check_idle(given, set, check.findings);
   check_dust(scene, check.impact_speed, check.findings);
   if (plan.particles <= max_seeded && plan.memory <= plan.memory_limit) {
     const setup::SeededScene seeded = setup::seed_scene(scene);

@@ -31,7 +31,8 @@ struct Check {
 /// where steps are short and snow is spread out.
 /// @param scene resolved is not needed
 /// @param coarsening  factor of --coarsen
+/// @param set  addresses that the command line gives values to
 Check examine(const scene::Scene& scene, const setup::Plan& plan, int threads,
-              double coarsening = 1);
+              double coarsening = 1, const std::vector<std::string>& set = {});
 
 }  // namespace neve::app::health

@@ -65,7 +65,7 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
 /// Why a value at an address changes nothing in a scene: it belongs to another law, or to steps
 /// that are chosen otherwise; "" where it may change something.
 std::string why_idle(const scene::Scene& scene, const std::string& address);
-/// What somebody set and that is idle.
+/// Warns of values that somebody has set and that are idle.
 void check_idle(const scene::Scene& scene, const std::vector<std::string>& addresses,
                 std::vector<Finding>& findings);
 

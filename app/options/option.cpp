@@ -1,12 +1,14 @@
 #include "app/options/option.h"
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <new>
 #include <string>
 #include <system_error>
 
+#include "app/output/json_file.h"
+#include "app/output/sequence.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 
@@ -83,9 +85,15 @@ void refuse_input(const std::string& flag, const std::string& output, const std:
 
 namespace {
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+/// Null where it is none.
+Json json_of(const std::filesystem::path& file) {
+  try {
+    return output::read_json(file);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 /// A picture, table or log in the place of what a run or sweep consists of would take it from them.
@@ -101,18 +109,16 @@ void refuse_part_of_run(const std::string& flag, const std::string& output) {
   struct Record {
     const char *name, *key;
   };
-  for (const Record& own : {Record{"run.json", "\n  \"frames\": "},
-                            {"manifest.json", "\n  \"runs\": "},
-                            {"status.json", "\n  \"state\": "}})
-    if (file.filename() == own.name && text_of(file).find(own.key) != std::string::npos)
-      refuse(file.parent_path());
+  for (const Record& own :
+       {Record{"run.json", "frames"}, {"manifest.json", "runs"}, {"status.json", "state"}})
+    if (file.filename() == own.name && json_of(file).contains(own.key)) refuse(file.parent_path());
   // Pictures are in the folder of their view, movies beside it.
   const fs::path above = file.parent_path();
-  for (const fs::path& folder : {above, above.parent_path()}) {
-    const std::string name = fs::relative(file, folder, error).generic_string();
-    if (text_of(folder / "run.json").find("\n    \"" + name + "\": \"") != std::string::npos)
+  for (const fs::path& folder : {above, above.parent_path()})
+    if (const Json run = json_of(output::run_json_path(folder));
+        run.contains("files") &&
+        run["files"].contains(file.lexically_relative(folder).generic_string()))
       refuse(folder);
-  }
 }
 
 }  // namespace

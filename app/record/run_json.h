@@ -43,7 +43,7 @@ struct FrameRecord {
   std::vector<BodyRecord> bodies;     ///< at the end, those that move by themselves
 };
 
-/// What is measured from the start of a run, of one whose frames begin later.
+/// The state that a run is measured from, where its frames begin later.
 struct RunStart {
   Metrics metrics;  ///< without max_depth_cells
   std::vector<BodyRecord> bodies;
@@ -131,7 +131,8 @@ Json to_json(const sim::DustTotals& dust);
 /// @throws nlohmann::json::exception
 FrameRecord frame_record(const Json& json);
 
-/// Of its own, or of its first frame where that is frame 0; nothing in a run of an earlier version.
+/// The start that a run has, or its first frame where that is frame 0; nothing in a run of an
+/// earlier version.
 std::optional<RunStart> start_of(const Json& run);
 
 /// In the order of frames; in the place of an earlier record of the same frame.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "app/run/fork.h"
 #include "app/run/passes.h"
@@ -116,8 +118,11 @@ RenderJob make_job(const RenderOptions& options) {
   if (options.is_agreed || options.dry_run) edits.agreement = timeline::Agreement::given;
   edits.coarsened = options.coarsened.value_or(1);
   edits.is_start_only = options.is_start_only;
-  // Of another folder it is another drawing of the frames that the run has.
-  edits.continues_run = options.resume && options.out.empty();
+  // In another folder it is another drawing of the frames that the run has.
+  std::error_code error;
+  edits.continues_run =
+      options.resume &&
+      (options.out.empty() || std::filesystem::equivalent(options.out, options.scene, error));
   if (options.from) edits.overrides.clear();  // changes on its way, see set_fork()
   RenderJob job{timeline::Origin::of(options.scene, edits), options};
   job.folder = job.run.empty() ? out_folder() / job.name() : job.run;

@@ -45,8 +45,10 @@ record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simu
   return record;
 }
 
-/// As a picture of frame 0 would record it; of a run that is there no more it is made again.
-record::RunStart start_of_run(const timeline::Timeline& timeline) {
+/// As a picture of frame 0 would record it; where no run.json knows it, it is made again.
+/// @param before  run.json of this run, or of the one that it forks from; null: there is none
+record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& before) {
+  if (const auto known = record::start_of(before)) return *known;
   const auto start_in = [&](const sim::Simulation& simulation) {
     return record::RunStart{
         record::measure(simulation.particles(), timeline.start().solver.cell_size),
@@ -147,7 +149,12 @@ std::vector<int> RenderRun::begin() {
     if (found->flawed.empty()) continue_from(found->moment);
   }
   ledger_.record().retries = timeline_.here().retries;
-  if (frames_.first > 0) ledger_.record().start = start_of_run(timeline_);
+  if (frames_.first > 0) {
+    const bool leaves_run = job_.fork && !job_.run.empty();
+    ledger_.record().start = start_of_run(timeline_, leaves_run ? record::read_run_json(job_.run)
+                                                     : is_same || (found && earlier) ? earlier->json
+                                                                                     : Json());
+  }
   note_warnings();
   ledger_.open();
   return found ? found->flawed : std::vector<int>{};

@@ -35,7 +35,7 @@ std::string range_text(const Scene& scene);
 /// @param fps  of the movie
 std::string time_code_of(const Scene& scene, int number, double fps);
 
-/// @param movie_fps  that somebody asked for; 0: nobody did
+/// @param movie_fps  rate that somebody asked for; 0: nobody did
 /// @throws UsageError where shot.time_code is none of a movie at that rate
 void require_time_code(const Scene& scene, double movie_fps);
 

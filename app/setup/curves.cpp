@@ -73,19 +73,22 @@ scene::Scene with_curves(const scene::Scene& scene, int frame) {
   return values.empty() ? scene : scene::apply(scene, values);
 }
 
+const scene::Curve* curve_of(const scene::Scene& scene, const std::string& address) {
+  const auto found = std::ranges::find(scene.curves, address, &scene::Curve::parameter);
+  return found == scene.curves.end() ? nullptr : &*found;
+}
+
 void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes) {
-  for (const scene::Curve& curve : scene.curves)
-    for (const scene::Override& change : changes)
-      if (change.address == curve.parameter)
-        change.fail(change.key, curve.parameter + " follows its curve " + curve.name,
-                    "change curve." + curve.name + ".keyframes instead");
+  for (const scene::Override& change : changes)
+    if (const scene::Curve* curve = curve_of(scene, change.address))
+      change.fail(change.key, change.address + " follows its curve " + curve->name,
+                  "change curve." + curve->name + ".keyframes instead");
 }
 
 std::vector<scene::Override> without_followers(const scene::Scene& scene,
                                                std::vector<scene::Override> changes) {
-  for (const scene::Curve& curve : scene.curves)
-    std::erase_if(changes,
-                  [&](const scene::Override& change) { return change.address == curve.parameter; });
+  std::erase_if(changes,
+                [&](const scene::Override& change) { return curve_of(scene, change.address); });
   return changes;
 }
 

@@ -17,11 +17,14 @@ std::vector<scene::Override> curve_values(const scene::Scene& scene, int frame);
 /// The scene with these values. @throws UsageError, SceneError
 scene::Scene with_curves(const scene::Scene& scene, int frame);
 
+/// The curve that a parameter follows; null: none.
+const scene::Curve* curve_of(const scene::Scene& scene, const std::string& address);
+
 /// A curve has the last word: a change of its parameter would do nothing.
 /// @throws UsageError or SceneError that names the flag or the place of the change
 void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes);
 
-/// Without those: what somebody tried on a slider, until the next frame.
+/// Leaves those off: a slider moves them until the next frame only.
 std::vector<scene::Override> without_followers(const scene::Scene& scene,
                                                std::vector<scene::Override> changes);
 

@@ -256,6 +256,10 @@ TEST_F(Addition, AnotherDrawingOfAnExtendedRunHasAllOfItsFrames) {
   render({"a", "--no-movie", "--view", "smoke", "--out", "b", "--resume"});
   EXPECT_EQ(hashes("b"), hashes("a"));
   EXPECT_EQ(hashes("b").size(), 7u);
+  // The folder of the run itself is no other one, although it is named twice.
+  render({"scene.toml", "--out", "c", "--no-movie", "--frames", "0-2"});
+  render({"c", "--no-movie", "--resume", "--out", "./c"});
+  EXPECT_EQ(hashes("c").size(), 5u);
 }
 
 /// What a run consists of is replaced by commands that draw the run, by no other.

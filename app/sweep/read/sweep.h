@@ -81,7 +81,7 @@ struct SweepSettings {
   std::string title;
 };
 
-/// Of one sweep.
+/// A sweep has at most so many.
 constexpr int max_runs = 100'000;
 
 struct SweepLimits {

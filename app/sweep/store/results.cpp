@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <functional>
 #include <limits>
 #include <set>
 #include <system_error>
@@ -16,6 +15,7 @@
 #include "app/record/verify.h"
 #include "app/scene/flat.h"
 #include "app/support/errors.h"
+#include "sim/base/hash.h"
 
 namespace neve::app::sweep::store {
 
@@ -193,14 +193,15 @@ std::vector<RunResult> read_results(const std::filesystem::path& folder, const M
 
 namespace {
 
-/// Of the snow alone: its states say nothing of dust and of pictures.
+/// States are of the snow alone: they say nothing of dust and of pictures.
 bool concerns_snow(const std::string& address) {
   return scene::concerns_simulation(address) && !address.starts_with("dust.") &&
          !address.ends_with(".dust");
 }
 
 std::uint64_t hash_of(const scene::Override& setting) {
-  return std::hash<std::string>()(setting.address + "=" + setting.value);
+  const std::string text = setting.address + "=" + setting.value;
+  return hash_bytes(text.data(), text.size());
 }
 
 /// Whether runs that differ in one parameter alone have been compared, and end with the same bits.

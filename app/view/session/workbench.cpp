@@ -15,6 +15,7 @@
 #include "app/scene/scene_file.h"
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_source.h"
+#include "app/setup/curves.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
@@ -239,10 +240,9 @@ void Workbench::take_over(const std::vector<scene::Override>& before) {
                                    "Reset, or after going back to an earlier frame");
       continue;
     }
-    for (const scene::Curve& curve : document_.scene()->curves)
-      if (curve.parameter == address)
-        say(Message::Kind::note, address + " follows its curve " + curve.name +
-                                     ", which gives it its value again in each frame");
+    if (const scene::Curve* curve = setup::curve_of(*document_.scene(), address))
+      say(Message::Kind::note, address + " follows its curve " + curve->name +
+                                   ", which gives it its value again in each frame");
     put(running_, address, document_.edits());
     is_live = true;
   }
