@@ -5,7 +5,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -62,22 +64,36 @@ struct Ended {
   double processor_seconds = 0;  ///< that it took after the signal, with those it waited for
 };
 
+/// Processor time of a process, of those that it waited for and of those that it has not yet
+/// waited for, s.
+inline double processor_seconds_of(pid_t process) {
+  double seconds = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string text = read_text(entry.path() / "stat");
+    std::istringstream words(text.substr(std::min(text.rfind(')') + 1, text.size())));
+    // proc(5): the 4th word is the parent, the 14th to 17th are the times of the process and of
+    // those that it waited for.
+    std::vector<std::string> fields(2);
+    for (std::string word; fields.size() < 17 && words >> word;) fields.push_back(word);
+    if (fields.size() < 17) continue;  // it has ended
+    if (name == std::to_string(process)) {
+      const auto ticks = static_cast<double>(::sysconf(_SC_CLK_TCK));
+      for (std::size_t k = 13; k < 17; ++k) seconds += std::stod(fields[k]) / ticks;
+    } else if (fields[3] == std::to_string(process)) {
+      seconds += processor_seconds_of(std::stoi(name));
+    }
+  }
+  return seconds;
+}
+
 /// Asks the program to end as Ctrl-C does. What a busy machine does meanwhile is not counted.
 inline Ended interrupt_after(const std::filesystem::path& folder, const std::string& arguments,
                              double seconds) {
   const pid_t child = start_in(folder, arguments);
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-  const auto taken = [&] {
-    std::ifstream in("/proc/" + std::to_string(child) + "/stat");
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    std::istringstream words(text.substr(std::min(text.rfind(')') + 1, text.size())));
-    std::string word;
-    double ticks = 0;
-    for (int k = 3; k <= 15 && words >> word; ++k)
-      if (k == 14 || k == 15) ticks += std::stod(word);
-    return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
-  };
-  const double before = taken();
+  const double before = processor_seconds_of(child);
   ::kill(child, SIGINT);
   Ended ended;
   int status = 0;
