@@ -317,6 +317,25 @@ std::string states_text(const run::RenderJob& job, const Json& states) {
       shell_path(job.folder.string()));
 }
 
+/// What films of a run show that was drawn before: all pictures of their views.
+std::string films_text(const run::RenderJob& job, const run::RenderRun& run,
+                       const run::RenderResult& result) {
+  if (!result.is_addition || result.movies.empty() || run.record().frames.empty()) return {};
+  std::vector<std::string> names;
+  bool are_longer = false;
+  for (const fs::path& movie : result.movies) {
+    names.push_back(movie.string());
+    const auto view = run.record().view_records.find(movie.stem().string());
+    if (view == run.record().view_records.end()) continue;
+    const record::ViewFrames shown = view->second.frames.value_or(
+        record::ViewFrames{run.record().frames.front().frame, run.record().frames.back().frame});
+    are_longer |= shown.count() > job.frames.count();
+  }
+  if (!are_longer) return {};
+  return joined(names, ", ") + (names.size() == 1 ? " has" : " have") +
+         " all pictures of the view; --out FOLDER makes a film of --frames alone";
+}
+
 int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,
            const run::RenderResult& result, Progress& progress) {
   progress.clear();
@@ -338,6 +357,7 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
     return code;
   }
   progress.note(frames_text(job, run, result));
+  if (const std::string films = films_text(job, run, result); !films.empty()) progress.note(films);
   if (const std::string states = states_text(job, run.record().states); !states.empty())
     progress.note(states);
   return exit_ok;

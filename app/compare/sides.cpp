@@ -9,6 +9,7 @@
 #include "app/scene/flat.h"
 #include "app/scene/live_change.h"
 #include "app/support/errors.h"
+#include "app/support/film_rate.h"
 #include "app/support/text.h"
 
 namespace neve::app::compare {
@@ -111,8 +112,8 @@ Pair read_pair(const PairOptions& options) {
     throw UsageError(
         "",
         fmt::format("{} has {} frames a second and {} has {}: their frames are at different times",
-                    options.a, rough_text(fps_a), options.b, rough_text(fps_b)),
-        "render one of them again with --set fps=" + rough_text(fps_a));
+                    options.a, plain_rate(fps_a), options.b, plain_rate(fps_b)),
+        "render one of them again with --set fps=" + plain_rate(fps_a));
   pair.frames = common_frames(options, pair);
   const bool is_shorter = pair.a.job.frames.last != pair.b.job.frames.last && !options.frames;
   if (is_shorter)

@@ -58,15 +58,15 @@ std::string remedy_for_clogging(const scene::Scene& scene, const std::string& em
 void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);
 
 /// Settings without effect: bodies and emitters in sinks, keyframes after the last frame, slices
-/// that no layer shows, a dt that adaptive steps do not use, settings of another transfer.
+/// that no layer shows, values that other settings switch off.
 /// @param coarsening the N of --coarsen
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings);
 
 /// Why a value at an address changes nothing in a scene: it belongs to another law, or to steps
 /// that are chosen otherwise; "" where it may change something.
 std::string why_idle(const scene::Scene& scene, const std::string& address);
-/// Warns of values that somebody has set and that are idle.
-void check_idle(const scene::Scene& scene, const std::vector<std::string>& addresses,
+/// Warns of values that somebody, or a curve, has set and that are idle.
+void check_idle(const scene::Scene& scene, std::vector<std::string> addresses,
                 std::vector<Finding>& findings);
 
 /// Dust that never flies, that nothing shows, and that it takes time. @param speed m/s, of the

@@ -12,6 +12,7 @@
 #include "app/setup/snow_pieces.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
+#include "sim/shapes/solid.h"
 
 namespace neve::app::health {
 
@@ -139,12 +140,25 @@ double reach_of(const scene::Scene& scene, const Flight& flight, double time, do
   return scene.solver.cell_size + 0.5 * flight.spacing() + 0.5 * flight.speed_at(time) * between;
 }
 
+/// True where a sink takes some of the places.
+bool meets_sink(const std::vector<sim::seeding::Sink>& sinks, const std::vector<Vec3d>& places) {
+  return std::ranges::any_of(sinks, [&](const sim::seeding::Sink& sink) {
+    const sim::shapes::Solid solid(sink.shape);
+    return std::ranges::any_of(places,
+                               [&](const Vec3d& x) { return solid.contains(x) != sink.outside; });
+  });
+}
+
 void fly_to_colliders(const scene::Scene& scene, const std::vector<double>& times, Flight& flight,
                       Nearest& nearest) {
   const double between = times.size() > 1 ? times[1] - times[0] : 0;
   for (const double time : times) {
     Box box;
     const std::vector<Vec3d> places = flight.at(time, box);
+    if (meets_sink(scene.sinks, places)) {
+      flight.stopped = time;
+      return;
+    }
     const double reach = reach_of(scene, flight, time, between);
     for (const sim::shapes::Collider& collider : scene.colliders) {
       const double distance = distance_to(collider, time, box, places, reach);

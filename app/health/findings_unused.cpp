@@ -3,10 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <optional>
 #include <span>
 
 #include "app/health/findings.h"
+#include "app/scene/coarsen.h"
 #include "app/scene/flat.h"
+#include "app/scene/names.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/curves.h"
 #include "app/support/text.h"
@@ -64,39 +68,6 @@ void check_keyframes(const scene::Scene& scene, std::vector<Finding>& findings) 
          fmt::format("the last keyframe of {} is at {} s, the scene ends at {} s",
                      display_name("collider", collider.name), rough_text(last), rough_text(end)),
          "make frames larger, or move keyframes earlier"});
-  }
-}
-
-std::string value_text(const std::optional<scene::toml::Value>& value) {
-  return value ? scene::toml::toml_literal(*value) : "none";
-}
-
-/// Keyframes that no frame has, and values that the scene gives beside a curve.
-void check_curves(const scene::Scene& scene, std::vector<Finding>& findings) {
-  if (scene.curves.empty()) return;
-  const double end = scene::duration(scene);
-  const std::vector<scene::FlatParam> params = scene::flatten(scene);
-  const std::vector<scene::Override> first = setup::curve_values(scene, 0);
-  for (std::size_t k = 0; k < std::min(first.size(), scene.curves.size()); ++k) {
-    const scene::Curve& curve = scene.curves[k];
-    const double last = curve.keyframes.back().time;
-    if (end > 0 && last > end * (1 + 1e-9))
-      findings.push_back({Severity::warning, "curve." + curve.name + ".keyframes",
-                          fmt::format("the last keyframe of {} is at {} s, the scene ends at {} s",
-                                      curve.parameter, rough_text(last), rough_text(end)),
-                          "make frames larger, or move keyframes earlier"});
-    findings.push_back(
-        {Severity::note, curve.parameter,
-         fmt::format("follows {} keyframes, from {} to {}", curve.keyframes.size(), first[k].value,
-                     setup::curve_values(scene, scene::last_frame(scene))[k].value),
-         "the forecast follows it in a coarse copy"});
-    for (const scene::FlatParam& param : params)
-      if (param.address == curve.parameter && !param.is_default() &&
-          value_text(param.value) != first[k].value)
-        findings.push_back({Severity::warning, curve.parameter,
-                            fmt::format("{} is not used: the curve {} begins with {}",
-                                        value_text(param.value), curve.name, first[k].value),
-                            "remove one of the two"});
   }
 }
 
@@ -170,57 +141,165 @@ void check_snow_in_views(const scene::Scene& scene, std::vector<Finding>& findin
   }
 }
 
-/// Settings that the transfer of a scene does not read.
-void check_transfer_settings(const sim::SolverSettings& s, std::vector<Finding>& findings) {
-  const sim::SolverSettings usual;
-  const bool is_asflip = s.transfer == sim::Transfer::asflip;
-  const auto unused = [&](const char* key, const char* why, const char* advice) {
-    findings.push_back({Severity::warning, std::string("solver.") + key,
-                        fmt::format("{} has no effect: {}", key, why), advice});
+struct Idle {
+  std::string why, advice;
+};
+
+std::string last_word_of(const std::string& address) {
+  return address.substr(address.rfind('.') + 1);
+}
+
+bool is_one_of(const std::string& key, std::initializer_list<const char*> keys) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Of a setting of the solver that other settings switch off.
+std::optional<Idle> idle_in_solver(const sim::SolverSettings& s, const std::string& key) {
+  const bool is_fixed = s.time_step == sim::TimeStep::fixed,
+             is_asflip = s.transfer == sim::Transfer::asflip,
+             is_aflip = s.transfer == sim::Transfer::aflip;
+  const char* const or_adaptive = "remove it, or set solver.time_step = \"adaptive\"";
+  if (key == "dt" && !is_fixed)
+    return Idle{"adaptive steps are chosen by the state; it is for time_step = \"fixed\"",
+                "set time_step = \"fixed\"; solver.max_dt limits adaptive steps"};
+  if (is_one_of(key, {"max_dt", "strain_limit"}) && is_fixed)
+    return Idle{"it limits adaptive steps, and time_step = \"fixed\" takes dt", or_adaptive};
+  // Explicit parts of a solve that is given up keep them.
+  if (is_one_of(key, {"cfl", "acoustic_cfl"}) && is_fixed && !s.is_implicit())
+    return Idle{"it limits adaptive steps, and time_step = \"fixed\" takes dt", or_adaptive};
+  if (key == "advect" && (is_asflip || is_aflip))
+    return Idle{"aflip moves particles with the grid's velocity, asflip with a share of theirs",
+                "remove it; solver.separation_min and separation_max are asflip's shares"};
+  if (is_one_of(key, {"separation_min", "separation_max", "separation_J_E"}) && !is_asflip)
+    return Idle{"it is for transfer = \"asflip\"",
+                "remove it, or set solver.transfer = \"asflip\""};
+  if (is_one_of(key, {"flip_ratio", "flip_reference_dt"}) &&
+      (s.transfer == sim::Transfer::apic || s.transfer == sim::Transfer::mls))
+    return Idle{fmt::format("transfer = \"{}\" has no share of FLIP", scene::name(s.transfer)),
+                "remove it, or set solver.transfer = \"asflip\", \"aflip\" or \"flip\""};
+  if (is_one_of(key, {"solve_tolerance", "solve_iterations"}) && !s.is_implicit())
+    return Idle{"it is for semi-implicit steps", "remove it, or set solver.beta, as to 0.5"};
+  if (key == "collide_after_solve" && !(s.is_implicit() && s.contact_at == sim::ContactAt::nodes))
+    return Idle{"it is for semi-implicit steps with contact at nodes",
+                "solver.collide_after_solve = false"};
+  return std::nullopt;
+}
+
+/// Of a parameter of another law than the material's.
+std::optional<Idle> idle_in_material(const sim::Material& m, const std::string& key) {
+  const auto has = [&](std::span<const sim::laws::Parameter> list) {
+    return std::ranges::find(list, key, &sim::laws::Parameter::key) != list.end();
   };
-  if (s.advect != usual.advect && (is_asflip || s.transfer == sim::Transfer::aflip))
-    unused("advect",
-           "aflip moves particles with the grid's velocity, asflip with a share of theirs",
-           "remove it; solver.separation_min and separation_max are asflip's shares");
-  if (is_asflip) return;
-  const char* const why = "it is for transfer = \"asflip\"";
-  const char* const advice = "remove it, or set solver.transfer = \"asflip\"";
-  if (s.separation_min != usual.separation_min) unused("separation_min", why, advice);
-  if (s.separation_max != usual.separation_max) unused("separation_max", why, advice);
-  if (s.separation_J_E != usual.separation_J_E) unused("separation_J_E", why, advice);
+  const sim::laws::Law& law = sim::laws::of(m);
+  if (!has(sim::laws::all_parameters()) || has(law.parameters)) return std::nullopt;
+  return Idle{
+      fmt::format("material {} has model = \"{}\", which does not use it", m.name, law.name),
+      "neve params --wishes names parameters by what they do"};
+}
+
+/// Snow that a curve makes dusty is dusty.
+bool sheds_dust(const scene::Scene& scene) {
+  return scene::dusty_material(scene) ||
+         std::ranges::any_of(scene.curves, [](const scene::Curve& curve) {
+           return curve.parameter.starts_with("material.") && curve.parameter.ends_with(".dust");
+         });
+}
+
+std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& address) {
+  const auto key_in = [&](const std::string& table) {
+    return address.starts_with(table) ? address.substr(table.size()) : "";
+  };
+  if (const std::string key = key_in("solver."); !key.empty())
+    return idle_in_solver(scene.solver, key);
+  for (const sim::Material& m : scene.materials)
+    if (const std::string key = key_in("material." + m.name + "."); !key.empty())
+      return idle_in_material(m, key);
+  if (address.starts_with("dust.") && !sheds_dust(scene))
+    return Idle{"no snow of the scene sheds dust",
+                "material." + scene.materials.front().name + ".dust = 0.02"};
+  return std::nullopt;
+}
+
+/// The default, or what --coarsen makes of it.
+bool is_usual(const scene::FlatParam& param, double coarsening) {
+  if (param.is_default()) return true;
+  const double* value = param.value ? std::get_if<double>(&param.value->data) : nullptr;
+  const sim::SolverSettings usual;
+  const double meant = param.address == "solver.dt"       ? coarsening * usual.dt
+                       : param.address == "solver.max_dt" ? coarsening * usual.max_dt
+                                                          : 0;
+  return value && *value > 0.999 * meant && *value < 1.001 * meant;
+}
+
+/// Settings of the scene that others switch off.
+void check_switched_off(const scene::Scene& scene, double coarsening,
+                        std::vector<Finding>& findings) {
+  for (const scene::FlatParam& param : scene::flatten(scene)) {
+    if (is_usual(param, coarsening) || setup::curve_of(scene, param.address)) continue;
+    if (!param.address.starts_with("solver.") && !param.address.starts_with("material.")) continue;
+    if (const std::optional<Idle> idle = idle_at(scene, param.address))
+      findings.push_back(
+          {Severity::warning, param.address,
+           fmt::format("{} has no effect: {}", last_word_of(param.address), idle->why),
+           idle->advice});
+  }
+}
+
+std::string value_text(const std::optional<scene::toml::Value>& value) {
+  return value ? scene::toml::toml_literal(*value) : "none";
+}
+
+/// Keyframes that no frame has, and values that the scene gives beside a curve.
+void check_curves(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings) {
+  if (scene.curves.empty()) return;
+  const double end = scene::duration(scene);
+  const std::vector<scene::FlatParam> params = scene::flatten(scene);
+  const std::vector<scene::Override> first = setup::curve_values(scene, 0);
+  for (std::size_t k = 0; k < std::min(first.size(), scene.curves.size()); ++k) {
+    const scene::Curve& curve = scene.curves[k];
+    const double last = curve.keyframes.back().time;
+    if (end > 0 && last > end * (1 + 1e-9))
+      findings.push_back({Severity::warning, "curve." + curve.name + ".keyframes",
+                          fmt::format("the last keyframe of {} is at {} s, the scene ends at {} s",
+                                      curve.parameter, rough_text(last), rough_text(end)),
+                          "make frames larger, or move keyframes earlier"});
+    if (idle_at(scene, curve.parameter)) continue;  // check_idle() tells it
+    findings.push_back(
+        {Severity::note, curve.parameter,
+         fmt::format("follows {} keyframes, from {} to {}", curve.keyframes.size(), first[k].value,
+                     setup::curve_values(scene, scene::last_frame(scene))[k].value),
+         "the forecast follows it in a coarse copy"});
+    for (const scene::FlatParam& param : params)
+      if (param.address == curve.parameter && !is_usual(param, coarsening) &&
+          value_text(param.value) != first[k].value)
+        findings.push_back({Severity::warning, curve.parameter,
+                            fmt::format("{} is not used: the curve {} begins with {}",
+                                        value_text(param.value), curve.name, first[k].value),
+                            "remove one of the two"});
+  }
 }
 
 }  // namespace
 
 std::string why_idle(const scene::Scene& scene, const std::string& address) {
-  if (address == "solver.dt" && scene.solver.time_step == sim::TimeStep::adaptive)
-    return "adaptive steps are chosen by the state; it is for time_step = \"fixed\"";
-  for (const sim::Material& m : scene.materials) {
-    const std::string table = "material." + m.name + ".";
-    if (!address.starts_with(table)) continue;
-    const auto has = [&](std::span<const sim::laws::Parameter> list) {
-      return std::ranges::any_of(list, [&](const sim::laws::Parameter& p) {
-        return p.key == address.substr(table.size());
-      });
-    };
-    const sim::laws::Law& law = sim::laws::of(m);
-    if (has(sim::laws::all_parameters()) && !has(law.parameters))
-      return fmt::format("material {} has model = \"{}\", which does not use it", m.name, law.name);
-  }
-  return {};
+  const std::optional<Idle> idle = idle_at(scene, address);
+  return idle ? idle->why : "";
 }
 
-void check_idle(const scene::Scene& scene, const std::vector<std::string>& addresses,
+void check_idle(const scene::Scene& scene, std::vector<std::string> addresses,
                 std::vector<Finding>& findings) {
-  const auto is_told = [&](const std::string& address) {
-    return std::ranges::find(findings, address, &Finding::address) != findings.end();
-  };
-  for (const std::string& address : addresses)
-    if (const std::string why = why_idle(scene, address); !why.empty() && !is_told(address))
-      findings.push_back(
-          {Severity::warning, address,
-           fmt::format("{} has no effect: {}", address.substr(address.rfind('.') + 1), why),
-           "neve params --wishes names parameters by what they do"});
+  for (const scene::Curve& curve : scene.curves) addresses.push_back(curve.parameter);
+  for (const std::string& address : addresses) {
+    const std::optional<Idle> idle = idle_at(scene, address);
+    if (!idle || std::ranges::find(findings, address, &Finding::address) != findings.end())
+      continue;
+    const scene::Curve* curve = setup::curve_of(scene, address);
+    findings.push_back(
+        {Severity::warning, address,
+         fmt::format("{}{} has no effect: {}", last_word_of(address),
+                     curve ? ", which curve " + curve->name + " sets," : "", idle->why),
+         idle->advice});
+  }
 }
 
 void check_unused(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings) {
@@ -231,23 +310,10 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
   for (const sim::seeding::Emitter& emitter : scene.emitters)
     check_removed(scene, "emitter", emitter.name, emitter.shape, much, findings);
   check_keyframes(scene, findings);
-  check_curves(scene, findings);
+  check_curves(scene, coarsening, findings);
   check_slices(scene, findings);
   check_snow_in_views(scene, findings);
-  const double usual_dt = sim::SolverSettings{}.dt * coarsening, dt = scene.solver.dt;
-  if (scene.solver.time_step == sim::TimeStep::adaptive &&
-      !(dt > 0.999 * usual_dt && dt < 1.001 * usual_dt))
-    findings.push_back({Severity::warning, "solver.dt",
-                        fmt::format("adaptive steps do not use dt = {} s",
-                                    scene::toml::number_text(dt / coarsening)),
-                        "set time_step = \"fixed\"; solver.max_dt limits adaptive steps"});
-  const sim::SolverSettings& s = scene.solver;
-  if (s.collide_after_solve && !(s.is_implicit() && s.contact_at == sim::ContactAt::nodes))
-    findings.push_back(
-        {Severity::warning, "solver.collide_after_solve",
-         "collide_after_solve has no effect: it is for semi-implicit steps with contact at nodes",
-         "solver.collide_after_solve = false"});
-  check_transfer_settings(s, findings);
+  check_switched_off(scene, coarsening, findings);
 }
 
 }  // namespace neve::app::health

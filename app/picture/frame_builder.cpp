@@ -24,6 +24,7 @@
 #include "app/scene/override.h"
 #include "app/setup/camera_path.h"
 #include "app/setup/curves.h"
+#include "app/support/film_rate.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/laws/law.h"
@@ -334,7 +335,7 @@ std::vector<std::string> FrameBuilder::slate() const {
   if (!scene_.title.empty()) lines.push_back(scene_.title);
   lines.push_back("frames " + std::to_string(scene::number_of(scene_, 0)) + " to " +
                   std::to_string(scene::number_of(scene_, scene::last_frame(scene_))) + ", " +
-                  rough_text(scene_.fps) + " a second; cells of " +
+                  plain_rate(scene_.fps) + " a second; cells of " +
                   rough_text(scene_.solver.cell_size) + " m; seed " + std::to_string(scene_.seed));
   for (const sim::Material& m : scene_.materials)
     lines.push_back(m.name + ": " + rough_text(m.density) + " kg/m3, E " +

@@ -115,7 +115,7 @@ void measure_fragments(const Occupied& occupied, std::size_t particle_count, Met
 }  // namespace
 
 std::optional<bool> has_broken(const Metrics& first, const Metrics& last) {
-  if (!(first.largest_fragment > 0)) return std::nullopt;
+  if (!(first.largest_fragment > 0 && last.largest_fragment > 0)) return std::nullopt;
   return last.largest_fragment < whole_share * first.largest_fragment;
 }
 

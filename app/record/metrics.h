@@ -24,7 +24,7 @@ struct Metrics {
 /// of one that bursts into a core, pieces and crumbs 1 to 8 % lie apart, since heaped pieces touch.
 inline constexpr double whole_share = 0.99;
 
-/// True if snow has broken between two frames of a run, nothing if it had no snow at first.
+/// True if snow has broken between two frames of a run, nothing if one of them has no snow.
 std::optional<bool> has_broken(const Metrics& first, const Metrics& last);
 
 /// Particles whose position is no number are left out.

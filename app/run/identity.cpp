@@ -89,6 +89,10 @@ std::string difference_from_run(const std::filesystem::path& folder,
     const auto version = run.at("version").get<std::string>();
     if (version != picture.version) return "it was made by version " + version;
     if (run.at("changes") != scene::to_json(picture.changes)) return "it had other changes";
+    const Json files = run.value("scene_files", Json::object());
+    for (const auto& [file, hash] : picture.files)
+      if (files.contains(file) && files.at(file) != hash)
+        return file + " has changed since the run began";
     if (of_simulation && run.value("simd", Json()) != simd)
       return "it was made with other instructions, " + run.at("simd").get<std::string>();
     if (of_simulation)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/scene/burn_in.h"
+#include "app/support/film_rate.h"
 #include "app/support/text.h"
 #include "render/frame/compose.h"
 
@@ -24,7 +25,7 @@ constexpr std::array<std::uint8_t, 3> value_color{240, 244, 250};
 std::string frames_text(const scene::Scene& scene) {
   std::string text = scene::range_text(scene);
   if (scene.handles > 0) text += fmt::format(", handles of {}", scene.handles);
-  return text + fmt::format(", {} a second", rough_text(scene.fps));
+  return text + fmt::format(", {} a second", plain_rate(scene.fps));
 }
 
 /// A label and its value each; those that nobody gave are left out.

@@ -9,6 +9,7 @@
 #include "app/advice/suggest.h"
 #include "app/scene/flat.h"
 #include "app/support/errors.h"
+#include "app/support/film_rate.h"
 #include "app/support/text.h"
 #include "app/support/time_code.h"
 
@@ -59,7 +60,7 @@ std::string fill(const std::string& text, const ValueOf& value_of) {
 }
 
 std::string no_time_code_text(const std::string& code, double fps) {
-  return toml::toml_string(code) + " is not a time code of " + rough_text(fps) + " frames a second";
+  return toml::toml_string(code) + " is not a time code of " + plain_rate(fps) + " frames a second";
 }
 
 struct Place {
@@ -89,7 +90,7 @@ std::string time_code_of(const Scene& scene, int number, double fps) {
 void require_time_code(const Scene& scene, double movie_fps) {
   const std::string& code = scene.shot.time_code;
   if (code.empty() || movie_fps == 0 || frames_of_time_code(code, movie_fps)) return;
-  throw UsageError("--movie-fps " + rough_text(movie_fps),
+  throw UsageError("--movie-fps " + plain_rate(movie_fps),
                    "shot.time_code = " + no_time_code_text(code, movie_fps),
                    "--set shot.time_code= with one that it has, or remove --movie-fps");
 }

@@ -17,15 +17,22 @@ std::string argument(double factor) {
   return "--coarsen " + toml::number_text(factor);
 }
 
-/// Looks for a number of the solver outside the range that its description gives.
+/// Looks for a number of the solver, or of a curve, outside the range that its description gives.
 struct RangeCheck {
   double factor;
+  const std::vector<Curve>& curves;
 
   void operator()(const char* key, double member, const char*, const Valid& valid, Change,
                   const char*) const {
-    if (valid.contains(member)) return;
-    throw UsageError(argument(factor),
-                     std::string("solver.") + key + " would become " + toml::number_text(member),
+    const std::string address = std::string("solver.") + key;
+    check(address, member, valid);
+    for (const Curve& curve : curves)
+      for (const CurveKeyframe& keyframe : curve.keyframes)
+        if (curve.parameter == address && keyframe.value) check(address, *keyframe.value, valid);
+  }
+  void check(const std::string& address, double value, const Valid& valid) const {
+    if (valid.contains(value)) return;
+    throw UsageError(argument(factor), address + " would become " + toml::number_text(value),
                      "expected " + valid.text_of_bounds());
   }
   template <class T>
@@ -52,8 +59,18 @@ void scale_settings(Scene& scene, double factor) {
     if (auto* points = std::get_if<sim::shapes::Points>(&body.shape.form))
       points->thinning = tidy(points->thinning * factor * factor * factor);
   sim::SolverSettings& s = scene.solver;
+  const bool is_ratio_per_step = s.flip_reference_dt == 0;
   for (double* grows : {&s.cell_size, &s.dt, &s.max_dt}) *grows = tidy(*grows * factor);
-  if (s.flip_reference_dt == 0) s.flip_ratio = tidy(std::pow(s.flip_ratio, factor));
+  if (is_ratio_per_step) s.flip_ratio = tidy(std::pow(s.flip_ratio, factor));
+  for (Curve& curve : scene.curves)
+    for (CurveKeyframe& keyframe : curve.keyframes) {
+      if (!keyframe.value) continue;
+      double& value = *keyframe.value;
+      if (curve.parameter == "solver.dt" || curve.parameter == "solver.max_dt")
+        value = tidy(value * factor);
+      if (curve.parameter == "solver.flip_ratio" && is_ratio_per_step)
+        value = tidy(std::pow(value, factor));
+    }
 }
 
 void refuse_empty_bodies(const Scene& scene, double factor) {
@@ -85,7 +102,7 @@ std::vector<std::string> coarsen(Scene& scene, double factor) {
     set.push_back("solver.threshold_cell=" + toml::number_text(scene.solver.cell_size));
   }
   scale_settings(scene, factor);
-  RangeCheck check{factor};
+  const RangeCheck check{factor, scene.curves};
   describe(check, scene.solver);
   return set;
 }

@@ -66,7 +66,7 @@ class Edit {
         line_end_(text.find("\r\n") == std::string::npos ? "\n" : "\r\n") {}
 
   void make() {
-    if (is_object_address(change_.address)) return make_object();
+    if (is_object_address(change_.address) || takes_item_away(change_)) return make_object();
     walk();
     const bool is_there = depth_ == words_.size();
     if (takes_away(change_)) return take_away();

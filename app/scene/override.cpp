@@ -284,6 +284,14 @@ bool takes_away(const Override& change) {
   return !info || !info->default_value;
 }
 
+bool takes_item_away(const Override& change) {
+  const Path words = words_of(change.address);
+  if (words.size() != 2 || !takes_away(change) || is_member_of_all(words[0], words[1]))
+    return false;
+  return is_object_list(words[0]) || words[0] == "curve" || words[0] == "export" ||
+         words[0] == "view" || words[0] == "mosaic";
+}
+
 void Override::fail(toml::Location where, const std::string& message,
                     const std::string& hint) const {
   if (!file.empty()) throw toml::SceneError(file, where.line, where.column, message, hint);
@@ -408,6 +416,19 @@ toml::Value object_in(const Override& change, const std::string& list, const std
   return value;
 }
 
+/// @throws UsageError or SceneError where there is none of the name
+void remove_item_called(toml::Table& root, const Override& change, const std::string& list,
+                        const std::string& name) {
+  const toml::Entry* entry = root.find(list);
+  if (entry && !std::holds_alternative<toml::Array>(entry->value.data)) return;  // told later
+  const Path names = entry ? item_names(entry->value) : Path{};
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    change.fail(change.key, "there is no " + list + " " + toml::toml_string(name),
+                names.empty() ? "the scene has none" : "expected " + list_of(names));
+  remove_item(root, list, static_cast<std::size_t>(found - names.begin()));
+}
+
 /// @return false where the address is none of an object, which the caller reports
 bool apply_object(toml::Table& root, const Override& change, int index) {
   const Path path = words_of(change.address);
@@ -420,10 +441,7 @@ bool apply_object(toml::Table& root, const Override& change, int index) {
   const bool is_there = found < names.size();
   if (!is_there && is_member_of_all(list, name)) return false;
   if (takes_away(change)) {
-    if (!is_there)
-      change.fail(change.key, "there is no " + list + " " + toml::toml_string(name),
-                  names.empty() ? "the scene has none" : "expected " + list_of(names));
-    remove_item(root, list, found);
+    remove_item_called(root, change, list, name);
     return true;
   }
   toml::Value object = object_in(change, list, name);
@@ -439,6 +457,8 @@ bool apply_object(toml::Table& root, const Override& change, int index) {
 
 void apply_override(toml::Table& root, const Override& change, int index) {
   if (is_object_address(change.address) && apply_object(root, change, index)) return;
+  if (const Path path = words_of(change.address); takes_item_away(change))
+    return remove_item_called(root, change, path[0], path[1]);
   const Target target = resolve(change, root);
   if (takes_away(change)) return remove(root, change.address, target.is_in_item);
   // An override precedes the file, so a preset set here replaces the numbers of the file.

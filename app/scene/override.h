@@ -51,6 +51,8 @@ toml::Value value_of(const Override& change, const std::string& type);
 
 /// True if the change removes an optional setting.
 bool takes_away(const Override& change);
+/// True for "none" at the address of a whole object, curve, view, mosaic or export.
+bool takes_item_away(const Override& change);
 
 /// "material", "snow", "hardening" for "material.snow.hardening".
 std::vector<std::string> words_of(const std::string& address);

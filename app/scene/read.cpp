@@ -117,6 +117,17 @@ void add_views(toml::Table& root, const std::vector<Override>& overrides) {
     if (toml::Table* table = std::get_if<toml::Table>(&view.data)) add_layers(*table);
 }
 
+/// A scene shows something: where no view is left, the one that scenes without views have.
+void keep_a_view(toml::Table& root) {
+  toml::Entry* entry = root.find("view");
+  toml::Array* views = entry ? std::get_if<toml::Array>(&entry->value.data) : nullptr;
+  if (entry && !(views && views->empty())) return;
+  toml::Table view = table_of(first_view);
+  add_layers(view);
+  if (!entry) entry = &root.entries.emplace_back(toml::Entry{"view", {}, {}});
+  entry->value.data = toml::Array{toml::Value{std::move(view)}};
+}
+
 /// Adds the built-in material and views to the document, so that --set finds them too.
 void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
   if (!root.find("material")) root.entries.push_back({"material", {}, {toml::Table{}}});
@@ -156,6 +167,7 @@ Scene scene_of(toml::Table root, const std::string& name, const std::string& bas
     for (std::size_t k = 0; k < overrides.size(); ++k)
       if (is_preset_address(overrides[k].address) == is_turn_of_presets)
         apply_override(root, overrides[k], static_cast<int>(k));
+  keep_a_view(root);
   Reading reading{{name, base_dir, overrides}, {}};
   Scene scene;
   Reader(reading, root, "").read([&](auto& visit) { describe(visit, scene); });

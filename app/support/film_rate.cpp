@@ -22,6 +22,13 @@ double exact_rate(double fps) {
   return fps;
 }
 
+std::string plain_rate(double fps) {
+  const double rounded = std::round(1000 * fps) / 1000;
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, rounded > 0 ? rounded : fps);
+  return {buffer, end.ptr};
+}
+
 std::string rate_text(double fps) {
   for (const int n : whole_rates)
     if (std::abs(fps - slowed(n)) < 1e-9) return std::to_string(n * 1000) + "/1001";

@@ -9,6 +9,9 @@ namespace neve::app {
 /// end in decimals; other rates are what they are.
 double exact_rate(double fps);
 
+/// "23.976", "24", "12.5": as people write it.
+std::string plain_rate(double fps);
+
 /// "24000/1001", "24", "12.5": as ffmpeg reads it.
 std::string rate_text(double fps);
 

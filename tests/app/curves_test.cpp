@@ -6,6 +6,8 @@
 
 #include "app/forecast/forecast.h"
 #include "app/health/check.h"
+#include "app/health/findings.h"
+#include "app/scene/coarsen.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
@@ -215,6 +217,83 @@ TEST(Curves, ChangesOfWhatFollowsOneAreRefused) {
   }
   setup::refuse_followers(scene,
                           scene::parse_overrides({"solver.cfl=0.3", "curve.fall.keyframes=[]"}));
+}
+
+TEST(Curves, WithoutEffectAreTold) {
+  const auto found = [](const std::string& more) {
+    const scene::Scene scene = falling(more);
+    std::vector<health::Finding> findings;
+    health::check_unused(scene, 1, findings);
+    health::check_idle(scene, {}, findings);
+    std::string text;
+    for (const health::Finding& finding : findings) text += health::sentence(finding) + "\n";
+    return text;
+  };
+  const auto curve = [](const std::string& parameter) {
+    return "[[curve]]\nname = \"c\"\nparameter = \"" + parameter +
+           "\"\nkeyframes = [{ time = 0, value = 0.01 }, { time = 0.2, value = 0.02 }]\n";
+  };
+  EXPECT_NE(found(curve("solver.cfl")).find("follows 2 keyframes"), std::string::npos);
+  const std::string why = ", which curve c sets, has no effect: ";
+  for (const char* parameter :
+       {"solver.dt", "material.snow.critical_stretch", "solver.solve_tolerance"}) {
+    const std::string text = found(curve(parameter));
+    EXPECT_NE(text.find(why), std::string::npos) << parameter << ": " << text;
+    EXPECT_EQ(text.find("keyframes"), std::string::npos) << text;
+  }
+  scene::Scene fixed = falling(curve("solver.max_dt"));
+  fixed.solver.time_step = sim::TimeStep::fixed;
+  EXPECT_NE(health::why_idle(fixed, "solver.max_dt"), "");
+  EXPECT_NE(health::why_idle(fixed, "solver.cfl"), "");
+  EXPECT_EQ(health::why_idle(fixed, "solver.dt"), "");
+  fixed.solver.beta = 0.5;
+  EXPECT_EQ(health::why_idle(fixed, "solver.cfl"), "") << "solves that are given up take parts";
+  // Dust is made by a material, or by the curve of one.
+  scene::Scene dustless = falling(curve("dust.speed"));
+  EXPECT_NE(health::why_idle(dustless, "dust.speed"), "");
+  EXPECT_EQ(health::why_idle(falling(curve("material.snow.dust")), "dust.speed"), "");
+}
+
+/// Values without effect have none: the same bits.
+TEST(Curves, OfIdleParametersChangeNoBit) {
+  const auto hash_with = [](const std::string& parameter, sim::TimeStep time_step) {
+    scene::Scene scene = falling(parameter.empty() ? ""
+                                                   : "[[curve]]\nparameter = \"" + parameter +
+                                                         "\"\nkeyframes = [{ time = 0, value = "
+                                                         "2e-4 }, { time = 0.1, value = 1e-3 }]\n");
+    scene.solver.time_step = time_step;
+    scene.solver.dt = 4e-4;
+    EXPECT_TRUE(parameter.empty() || !health::why_idle(scene, parameter).empty()) << parameter;
+    Timeline run(scene, {}, seeded(scene), 1);
+    EXPECT_TRUE(run.go_to(2 / 24.0));
+    return run.simulation().state_hash();
+  };
+  const std::uint64_t fixed = hash_with("", sim::TimeStep::fixed),
+                      adaptive = hash_with("", sim::TimeStep::adaptive);
+  EXPECT_EQ(hash_with("solver.max_dt", sim::TimeStep::fixed), fixed);
+  EXPECT_EQ(hash_with("solver.solve_tolerance", sim::TimeStep::adaptive), adaptive);
+  EXPECT_EQ(hash_with("solver.dt", sim::TimeStep::adaptive), adaptive);
+  EXPECT_EQ(hash_with("material.snow.critical_stretch", sim::TimeStep::adaptive), adaptive);
+}
+
+TEST(Curves, OfStepsGrowWithTheCells) {
+  const std::string text =
+      "[[curve]]\nparameter = \"solver.max_dt\"\n"
+      "keyframes = [{ time = 0, value = 1e-3 }, { time = 0.1, value = 2e-3 }]\n"
+      "[[curve]]\nparameter = \"solver.flip_ratio\"\n"
+      "keyframes = [{ time = 0, value = 0.9 }, { time = 0.1, value = 0.95 }]\n";
+  scene::Scene scene = falling(text);
+  scene::coarsen(scene, 3);
+  EXPECT_EQ(*scene.curves[0].keyframes[1].value, 6e-3);
+  EXPECT_EQ(*scene.curves[1].keyframes[0].value, 0.9) << "it is of flip_reference_dt";
+  scene = falling(text);
+  scene.solver.flip_reference_dt = 0;
+  scene::coarsen(scene, 3);
+  EXPECT_NEAR(*scene.curves[1].keyframes[0].value, 0.9 * 0.9 * 0.9, 1e-11);
+  // And where a step would be longer than any may be, that is told.
+  scene =
+      falling("[[curve]]\nparameter = \"solver.dt\"\nkeyframes = [{ time = 0, value = 0.5 }]\n");
+  EXPECT_THROW(scene::coarsen(scene, 3), UsageError);
 }
 
 }  // namespace

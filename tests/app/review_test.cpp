@@ -64,5 +64,23 @@ TEST(ReviewTimeline, NamesLinksWhereThereAreSome) {
   EXPECT_EQ(media["name_suffix"], ".png");
 }
 
+TEST(ReviewTimeline, RunsHaveTheirOwnRates) {
+  app::sweep::store::Manifest manifest = two_runs();
+  EXPECT_TRUE(manifest.has_one_rate());
+  manifest.runs[1].settings.push_back({"fps", "23.976"});
+  EXPECT_FALSE(manifest.has_one_rate());
+  std::vector<app::sweep::store::RunResult> results(2);
+  results[0].frames = results[1].frames = {1001, 1002};
+  const Json timeline =
+      app::parse_json(std::string_view(app::sweep::sheet::otio_timeline(manifest, results, false)));
+  const Json& clips = timeline["tracks"]["children"][0]["children"];
+  EXPECT_EQ(clips[0]["media_reference"]["rate"], 25.0);
+  for (const char* key : {"source_range", "media_reference"}) {
+    const Json& range = key[0] == 's' ? clips[1][key] : clips[1][key]["available_range"];
+    EXPECT_EQ(range["duration"]["rate"], 24000 / 1001.0);
+  }
+  EXPECT_EQ(clips[1]["markers"][0]["marked_range"]["duration"]["rate"], 24000 / 1001.0);
+}
+
 }  // namespace
 }  // namespace neve::test

@@ -149,5 +149,39 @@ TEST(Objects, AListInOnePlaceIsLeftToItsAuthor) {
   EXPECT_THROW(edited_objects({added_egg}, text), UsageError);
 }
 
+TEST(Objects, CurvesViewsMosaicsAndExportsAreTakenAway) {
+  const std::string text = std::string(objects_scene) + R"(
+# It thaws.
+[[curve]]
+name = "thaw"
+parameter = "material.snow.hardening"
+keyframes = [{ time = 0, value = 5 }]
+[[view]]
+name = "p"
+layers = ["particles"]
+[[export]]
+format = "ply"
+)";
+  const scene::Scene scene =
+      with_objects({"curve.thaw=none", "view.p=none", "export.1=none"}, text);
+  EXPECT_TRUE(scene.curves.empty());
+  EXPECT_TRUE(scene.exports.empty());
+  ASSERT_EQ(scene.views.size(), 1u) << "a scene shows something";
+  EXPECT_EQ(scene.views[0].name, scene::read_scene_text(objects_scene, "s.toml").views[0].name);
+  for (const char* set : {"curve.thaw=none", "view.p=none", "export.1=none"}) {
+    const scene::Scene edited = scene::read_scene_text(edited_objects({set}, text), "s.toml");
+    EXPECT_EQ(scene::write_scene(edited), scene::write_scene(with_objects({set}, text))) << set;
+  }
+  EXPECT_EQ(object_error("curve.thaw=none"),
+            "--set curve.thaw=none: error: there is no curve \"thaw\"; the scene has none");
+}
+
+/// Sweeps, cards and comparisons take the first view of a scene.
+TEST(Objects, AnEmptyListOfViewsIsNoList) {
+  const scene::Scene scene =
+      scene::read_scene_text(std::string("view = []\n") + objects_scene, "s");
+  EXPECT_EQ(scene.views.size(), 1u);
+}
+
 }  // namespace
 }  // namespace neve::app

@@ -196,6 +196,10 @@ TEST(FilmRates, RatesOfTelevisionAreExact) {
   EXPECT_EQ(fps("25"), 25);
   EXPECT_EQ(rate_text(24000.0 / 1001), "24000/1001");
   EXPECT_EQ(rate_text(12.5), "12.5");
+  EXPECT_EQ(plain_rate(24000.0 / 1001), "23.976");
+  EXPECT_EQ(plain_rate(30000.0 / 1001), "29.97");
+  EXPECT_EQ(plain_rate(120), "120");
+  EXPECT_EQ(plain_rate(1e-4), "1e-04");
 }
 
 }  // namespace

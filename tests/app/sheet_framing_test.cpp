@@ -209,5 +209,20 @@ TEST(ShippedSheets, EverySubjectTakesAQuarterOfTheWidthOfItsTile) {
   }
 }
 
+TEST_F(SheetFraming, RunsKeepTheTurnOfTheirOwnCamera) {
+  const plan::SweepPlan plan = framed("", "\"camera.orbit\" = [0, 180]");
+  EXPECT_EQ(plan.runs[0].scene.camera->orbit, 0);
+  EXPECT_EQ(plan.runs[1].scene.camera->orbit, 180);
+  EXPECT_EQ(plan.runs[0].scene.camera->eye, plan.runs[1].scene.camera->eye);
+  const plan::SweepPlan near = framed("", "\"camera.push_in\" = [false, true]");
+  EXPECT_TRUE(near.runs[0].scene.camera->keyframes.empty());
+  EXPECT_FALSE(near.runs[1].scene.camera->keyframes.empty());
+}
+
+TEST_F(SheetFraming, NumbersOfFramesAreOfAllRuns) {
+  EXPECT_THROW(framed("", "first_frame = [0, 1001]"), scene::toml::SceneError);
+  EXPECT_THROW(framed("", "handles = [0, 4]"), scene::toml::SceneError);
+}
+
 }  // namespace
 }  // namespace neve::app::sweep

@@ -61,6 +61,8 @@ TEST(Metrics, SnowHasBrokenOnceAHundredthOfItsLargestPieceIsApart) {
   EXPECT_EQ(app::record::has_broken(first, last), false);
   last.largest_fragment = 0.494;
   EXPECT_EQ(app::record::has_broken(first, last), true);
+  last.largest_fragment = 0;
+  EXPECT_FALSE(app::record::has_broken(first, last).has_value()) << "a sink has taken all of it";
   last.largest_fragment = 1;  // they cling to each other
   EXPECT_EQ(app::record::has_broken(first, last), false);
 }

@@ -266,6 +266,14 @@ TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
   EXPECT_TRUE(contains(neve(high).output,
                        "ball meets nothing until the scene ends, at 0.25 s; "
                        "nearest is"));
+  // Nor does one that a sink takes on its way fly until the end.
+  folder.write("scene.toml",
+               scene("",
+                     pile + "[[sink]]\nname = \"drain\"\nshape = { box = { center = [1.5, 1, "
+                            "0], size = [0.5, 3, 3] } }\n",
+                     6));
+  EXPECT_FALSE(contains(neve(high).output, "meets nothing"));
+  folder.write("scene.toml", scene("", pile, 6));
   // neve render says it too, before it starts.
   const auto render = neve({"render", "scene.toml", "--set", "body.ball.velocity=[9, 5, 0]",
                             "--frames", "0", "--size", "64x36"});

@@ -68,6 +68,7 @@ TEST_F(Deforming, ARunContinuesToTheBitAndOnlyWithItsFiles) {
   const auto refused = neve({"render", "flap.toml", "--out", "parts", "--resume"});
   EXPECT_NE(refused.exit_code, 0);
   EXPECT_TRUE(contains(refused.errors, "is a different run")) << refused.errors;
+  EXPECT_TRUE(contains(refused.errors, ".obj has changed since the run began")) << refused.errors;
 }
 
 TEST_F(Deforming, APictureOfAMovedProjectFindsItsNumberedFiles) {

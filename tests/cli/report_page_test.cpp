@@ -212,11 +212,16 @@ class ReportPage : public testing::Test {
 };
 
 TEST_F(ReportPage, ArrowKeysWalkAlongEveryAxisAndThroughTime) {
-  open(Study({3, 3, 2}, 3));
+  Study study({3, 3, 2}, 3);
+  study.manifest.first_number = 1;
+  study.manifest.runs[6].settings.push_back({"fps", "12"});
+  open(study);
   EXPECT_EQ(picture(), "runs/0000/particles/0002.png");
+  EXPECT_EQ(text_of("#moment-text"), "frame 2, 0.042 s") << "frame 1 is at 0 s";
   focus("#axis-0");
   press_right();
   EXPECT_EQ(picture(), "runs/0006/particles/0002.png");
+  EXPECT_EQ(text_of("#moment-text"), "frame 2, 0.083 s") << "its frames are longer";
   EXPECT_EQ(value("document.querySelector('#axis-0').getAttribute('aria-valuetext')"), "3162");
   focus("#axis-1");
   press_right();

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -19,13 +18,6 @@ namespace neve::app::sweep::jobs {
 namespace fs = std::filesystem;
 
 namespace {
-
-double fps_of(const store::Manifest& manifest, const Run& run) {
-  const std::string given = run.value("fps");
-  double fps = manifest.fps;
-  std::from_chars(given.data(), given.data() + given.size(), fps);
-  return fps;
-}
 
 /// Few words for the rule that broke; a rule that is not known here is named.
 std::string rule_text(const std::string& rule, double value) {
@@ -49,7 +41,7 @@ void judge_divergence(const store::Manifest& manifest, const Run& run, const fs:
     status.reason = incident.at("sentence").get<std::string>();
     const double time = incident.value("time", 0.0);
     const auto frame =
-        manifest.first_number + static_cast<int>(std::floor(time * fps_of(manifest, run)));
+        manifest.first_number + static_cast<int>(std::floor(time * manifest.fps_of(run)));
     const Json value = incident.value("value", Json());
     status.short_reason = fmt::format(
         "frame {}: {}", frame,

@@ -53,15 +53,30 @@ void widen(scene::View& shared, scene::View own, scene::View resolved, const sce
   }
 }
 
+/// The run's camera in the place of the shared one; nothing where it frames otherwise.
+/// @param base  that of the sweep's scene, which was framed
+std::optional<scene::CameraSettings> placed(const scene::CameraSettings& own,
+                                            const scene::CameraSettings& base,
+                                            const std::optional<scene::CameraSettings>& shared) {
+  if (!shared || !own.keyframes.empty() || own.fov != shared->fov || own.up != shared->up ||
+      own.push_in != base.push_in)
+    return std::nullopt;
+  scene::CameraSettings camera = *shared;
+  camera.orbit = own.orbit;
+  camera.turntable = own.turntable;
+  camera.follow = own.follow;
+  return camera;
+}
+
 /// Fills in the automatic values of the run.
-void apply(const scene::Scene& shared, scene::Scene& scene) {
+/// @param base  the sweep's scene
+void apply(const scene::Scene& base, const scene::Scene& shared, scene::Scene& scene) {
   if (setup::needs_framing(scene)) {
-    if (!scene.camera || !scene.camera->eye) {
-      const scene::CameraSettings own = scene.camera.value_or(scene::CameraSettings{});
-      if (shared.camera && own.keyframes.empty() && own.fov == shared.camera->fov &&
-          own.up == shared.camera->up)
-        scene.camera = shared.camera;
-    }
+    const scene::CameraSettings none;
+    if (const auto camera =
+            placed(scene.camera.value_or(none), base.camera.value_or(none), shared.camera);
+        camera && !(scene.camera && scene.camera->eye))
+      scene.camera = camera;
     if (!scene.views[0].camera) scene.views[0].camera = shared.views[0].camera;
   }
   scene::View from = shared.views[0];
@@ -192,7 +207,7 @@ void share_camera_and_ranges(SweepPlan& plan, int cores) {
     frame_each(std::move(items), cores);
   }
   const auto complete = [&](PlannedRun& item) {
-    apply(*shared, item.scene);
+    apply(plan.base, *shared, item.scene);
     setup::resolve(item.scene, static_cast<std::size_t>(item.plan.particles));
   };
   for (PlannedRun& item : plan.runs) complete(item);

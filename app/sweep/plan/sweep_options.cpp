@@ -9,6 +9,7 @@
 #include "app/run/render_options.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
+#include "app/support/out_folder.h"
 #include "app/support/text.h"
 #include "app/sweep/read/sweep_leaf.h"
 #include "app/timeline/origin.h"
@@ -264,6 +265,11 @@ void describe(options::Command& visit, SweepOptions& o) {
     if (o.file.empty())
       throw UsageError("sweep", "which sweep?",
                        "give a sweep file, or a scene and -p ADDRESS=LIST");
+    if (is_sweep_folder(o.file))
+      throw UsageError(
+          "sweep", o.file + " is the folder of a sweep, not a scene",
+          "name the sweep file or the scene that it was made from; neve sweep collect " +
+              shell_path(o.file) + " makes its sheets again");
     if (!o.from && timeline::is_folder(o.file))
       throw UsageError("sweep", o.file + " is a folder, not a scene",
                        "to vary its run from a time on, add --from TIME");

@@ -252,6 +252,20 @@ void refuse_duplicates(const Sweep& sweep, bool is_forked) {
   }
 }
 
+/// A frame of a sheet is the same frame of all runs.
+void refuse_other_numbers(const Sweep& sweep) {
+  const auto check = [](const scene::Override& setting) {
+    if (setting.address == "first_frame" || setting.address == "handles")
+      setting.fail(
+          setting.key,
+          setting.address + " numbers the frames: a sheet shows the same frame of all runs",
+          "--set " + setting.address + "=... sets it for all of them");
+  };
+  for (const scene::Override* setting : varied(sweep)) check(*setting);
+  for (const Run& row : sweep.rows)
+    for (const scene::Override& setting : row.settings) check(setting);
+}
+
 /// Seeds are of all runs.
 void refuse_other_draws(const Sweep& sweep) {
   const std::string number = std::to_string(sweep.settings.seeds);
@@ -301,6 +315,7 @@ Sweep parse_sweep(const std::string& text, const std::string& file, const SweepC
     sweep.fixed.push_back(scene::parse_override(argument));
   if (changes.seeds > 0) sweep.settings.seeds = changes.seeds;
   refuse_duplicates(sweep, changes.is_forked || !sweep.settings.fork.empty());
+  refuse_other_numbers(sweep);
   if (sweep.settings.seeds > 0) refuse_other_draws(sweep);
   if (!is_sweep && sweep.axes.empty())
     throw UsageError("", file + " is a scene, and no parameter varies",

@@ -262,6 +262,7 @@ Json report_data(const std::string& folder, const store::Manifest& manifest,
                  const std::vector<predict::Prediction>& predictions) {
   Json data;
   data["fps"] = manifest.fps;
+  data["firstNumber"] = manifest.first_number;
   StarOptions star;
   star.folder = folder;
   data["star"] = options::shell_line(options::words_of(star));
@@ -283,7 +284,9 @@ Json report_data(const std::string& folder, const store::Manifest& manifest,
       known.full = &variant.run;
       known.full_broken = full[k]->has_broken;
     }
-    data["rows"].push_back(row_of(folder, manifest, manifest.runs[k], results[k], known));
+    const Run& run = manifest.runs[k];
+    data["rows"].push_back(row_of(folder, manifest, run, results[k], known));
+    if (manifest.fps_of(run) != manifest.fps) data["rows"].back()["fps"] = manifest.fps_of(run);
   }
   return data;
 }

@@ -40,12 +40,11 @@ Json value_json(const std::string& text) {
   return number ? Json(*number) : Json(text);
 }
 
-Json marker_json(const store::Manifest& manifest, const Parameter& parameter,
-                 const std::string& value, double first) {
+Json marker_json(const Parameter& parameter, const std::string& value, double first, double fps) {
   Json json = schema("Marker.2");
   json["name"] = parameter.address + " = " + value;
   json["color"] = "GREEN";
-  json["marked_range"] = range_json(first, 1, manifest.fps);
+  json["marked_range"] = range_json(first, 1, fps);
   json["metadata"]["neve"] = {
       {"address", parameter.address}, {"value", value_json(value)}, {"unit", parameter.unit}};
   return json;
@@ -54,16 +53,16 @@ Json marker_json(const store::Manifest& manifest, const Parameter& parameter,
 Json media_json(const store::Manifest& manifest, const Run& run, const store::RunResult& result,
                 bool has_links) {
   const int first = result.frames.front();
-  const double count = result.frames.back() - first + 1;
+  const double count = result.frames.back() - first + 1, fps = manifest.fps_of(run);
   Json json = schema("ImageSequenceReference.1");
-  json["available_range"] = range_json(first, count, manifest.fps);
+  json["available_range"] = range_json(first, count, fps);
   json["target_url_base"] =
       has_links ? std::string("review/") : "runs/" + run.folder + "/" + manifest.view + "/";
   json["name_prefix"] = has_links ? review_prefix(run) : "";
   json["name_suffix"] = ".png";
   json["start_frame"] = first;
   json["frame_step"] = 1;
-  json["rate"] = manifest.fps;
+  json["rate"] = fps;
   json["frame_zero_padding"] = 4;
   json["missing_frame_policy"] = "hold";
   json["metadata"] = Json::object();
@@ -82,15 +81,16 @@ Json metrics_json(const store::RunResult& result) {
 Json clip_json(const store::Manifest& manifest, const Run& run, const store::RunResult& result,
                bool has_links) {
   const int first = result.frames.front();
+  const double fps = manifest.fps_of(run);
   Json json = schema("Clip.1");
   json["name"] = run.label.empty() ? store::run_text(run) : run.label;
-  json["source_range"] = range_json(first, result.frames.back() - first + 1, manifest.fps);
+  json["source_range"] = range_json(first, result.frames.back() - first + 1, fps);
   json["media_reference"] = media_json(manifest, run, result, has_links);
   json["effects"] = Json::array();
   json["markers"] = Json::array();
   for (const Parameter& parameter : manifest.parameters)
     if (const std::string value = run.value(parameter.address); !value.empty())
-      json["markers"].push_back(marker_json(manifest, parameter, value, first));
+      json["markers"].push_back(marker_json(parameter, value, first, fps));
   json["metadata"]["neve"] = {{"run", run.index},
                               {"state", store::name(result.status.state)},
                               {"metrics", metrics_json(result)}};

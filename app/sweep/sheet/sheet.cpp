@@ -316,14 +316,11 @@ namespace {
 
 /// "frame 12   t = 0.500 s"; runs of other lengths or rates have their own moments.
 std::string moment_text(const store::Manifest& manifest, int frame) {
-  const auto varies = [&](const char* address) {
-    return std::ranges::any_of(manifest.runs,
-                               [&](const Run& run) { return !run.setting(address).empty(); });
-  };
   const bool are_shorter =
       std::ranges::any_of(manifest.runs, [&](const Run& run) { return run.frames.last < frame; });
   return "frame " + std::to_string(frame) +
-         (varies("fps") ? "" : "   t = " + fixed_text(manifest.time_of(frame), 3) + " s") +
+         (manifest.has_one_rate() ? "   t = " + fixed_text(manifest.time_of(frame), 3) + " s"
+                                  : "") +
          (are_shorter ? ", or the last of a shorter run" : "");
 }
 
@@ -373,13 +370,18 @@ render::Image SheetMaker::strips_of(const std::vector<int>& frames, const SnowIn
     const std::size_t run = first + place.run / frames.size();
     const Tile tile{&manifest_.runs[run], &results_[run], frames[place.run % frames.size()],
                     place.x, place.y};
-    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame, newest_);
+    const int last = tile.run->frames.last;
+    const bool is_dark = is_late(*tile.run, *tile.result, tile.frame, newest_),
+               is_over = !is_dark && last < tile.frame;
     pictures.push_back(
-        {tile.x, tile.y, tile_picture(tile, layout.tile_width, layout.tile_height, is_dark)});
+        {tile.x, tile.y,
+         tile_picture(tile, layout.tile_width, layout.tile_height, is_dark || is_over)});
     if (tile.result->frames.empty())
       add_missing(layout, tile, words);
     else if (is_dark)
       add_state(layout, tile, words);
+    else if (is_over)
+      add_middle(layout, tile, "ended at frame " + std::to_string(last), seal_grey, words);
     else if (!snow.has_snow(run, tile.frame))
       add_middle(layout, tile, "no snow in the picture", seal_grey, words);
   }
@@ -398,9 +400,11 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames, std::size
   grid.tile_height =
       std::max(1, static_cast<int>(std::lround(1.0 * grid.tile_width * manifest_.tile_height /
                                                manifest_.tile_width)));
-  store::AxisLabels names{"", {}}, times{"t", {}};
+  const bool are_at_once = manifest_.has_one_rate();
+  store::AxisLabels names{"", {}}, times{are_at_once ? "t" : "frame", {}};
   for (const int frame : frames)
-    times.values.push_back(fixed_text(manifest_.time_of(frame), 3) + " s");
+    times.values.push_back(are_at_once ? fixed_text(manifest_.time_of(frame), 3) + " s"
+                                       : std::to_string(frame));
   grid.runs.clear();
   for (std::size_t r = 0; r < count; ++r) {
     names.values.push_back(strip_name(named_, manifest_.runs[first + r]));

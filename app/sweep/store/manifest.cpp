@@ -17,6 +17,8 @@
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/support/errors.h"
+#include "app/support/film_rate.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 #include "app/sweep/read/sweep.h"
 #include "app/sweep/read/sweep_leaf.h"
@@ -26,6 +28,8 @@
 namespace neve::app::sweep::store {
 
 namespace {
+
+constexpr double max_fps = 1e9;  // of a file from anyone
 
 std::filesystem::path manifest_path(const std::filesystem::path& folder) {
   return folder / "manifest.json";
@@ -239,7 +243,7 @@ void check_values(const Manifest& m) {
     return axis >= -1 && axis < static_cast<int>(m.axes.size());
   };
   check(is_side(m.tile_width) && is_side(m.tile_height), "its tile size is invalid");
-  check(m.fps > 0 && m.fps < 1e9, "its frames per second are invalid");
+  check(m.fps > 0 && m.fps < max_fps, "its frames per second are invalid");
   check(std::abs(m.first_number) <= output::max_frame, "the number of its first frame is invalid");
   check(is_axis(m.columns) && is_axis(m.rows) && m.wrap >= 0, "its columns or rows name no axis");
   check(output::is_plain_name(m.view), "the name of its view is not a folder name");
@@ -325,6 +329,15 @@ double Manifest::coarsening_of(const Run& run) const {
   for (const Variant& variant : variants)
     if (&variant.run == &run) return variant.coarsening;
   return coarsening;
+}
+
+double Manifest::fps_of(const Run& run) const {
+  const double own = finite_number(run.value("fps")).value_or(fps);
+  return own > 0 && own < max_fps ? exact_rate(own) : fps;
+}
+
+bool Manifest::has_one_rate() const {
+  return std::ranges::all_of(runs, [&](const Run& run) { return fps_of(run) == fps; });
 }
 
 int Manifest::first_frame() const {

@@ -65,9 +65,13 @@ struct Manifest {
   std::string sources;  ///< of the program, see Build; "" in files of before they had it
   std::string version, name, title, sweep_file, scene_file, view;
   int tile_width = 480, tile_height = 270;
-  double fps = 24;
+  double fps = 24;       ///< of runs that set none
   int first_number = 0;  ///< of the frame at time 0
-  double time_of(int number) const { return (number - first_number) / fps; }  ///< s
+  double fps_of(const Run& run) const;
+  /// False where a frame of one run is at another time than the same frame of another.
+  bool has_one_rate() const;
+  /// s, of runs that set no rate.
+  double time_of(int number) const { return (number - first_number) / fps; }
   int columns = -1, rows = -1;  ///< axes asked for; -1: automatic
   int wrap = 0;
   std::string tile_label;  ///< differences, name, none

@@ -101,14 +101,17 @@ void start_study(ViewerState& state) {
 
 void draw_form(ViewerState& state) {
   const session::LiveFrame& live = *state.live;
-  wrapped_text("Runs that begin at exactly frame " + std::to_string(live.frame) + ", " +
+  wrapped_text("Runs that begin at exactly frame " +
+               std::to_string(scene::number_of(*live.scene, live.frame)) + ", " +
                rough_text(live.frame / live.scene->fps) +
                " s, with the state shown here and the changes made before it.");
   draw_axes(state);
   if (state.study.axes.size() < max_axes) draw_found(state);
   ImGui::Separator();
   ImGui::SetNextItemWidth(9 * em());
-  ImGui::InputInt("until frame", &state.study.last_frame);
+  int last_number = scene::number_of(*live.scene, state.study.last_frame);
+  if (ImGui::InputInt("until frame", &last_number))
+    state.study.last_frame = scene::frame_of(*live.scene, last_number);
   note_label("until frame");
   ImGui::Checkbox("longer steps, for a quick look", &state.study.has_longer_steps);
   note_label("longer steps, for a quick look");

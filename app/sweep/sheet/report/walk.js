@@ -109,8 +109,12 @@ function setPlaying(isOn) {
   by('play').setAttribute('aria-pressed', String(isOn));
 }
 
+/** The frame, and its time where it is the same in all runs that are shown. */
 function momentText(frame) {
-  return 'frame ' + frame + (study.fps > 0 ? `, ${(frame / study.fps).toFixed(3)} s` : '');
+  const shown = state.mode === 'one' ? [state.run] : [runAt('a'), runAt('b')];
+  const [fps, ...others] = new Set(shown.map(at => rows[at].fps ?? study.fps));
+  return 'frame ' + frame +
+    (fps > 0 && others.length === 0 ? `, ${((frame - study.firstNumber) / fps).toFixed(3)} s` : '');
 }
 
 function startTime() {
@@ -119,7 +123,7 @@ function startTime() {
   by('time').hidden = frames.length < 2;
   moment.addEventListener('input', () => { setPlaying(false); showFrame(Number(moment.value)); });
   by('play').addEventListener('click', () => setPlaying(playTimer === 0));
-  addPainter(null, ['frame'], () => {
+  addPainter(null, ['frame', 'run', 'mode'], () => {
     moment.value = frames.indexOf(state.frame);
     by('moment-text').textContent = momentText(state.frame);
     moment.setAttribute('aria-valuetext', momentText(state.frame));
