@@ -257,7 +257,8 @@ def read_ply(path):
 def read_csv(path):
     """A state that neve export wrote as csv. Numbers are double; .astype("f4") makes the bits of
     a run in single precision of them, as the other formats have them."""
-    return State(_joined(np.genfromtxt(path, delimiter=",", names=True, deletechars="")))
+    rows = np.genfromtxt(path, delimiter=",", names=True, deletechars="")
+    return State(_joined(np.atleast_1d(rows)))  # one row alone has no dimension
 
 
 _readers = {"npz": read_npz, "ply": read_ply, "csv": read_csv}

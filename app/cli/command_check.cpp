@@ -169,7 +169,8 @@ void print_findings(const health::Check& check, bool has_notes) {
 forecast::FastLook possible_look(const run::RenderOptions& options, const run::RenderJob& job) {
   if (job.fast) return *job.fast;
   return forecast::fast_look(job.scene, job.frames.last,
-                             scene::addresses_of(scene::parse_overrides(options.overrides)));
+                             scene::addresses_of(scene::parse_overrides(options.overrides)),
+                             options.coarsening.value_or(1));
 }
 
 /// Says where there is none to write.

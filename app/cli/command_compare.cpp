@@ -1,5 +1,8 @@
+#include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -61,32 +64,45 @@ int compare_pictures(const CompareOptions& options) {
   return is_same ? exit_ok : exit_check_failed;
 }
 
-/// Frame number to state hash.
-std::map<int, std::string> read_hashes(const fs::path& folder) {
+struct KnownState {
+  std::string hash;
+  double time = 0;  ///< s
+};
+
+/// By the number of the frame.
+std::map<int, KnownState> read_states(const fs::path& folder) {
   const fs::path file = output::run_json_path(folder);
   const std::vector<std::uint8_t> bytes = output::read_json_bytes(file);
-  std::map<int, std::string> hashes;
+  std::map<int, KnownState> states;
   try {
     const Json run = parse_json(bytes);
     for (const Json& frame : run.at("frames"))
-      hashes[whole_number<int>(frame.at("frame"))] = frame.at("state_hash").get<std::string>();
+      states[whole_number<int>(frame.at("frame"))] = {frame.at("state_hash").get<std::string>(),
+                                                      frame.at("time").get<double>()};
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
                 file.string());
   }
-  return hashes;
+  return states;
 }
 
 int compare_runs(const CompareOptions& options) {
-  const auto a = read_hashes(options.a), b = read_hashes(options.b);
+  const auto a = read_states(options.a), b = read_states(options.b);
   int compared = 0, first_different = -1;
-  for (const auto& [frame, hash] : a) {
+  for (const auto& [frame, state] : a) {
     const auto other = b.find(frame);
     if (other == b.end()) continue;
+    const double apart = std::abs(other->second.time - state.time);
+    if (apart > 1e-9 * std::max(1.0, std::abs(state.time)))
+      throw UsageError(
+          "",
+          fmt::format("frame {} of {} is at {} s and that of {} at {} s", frame, options.a,
+                      rough_text(state.time), options.b, rough_text(other->second.time)),
+          "compare runs with the same fps and first_frame");
     ++compared;
-    if (first_different < 0 && other->second != hash) first_different = frame;
+    if (first_different < 0 && other->second.hash != state.hash) first_different = frame;
   }
   const bool is_same = first_different < 0 && compared > 0 && a.size() == b.size() &&
                        compared == static_cast<int>(a.size());

@@ -9,6 +9,7 @@
 #include "app/forecast/forecast.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/coarse_run.h"
+#include "app/setup/curves.h"
 #include "app/support/text.h"
 #include "sim/laws/law.h"
 
@@ -61,13 +62,17 @@ struct Copied {
 /// A scene that becomes a faster one, and its changes.
 class Candidate {
  public:
-  Candidate(const scene::Scene& scene, const std::vector<std::string>& chosen)
-      : scene_(scene), chosen_(chosen) {}
+  /// @param coarsening  the N of --coarsen, which has made the scene what it is
+  Candidate(const scene::Scene& scene, const std::vector<std::string>& chosen, double coarsening)
+      : scene_(scene), chosen_(chosen), coarsening_(coarsening) {}
 
-  void set(const std::string& address, double& value, double to) {
-    if (value == to || std::find(chosen_.begin(), chosen_.end(), address) != chosen_.end()) return;
+  /// @param grows  with the cells: --coarsen will multiply what is given
+  void set(const std::string& address, double& value, double to, bool grows = false) {
+    if (value == to || std::find(chosen_.begin(), chosen_.end(), address) != chosen_.end() ||
+        setup::curve_of(scene_, address))
+      return;
     value = to;
-    overrides_.push_back(address + "=" + scene::toml::number_text(to));
+    overrides_.push_back(address + "=" + scene::toml::number_text(grows ? to / coarsening_ : to));
   }
 
   void limit_hardening() {
@@ -88,7 +93,7 @@ class Candidate {
     sim::SolverSettings& s = scene_.solver;
     if (s.beta == 0) {
       set("solver.beta", s.beta, fast_beta);
-      set("solver.max_dt", s.max_dt, std::max(s.max_dt, fast_max_dt));
+      set("solver.max_dt", s.max_dt, std::max(s.max_dt, fast_max_dt), true);
     }
   }
 
@@ -111,22 +116,24 @@ class Candidate {
  private:
   scene::Scene scene_;
   const std::vector<std::string>& chosen_;
+  double coarsening_;
   std::vector<std::string> overrides_;
 };
 
 }  // namespace
 
-FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen) {
+FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen,
+                   double coarsening) {
   using Copy = std::optional<Copied>;
   const auto copy_of = [&](const Candidate& candidate) {
     return std::async(std::launch::async, [&] { return candidate.run_copy(last); });
   };
-  Candidate same(scene, chosen);
+  Candidate same(scene, chosen, coarsening);
   same.take_longer_steps();
   Candidate capped = same;
   capped.limit_hardening();
   const bool has_cap = capped.overrides().size() > same.overrides().size();
-  const Candidate unchanged(scene, chosen);
+  const Candidate unchanged(scene, chosen, coarsening);
   std::future<Copy> before_run = copy_of(unchanged), same_run = copy_of(same), capped_run;
   if (has_cap) capped_run = copy_of(capped);
   const Copy before = before_run.get();
@@ -151,7 +158,7 @@ FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::s
     if (takes_cap && is_less(copy)) take(capped, *copy);
   }
   if (scene.solver.time_step != sim::TimeStep::adaptive && !scene.solver.is_implicit()) return look;
-  Candidate other(scene, chosen);
+  Candidate other(scene, chosen, coarsening);
   scene.solver.is_implicit() ? other.take_explicit_steps() : other.take_semi_implicit_steps();
   if (takes_cap) other.limit_hardening();
   if (other.is_implicit() == scene.solver.is_implicit()) return look;
@@ -166,7 +173,7 @@ FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::s
 
 std::vector<std::string> longer_steps(const scene::Scene& scene,
                                       const std::vector<std::string>& chosen) {
-  Candidate candidate(scene, chosen);
+  Candidate candidate(scene, chosen, 1);
   candidate.take_longer_steps();
   candidate.limit_hardening();
   return candidate.overrides();

@@ -29,8 +29,10 @@ struct FastLook {
 /// they change the copy's peak force or mean J_P by more than a tenth. The result depends on the
 /// scene alone, never on the machine.
 /// @param last  frame of the run
-/// @param chosen  addresses that the user has set, which stay
-FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen);
+/// @param chosen  addresses that the user has set, which stay, as those with curves do
+/// @param coarsening  the N of --coarsen that made the scene, and that will scale the overrides
+FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen,
+                   double coarsening = 1);
 
 /// The settings that take longer steps of the kind that the scene has, without a forecast. All of
 /// them may change while a simulation runs.

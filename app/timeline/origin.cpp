@@ -42,7 +42,8 @@ void read_scene(const Edits& edits, const Read& read, Origin& origin) {
     const int last = edits.last_frame
                          ? std::max(0, scene::frame_of(origin.scene, *edits.last_frame))
                          : scene::last_frame(origin.scene);
-    origin.fast = forecast::fast_look(coarse, last, scene::addresses_of(changes));
+    origin.fast = forecast::fast_look(coarse, last, scene::addresses_of(changes),
+                                      edits.coarsening.value_or(1));
     for (const std::string& change : origin.fast->overrides) {
       changes.push_back(scene::parse_override(change));
       origin.overrides.push_back(change);

@@ -37,12 +37,60 @@ std::array<Vec3d, 2> across(const Vec3d& axis) {
 /// is free, by 1e9 m/s.
 constexpr double recovery = 2;
 
+/// A step of one freedom x' = v that moves by dt times the speed at its end:
+/// v1 = kept v0 - returned x0 / dt + given J / inertia, J being the impulse of other forces.
+struct Swing {
+  double kept = 1, returned = 0, given = 1;
+};
+
+/// The map of the exact motion: of its two eigenvalues, hence of its period, its decay and, under a
+/// constant force, its place of rest, for any step.
+/// @param stiffness  times dt^2 / inertia, more than 0 @param damping  times dt / inertia
+Swing exact_swing(double stiffness, double damping) {
+  const double half = 0.5 * damping, over = half * half - stiffness;
+  double returned = 0;
+  if (over < 0) {
+    // 1 + kept - 2 e^(-half) cos(turn), without differences of nearly equal numbers.
+    const double fall = std::sinh(0.5 * half), turn = std::sin(0.5 * std::sqrt(-over));
+    returned = 4 * std::exp(-half) * (fall * fall + turn * turn);
+  } else {
+    const double root = std::sqrt(over), slow = 0.5 * stiffness / (half + root),
+                 fast = 0.5 * (half + root);
+    returned = 2 * std::sinh(slow) * (std::exp(fast - half) - std::exp(-fast - half));
+  }
+  return {std::exp(-damping), returned, returned / stiffness};
+}
+
+/// Implicit Euler: stable for any stiffness, and what is too fast for the step comes to rest.
+Swing damped_swing(double stiffness, double damping) {
+  const double kept = 1 / (1 + damping + stiffness);
+  return {kept, stiffness * kept, kept};
+}
+
+/// Swings of more than 12 steps a period are exact; those of less than six are damped. In between
+/// both maps are mixed, which is stable as they are.
+Swing swing_of(double stiffness, double damping) {
+  if (stiffness <= 0)
+    return {std::exp(-damping), 0, damping > 0 ? -std::expm1(-damping) / damping : 1};
+  constexpr double finely = 0.5, coarsely = 1;  // rad in a step
+  const double share = (std::sqrt(stiffness) - finely) / (coarsely - finely);
+  const Swing damped = damped_swing(stiffness, damping);
+  if (share >= 1) return damped;
+  const Swing exact = exact_swing(stiffness, damping);
+  if (share <= 0) return exact;
+  const auto mix = [&](double a, double b) { return a + share * (b - a); };
+  return {mix(exact.kept, damped.kept), mix(exact.returned, damped.returned),
+          mix(exact.given, damped.given)};
+}
+
 /// Impulse of a spring and a damper along one freedom.
-/// @param beyond  of rest  @param speed  of it  @param inertia  of the freedom
-double spring(double stiffness, double damping, double beyond, double speed, double inertia,
-              double dt) {
-  const double resistance = dt * (damping + stiffness * dt);
-  return -(stiffness * beyond * dt + resistance * speed) / (1 + resistance / inertia);
+/// @param beyond  of rest  @param speed  of it  @param impulse  of all else  @param inertia  of the
+/// freedom
+double spring(double stiffness, double damping, double beyond, double speed, double impulse,
+              double inertia, double dt) {
+  const Swing swing = swing_of(stiffness * dt * dt / inertia, damping * dt / inertia);
+  return inertia * ((swing.kept - 1) * speed - swing.returned * beyond / dt) +
+         (swing.given - 1) * impulse;
 }
 
 }  // namespace
@@ -66,6 +114,12 @@ Held::Held(btRigidBody& body, const shapes::Collider& collider, const MassProper
       centre_(start_),
       now_(rotation) {}
 
+bool Held::turns_freely(const shapes::RigidBody& body) {
+  return body.joint == Joint::none &&
+         std::none_of(body.hold.begin(), body.hold.end(),
+                      [](HeldAxis axis) { return axis >= HeldAxis::turn_x; });
+}
+
 bool Held::holds(const shapes::RigidBody& body) {
   return !body.hold.empty() || body.joint != Joint::none || body.spring_stiffness > 0 ||
          body.spring_damping > 0;
@@ -79,17 +133,19 @@ void Held::set_place(const Vec3d& centre, const Mat3d& rotation, double angle) {
 
 std::vector<Held::Row> Held::rows() const {
   std::vector<Row> rows;
-  const Vec3d back = -vector_of(now_ * rotation_.transpose());
-  bool turns = false;
+  const Mat3d turned = now_ * rotation_.transpose();
+  int free = 0;
+  // Where one axis is free, it is held in its place; where two are, there is no attitude that the
+  // body should have gone back to.
+  Vec3d back = -vector_of(turned);
   for (int a = 0; a < 3; ++a) {
     if (is_held(held_, static_cast<HeldAxis>(a)))
       rows.push_back({Vec3d::Unit(a), Vec3d::Zero(), start_[a] - centre_[a]});
-    turns = turns || !is_held(held_, turn_about(a));
+    if (is_held(held_, turn_about(a))) continue;
+    back = ++free == 1 ? Vec3d(turned.col(a).cross(Vec3d::Unit(a))) : Vec3d::Zero();
   }
-  // About one axis alone, there is no attitude that it should have gone back to.
   for (int a = 0; a < 3; ++a)
-    if (is_held(held_, turn_about(a)))
-      rows.push_back({Vec3d::Zero(), Vec3d::Unit(a), turns ? 0 : back[a]});
+    if (is_held(held_, turn_about(a))) rows.push_back({Vec3d::Zero(), Vec3d::Unit(a), back[a]});
   add_joint(rows);
   return rows;
 }
@@ -111,25 +167,30 @@ void Held::add_joint(std::vector<Row>& rows) const {
   for (const Vec3d& b : across(axis_)) rows.push_back({Vec3d::Zero(), b, b.dot(tilt)});
 }
 
-void Held::add_springs(double dt, const Vec3d& velocity, const Vec3d& spin, const Mat3d& inertia,
+void Held::add_springs(double dt, const Speeds& before, const Speeds& pushed, const Mat3d& inertia,
                        Vec3d& impulse, Vec3d& moment) const {
   if (held_.spring_stiffness > 0 || held_.spring_damping > 0) {
     for (int a = 0; a < 3; ++a)
-      impulse[a] += spring(held_.spring_stiffness, held_.spring_damping,
-                           centre_[a] - held_.spring_place[a], velocity[a], mass_, dt);
+      impulse[a] +=
+          spring(held_.spring_stiffness, held_.spring_damping, centre_[a] - held_.spring_place[a],
+                 before.velocity[a], mass_ * (pushed.velocity[a] - before.velocity[a]), mass_, dt);
   }
   if (held_.joint_stiffness <= 0 && held_.joint_damping <= 0) return;
   if (held_.joint == Joint::slider) {
-    impulse += axis_ * spring(held_.joint_stiffness, held_.joint_damping,
-                              axis_.dot(centre_ - start_), axis_.dot(velocity), mass_, dt);
+    const double speed = axis_.dot(before.velocity);
+    impulse +=
+        axis_ * spring(held_.joint_stiffness, held_.joint_damping, axis_.dot(centre_ - start_),
+                       speed, mass_ * (axis_.dot(pushed.velocity) - speed), mass_, dt);
   } else if (held_.joint == Joint::hinge) {
     const Vec3d arm = now_ * arm_, off = arm - axis_.dot(arm) * axis_;
     const double about = axis_.dot(inertia * axis_) + mass_ * off.squaredNorm();
-    // The joint will turn the momentum of the free body into this spin.
-    const double turning = axis_.dot(inertia * spin) - mass_ * axis_.dot(arm.cross(velocity));
+    // The joint will turn the momentum of the free body into a spin about the axis.
+    const auto turning = [&](const Speeds& free) {
+      return axis_.dot(inertia * free.spin) - mass_ * axis_.dot(arm.cross(free.velocity));
+    };
     moment += axis_ * spring(held_.joint_stiffness, held_.joint_damping,
                              hinge_angle(axis_, now_ * rotation_.transpose(), angle_),
-                             turning / about, about, dt);
+                             turning(before) / about, turning(pushed) - turning(before), about, dt);
   }
 }
 

@@ -21,14 +21,22 @@ class Held final : public btTypedConstraint {
        const Mat3d& rotation);
   /// False where nothing holds the body: it has no row.
   static bool holds(const shapes::RigidBody& body);
+  /// True where no row is about a turn.
+  static bool turns_freely(const shapes::RigidBody& body);
+
+  struct Speeds {
+    Vec3d velocity, spin;
+  };
 
   /// Before the rows are asked for.
   /// @param rotation  as in the constructor, now  @param angle  rad, of a hinge, with whole turns
   void set_place(const Vec3d& centre, const Mat3d& rotation, double angle);
 
   /// The impulse of the springs in a step of dt, and its moment about the centre of mass: exact for
-  /// the one freedom that the joint leaves, and stable for any stiffness (implicit Euler).
-  void add_springs(double dt, const Vec3d& velocity, const Vec3d& spin, const Mat3d& inertia,
+  /// the one freedom that the joint leaves where a period has 12 steps or more, damped and stable
+  /// where it has less.
+  /// @param before  the step @param pushed  by all else in it
+  void add_springs(double dt, const Speeds& before, const Speeds& pushed, const Mat3d& inertia,
                    Vec3d& impulse, Vec3d& moment) const;
 
   void getInfo1(btConstraintInfo1* info) override;

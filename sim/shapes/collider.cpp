@@ -232,11 +232,16 @@ PoseOffset offset_after(const Collider& before, const Collider& after, double ti
 PoseOffset body_offset_after(const Collider& before, const Collider& after, double time) {
   if (same_motion(before, after)) return before.pose_offset;
   const Pose now = pose_at(before, time);
+  // Of the two, the one that was given is set; the other goes on as the body has it by now.
+  const auto given = [](const Vec3d& was, const Vec3d& is, const Vec3d& now) {
+    return was == is ? now : is;
+  };
   return {time,
           now.point - center(before.shape),
           now.rotation * rotation_from_degrees(before.shape.rotation).transpose(),
           before.pose_offset.delay,
-          {},
+          std::array{given(before.velocity, after.velocity, now.velocity),
+                     given(before.angular_velocity, after.angular_velocity, now.angular_velocity)},
           before.pose_offset.joint_angle};
 }
 

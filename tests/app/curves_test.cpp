@@ -186,6 +186,23 @@ TEST(Curves, MistakesAreToldAtTheirPlace) {
       "solver.cfl has the curve 1 already");
 }
 
+/// Snow feels the speed of a surface, and a curve of its place has none.
+TEST(Curves, PlacesOfCollidersHaveKeyframesInstead) {
+  const std::string keys = "\nkeyframes = [{ time = 0, vector = [0, 0, 0] }]";
+  for (const char* key : {"shape.plane.point", "shape.plane.rotation"}) {
+    const std::string error =
+        error_of_curve("parameter = \"collider.floor." + std::string(key) + "\"" + keys);
+    EXPECT_NE(error.find("give collider.floor.keyframes"), std::string::npos) << error;
+  }
+  EXPECT_EQ(error_of_curve("parameter = \"collider.floor.velocity\"" + keys), "no error");
+  const std::string body =
+      "[[collider]]\nname = \"b\"\ndensity = 100\n"
+      "shape = { sphere = { center = [1, 1, 0], radius = 0.1 } }\n";
+  const std::string error =
+      error_of_curve("parameter = \"collider.b.velocity\"" + keys + "\n" + body);
+  EXPECT_NE(error.find("b moves by itself"), std::string::npos) << error;
+}
+
 TEST(Curves, ForecastsFollowThem) {
   const auto steps = [](const std::string& more, double youngs_modulus) {
     scene::Scene scene = falling(more);

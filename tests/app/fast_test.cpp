@@ -108,6 +108,23 @@ TEST(Fast, StiffSlowSnowTakesSemiImplicitSteps) {
   })) << kept.sentence();
 }
 
+/// What is measured with cells four times as large is what --coarsen 4 makes of the settings.
+TEST(Fast, SettingsThatGrowWithTheCellsAreGivenForThoseOfTheScene) {
+  const std::string stiff = "youngs_modulus = 1.4e8";
+  const forecast::FastLook look = forecast::fast_look(
+      scene::read_scene_text(falling_ball("max_dt = 4e-4", stiff, 0.1), "s.toml"), 2, {}, 4);
+  EXPECT_NE(look.sentence().find("solver.max_dt=0.00025"), std::string::npos) << look.sentence();
+}
+
+TEST(Fast, WhatFollowsACurveStays) {
+  const std::string curve = R"(
+[[curve]]
+parameter = "material.snow.max_hardening"
+keyframes = [{ time = 0, value = 5000 }]
+)";
+  EXPECT_EQ(look_at(falling_ball("") + curve).overrides, Lines({"solver.acoustic_cfl=0.85"}));
+}
+
 /// Snow too soft for its impact: the coarse copy diverges, and a forecast from them would say that
 /// nothing is to be done.
 TEST(Fast, CopiesThatDivergeForetellNothing) {

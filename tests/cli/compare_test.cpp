@@ -220,6 +220,7 @@ TEST_F(Compare, RunsThatCannotBeComparedAreRefusedWithTheReason) {
     EXPECT_TRUE(contains(done.errors, why)) << done.errors;
   };
   refused("a", "slow", {"--out", "x.png"}, "their frames are at different times");
+  refused("a", "slow", {}, "frame 1 of a is at ");
   refused("a", "fine", {"--out", "x.png", "--mode", "mass"}, "solver.cell_size is 0.04 m in A");
   refused("a", "fine", {"--out", "x.png", "--mode", "displacement"},
           "no particle of A is the same piece of snow");

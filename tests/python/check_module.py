@@ -47,6 +47,13 @@ for format, series in exports.items():
 at = neve.export("scene.toml", "at", at=[0.01, 0.1])["npz"]
 assert [round(s.time, 2) for s in at] == [0.01, 0.1] and at.numbers == [0, 1]
 
+# A table of one row.
+path = os.path.join(os.getcwd(), "one.csv")
+with open(path, "w") as file:
+    file.write("id,x,y,z\n7,1,2,3\n")
+one = neve.read_csv(path)
+assert one.count == 1 and list(one["id"]) == [7], one
+
 # What a notebook shows.
 png = b"\x89PNG\r\n\x1a\n"
 assert run._repr_png_() == run.picture().read_bytes() and run._repr_png_().startswith(png)

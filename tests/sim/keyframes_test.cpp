@@ -142,6 +142,25 @@ TEST(Keyframes, AColliderWithoutItsKeyframesContinuesFromItsPlace) {
       1e-14);
 }
 
+/// Who gives a body another spin does not take its fall away.
+TEST(Keyframes, ABodyKeepsTheSpeedThatWasNotGiven) {
+  sim::shapes::Collider before;
+  before.shape = {sim::shapes::Sphere{{0, 3, 0}, 0.1}, {0, 0, 0}};
+  before.body.density = 500;
+  before.velocity = {1, 0, 0};
+  before.pose_offset.motion = std::array{Vec3d(1, -2.4, 0), Vec3d(0, 0, 7)};
+  sim::shapes::Collider after = before;
+  after.angular_velocity = {0, 5, 0};
+  after.pose_offset = sim::shapes::body_offset_after(before, after, 0.25);
+  EXPECT_EQ(sim::shapes::pose_at(after, 0.25).velocity, Vec3d(1, -2.4, 0));
+  EXPECT_EQ(sim::shapes::pose_at(after, 0.25).angular_velocity, Vec3d(0, 5, 0));
+  after = before;
+  after.velocity = {0, 1, 0};
+  after.pose_offset = sim::shapes::body_offset_after(before, after, 0.25);
+  EXPECT_EQ(sim::shapes::pose_at(after, 0.25).velocity, Vec3d(0, 1, 0));
+  EXPECT_EQ(sim::shapes::pose_at(after, 0.25).angular_velocity, Vec3d(0, 0, 7));
+}
+
 TEST(Keyframes, KeyframesTurnThePlaneItself) {
   sim::shapes::Collider c;
   c.shape = {sim::shapes::Plane{{0, 0, 0}, {0, 1, 0}}, {0, 0, 0}};

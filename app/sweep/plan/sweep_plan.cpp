@@ -163,8 +163,8 @@ forecast::FastLook take_fast_look(const SweepOptions& options, const scene::Scen
       chosen.push_back(parameter.address);
   for (const Run& row : sweep.rows)
     for (const scene::Override& setting : row.settings) chosen.push_back(setting.address);
-  const forecast::FastLook look =
-      forecast::fast_look(base, frames_of(options, sweep, base).last, chosen);
+  const forecast::FastLook look = forecast::fast_look(base, frames_of(options, sweep, base).last,
+                                                      chosen, options.coarsening.value_or(1));
   for (const std::string& change : look.overrides)
     sweep.fixed.push_back(scene::parse_override(change));
   return look;
