@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "app/exports/stage.h"
 #include "app/exports/surface_table.h"
 #include "app/output/atomic_file.h"
 #include "app/output/descriptor.h"
@@ -46,13 +47,12 @@ Json surface_json(const scene::Scene& scene, const scene::Export& spec) {
 
 /// Whether all are where the scene alone says: not where they move by themselves, came later,
 /// waited in steps that skip colliders, or were changed while they moved.
-bool are_as_in(const scene::Scene& scene, const State& state) {
-  return std::ranges::equal(state.colliders, placed_at(scene.colliders, state.time),
-                            [](const PlacedShape& a, const PlacedShape& b) {
-                              return a.collider == b.collider && a.time == b.time &&
-                                     a.pose.point == b.pose.point &&
-                                     a.pose.rotation == b.pose.rotation;
-                            });
+bool are_as_in(const scene::Scene& scene, const std::vector<PlacedShape>& colliders, double time) {
+  return std::ranges::equal(
+      colliders, placed_at(scene.colliders, time), [](const PlacedShape& a, const PlacedShape& b) {
+        return a.collider == b.collider && a.time == b.time && a.pose.point == b.pose.point &&
+               a.pose.rotation == b.pose.rotation;
+      });
 }
 
 /// Exact: a run that is resumed writes the same stage.
@@ -65,6 +65,7 @@ Json places_json(const Sample& sample) {
     list.push_back({{"collider", placed.collider},
                     {"time", placed.time},
                     {"position", output::vector_json(placed.pose.point)},
+                    {"angular_velocity", output::vector_json(placed.pose.angular_velocity)},
                     {"rotation", std::move(matrix)}});
   }
   return list;
@@ -77,9 +78,44 @@ PlacedShape placed_shape(const Json& json) {
   for (int row = 0; row < 3; ++row)
     placed.pose.rotation.row(row) =
         output::vector_of(json.at("rotation").at(static_cast<std::size_t>(row)));
+  if (json.contains("angular_velocity"))
+    placed.pose.angular_velocity = output::vector_of(json.at("angular_velocity"));
   if (!placed.pose.point.allFinite() || !placed.pose.rotation.allFinite())
     throw std::runtime_error("collider " + placed.collider + " of an export has no finite place");
   return placed;
+}
+
+/// What a list of files or frames says of a sample, beside its number and its time.
+void add_places(const Sample& sample, Json& json) {
+  if (sample.is_elsewhere) json["colliders"] = places_json(sample);
+  if (sample.followed) json["followed"] = output::vector_json(*sample.followed);
+  if (sample.snow)
+    json["snow"] = {output::vector_json(sample.snow->min), output::vector_json(sample.snow->max)};
+}
+
+/// The inverse. @throws std::exception
+Sample sample_of(const Json& json, const scene::Scene& scene) {
+  const double time = json.at("time").get<double>();
+  Sample sample{whole_number<int>(json.at("number")), time, placed_at(scene.colliders, time)};
+  sample.is_elsewhere = json.contains("colliders");
+  if (sample.is_elsewhere) {
+    sample.colliders.clear();
+    for (const Json& placed : json.at("colliders"))
+      sample.colliders.push_back(placed_shape(placed));
+  }
+  if (json.contains("followed")) sample.followed = output::vector_of(json.at("followed"));
+  if (json.contains("snow"))
+    sample.snow = {output::vector_of(json.at("snow").at(0)),
+                   output::vector_of(json.at("snow").at(1))};
+  return sample;
+}
+
+/// Around all places that are finite; nothing where there are none.
+std::optional<setup::Box> box_around(const std::vector<sim::Vec3d>& places) {
+  setup::Box box;
+  for (const sim::Vec3d& x : places)
+    if (x.allFinite()) box.add(x);
+  return box.max.x() >= box.min.x() ? std::optional(box) : std::nullopt;
 }
 
 /// In the order of their numbers, in the place of the one of the same number.
@@ -105,7 +141,7 @@ Exporter::Exporter(const scene::Scene& scene, fs::path folder,
       carried_(scene, body_end) {
   output::remove_abandoned(folder_);
   for (const scene::Export& spec : scene.exports) {
-    jobs_.push_back({{spec, empty_table(scene, spec, carried_), {}}, {}});
+    jobs_.push_back({{spec, empty_table(scene, spec, carried_), {}}, {}, {}});
     output::remove_abandoned(folder_ / scene::folder_of(spec));
   }
 }
@@ -133,12 +169,41 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
   return works;
 }
 
+void Exporter::add_between(const std::vector<scene::Collider>& colliders,
+                           const sim::Simulation& simulation, int number, bool is_frame) {
+  const auto has_no_file = [&](const Job& job) {
+    return is_stage(job) &&
+           !(is_frame && scene::frame_of(scene_, number) % job.record.spec.every == 0);
+  };
+  if (std::ranges::none_of(jobs_, has_no_file)) return;
+  note_colliders(colliders);
+  const double time = simulation.time();
+  Sample sample{number, time, placed_at(colliders, time)};
+  sample.is_elsewhere = !are_as_in(scene_, sample.colliders, time);
+  if (follows()) sample.followed = followed(simulation.particles(), time, colliders);
+  if (!sample.is_elsewhere && !sample.followed) return;
+  for (Job& job : jobs_)
+    if (has_no_file(job)) put(job.between, sample);
+}
+
+bool Exporter::has_stage() const {
+  return std::ranges::any_of(jobs_, is_stage);
+}
+
+bool Exporter::is_stage(const Job& job) {
+  return job.record.spec.format == scene::ExportFormat::usda;
+}
+
+bool Exporter::follows() const {
+  return scene_.camera && !scene_.camera->follow.empty();
+}
+
 /// Nothing where the camera follows nothing.
-std::optional<sim::Vec3d> Exporter::followed(const State& state,
+std::optional<sim::Vec3d> Exporter::followed(const sim::ParticleArrays& particles, double time,
                                              const std::vector<scene::Collider>& colliders) const {
-  if (!scene_.camera || scene_.camera->follow.empty()) return std::nullopt;
-  return picture::followed_by(*scene_.camera, scene_, colliders, origins_.body_end(),
-                              state.particles, state.time);
+  if (!follows()) return std::nullopt;
+  return picture::followed_by(*scene_.camera, scene_, colliders, origins_.body_end(), particles,
+                              time);
 }
 
 /// Some come and go while a run is made.
@@ -154,9 +219,13 @@ Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state,
   const scene::Export& spec = job.record.spec;
   // A frame that is made again keeps its place.
   put(job.record.files, {number, state->time, state->hash});
-  const bool is_stage = spec.format == scene::ExportFormat::usda;
-  put(job.samples, {number, state->time, state->colliders, is_stage && !are_as_in(scene_, *state),
-                    is_stage ? followed(*state, colliders) : std::nullopt});
+  Sample sample{number, state->time, state->colliders};
+  if (is_stage(job)) {
+    sample.is_elsewhere = !are_as_in(scene_, state->colliders, state->time);
+    sample.followed = followed(state->particles, state->time, colliders);
+    sample.snow = box_around(spec.dust ? state->dust.x : state->particles.x);
+  }
+  put(job.samples, std::move(sample));
   const bool has_pvd = series_name(spec).ends_with(".pvd");
   std::string series = has_pvd ? encode_pvd(spec, job.samples) : std::string();
   return [this, &spec, state = std::move(state), number, series = std::move(series)] {
@@ -185,7 +254,8 @@ std::vector<output::WrittenFile> Exporter::finish() const {
     written.push_back(output::write_hashed(folder_ / scene::folder_of(spec) / "manifest.usda",
                                            encode_manifest(scene_, spec, job.record.columns)));
     written.push_back(output::write_hashed(
-        folder_ / series, encode_stage(scene_, colliders_, spec, job.record.columns, job.samples)));
+        folder_ / series,
+        encode_stage(scene_, colliders_, spec, job.record.columns, job.samples, job.between)));
   }
   return written;
 }
@@ -197,6 +267,9 @@ void Exporter::resume(const Json& list, int last_number) {
       if (e.value("name", "") != folder) continue;
       for (const Json& file : e.at("files"))
         if (whole_number<int>(file.at("number")) <= last_number) resume(file, job);
+      for (const Json& frame : e.value("frames_between", Json::array()))
+        if (whole_number<int>(frame.at("number")) <= last_number)
+          put(job.between, sample_of(frame, scene_));
     }
   }
 }
@@ -206,15 +279,7 @@ void Exporter::resume(const Json& file, Job& job) const {
   const double time = file.at("time").get<double>();
   put(job.record.files,
       {number, time, std::stoull(file.at("state_hash").get<std::string>(), nullptr, 16)});
-  Sample sample{number, time, placed_at(scene_.colliders, time)};
-  sample.is_elsewhere = file.contains("colliders");
-  if (sample.is_elsewhere) {
-    sample.colliders.clear();
-    for (const Json& placed : file.at("colliders"))
-      sample.colliders.push_back(placed_shape(placed));
-  }
-  if (file.contains("followed")) sample.followed = output::vector_of(file.at("followed"));
-  put(job.samples, std::move(sample));
+  put(job.samples, sample_of(file, scene_));
 }
 
 Json Exporter::to_json(const std::string& below) const {
@@ -239,10 +304,12 @@ Json Exporter::to_json(const std::string& below) const {
                                {"number", file.number},
                                {"time", number_or_null(file.time)},
                                {"state_hash", hash_digits(file.hash)}});
-      if (job.samples[k].is_elsewhere)
-        json["files"].back()["colliders"] = places_json(job.samples[k]);
-      if (job.samples[k].followed)
-        json["files"].back()["followed"] = output::vector_json(*job.samples[k].followed);
+      add_places(job.samples[k], json["files"].back());
+    }
+    for (const Sample& sample : job.between) {
+      Json frame{{"number", sample.number}, {"time", number_or_null(sample.time)}};
+      add_places(sample, frame);
+      json["frames_between"].push_back(std::move(frame));
     }
     list.push_back(std::move(json));
   }

@@ -45,6 +45,12 @@ class Exporter {
   std::vector<Work> add(const std::vector<scene::Collider>& colliders,
                         const sim::Simulation& simulation, int number, bool is_frame);
 
+  /// Notes where things are at a frame without a file, for stages, which have them at every frame.
+  /// @param is_frame  only exports whose `every` does not divide it
+  void add_between(const std::vector<scene::Collider>& colliders, const sim::Simulation& simulation,
+                   int number, bool is_frame);
+  bool has_stage() const;
+
   /// Writes the series, as they are in the end. @return their files @throws IoError
   std::vector<output::WrittenFile> finish() const;
 
@@ -57,11 +63,14 @@ class Exporter {
  private:
   struct Job {
     Record record;
-    std::vector<Sample> samples;
+    std::vector<Sample> samples;  ///< one per file
+    std::vector<Sample> between;  ///< frames of a stage where the scene alone says too little
   };
   Work work(Job& job, std::shared_ptr<const State> state,
             const std::vector<scene::Collider>& colliders, int number);
-  std::optional<sim::Vec3d> followed(const State& state,
+  static bool is_stage(const Job& job);
+  bool follows() const;
+  std::optional<sim::Vec3d> followed(const sim::ParticleArrays& particles, double time,
                                      const std::vector<scene::Collider>& colliders) const;
   void note_colliders(const std::vector<scene::Collider>& colliders);
   void resume(const Json& file, Job& job) const;

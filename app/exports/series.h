@@ -8,12 +8,13 @@
 
 #include "app/exports/columns.h"
 #include "app/exports/state.h"
+#include "app/setup/framing.h"
 
 namespace neve::app::exports {
 
-/// A file of an export, and where the colliders were.
+/// A file of an export, or a frame between two files, and where the colliders were.
 struct Sample {
-  int number = 0;   ///< of the file
+  int number = 0;   ///< of the file, or of the frame
   double time = 0;  ///< s
   std::vector<PlacedShape> colliders;
 
@@ -21,6 +22,7 @@ struct Sample {
   const PlacedShape* find(const std::string& collider) const;
   bool is_elsewhere = false;             ///< the scene alone does not say where colliders are
   std::optional<sim::Vec3d> followed{};  ///< m, what a camera that follows has moved by
+  std::optional<setup::Box> snow{};      ///< m, around the snow; of files of a stage
 };
 
 /// "0024.ply"
@@ -31,17 +33,5 @@ std::string series_name(const scene::Export& spec);
 
 /// A ParaView collection: every file with its time.
 std::string encode_pvd(const scene::Export& spec, const std::vector<Sample>& samples);
-
-/// A USD stage: the particles, or their surface, as value clips of the layers, colliders as meshes
-/// that move or deform, the camera of the scene if it has a place, and its light. Source: OpenUSD,
-/// UsdClipsAPI.
-/// @param colliders  that there were at any sample; one that came or went is seen while it existed
-std::string encode_stage(const scene::Scene& scene, const std::vector<scene::Collider>& colliders,
-                         const scene::Export& spec, const Table& columns,
-                         const std::vector<Sample>& samples);
-
-/// The layer that tells the stage the names and types of the properties in the clips.
-std::string encode_manifest(const scene::Scene& scene, const scene::Export& spec,
-                            const Table& columns);
 
 }  // namespace neve::app::exports

@@ -89,6 +89,20 @@ Kept replace_earlier(const ExportJob& job) {
   }
 }
 
+/// Goes to a time; a stage also has where things are at the frames on the way from the moment
+/// before. @return false if the simulation stops before
+bool go_through(timeline::Timeline& timeline, const scene::Scene& scene,
+                std::optional<double> before, double time, exports::Exporter& exporter) {
+  if (before && exporter.has_stage())
+    for (int frame = timeline::frame_at(*before, scene.fps) + 1; frame / scene.fps < time;
+         ++frame) {
+      if (!timeline.go_to(frame / scene.fps)) return false;
+      exporter.add_between(timeline.scene().colliders, timeline.simulation(),
+                           scene::number_of(scene, frame), false);
+    }
+  return timeline.go_to(time);
+}
+
 /// A kept export of another state than the new one: the scene was changed in between.
 void warn_of_other_states(const Json& exports, const Kept& kept, Progress& progress) {
   for (const Json& old : kept.exports)
@@ -169,8 +183,10 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   ExportResult result;
   progress.start(timeline::frame_at(job.times.back(), run.scene.fps),
                  scene::number_of(run.scene, 0));
+  std::optional<double> before;
   for (const double time : job.times) {
-    if (!timeline.go_to(time)) break;
+    if (!go_through(timeline, run.scene, before, time, exporter)) break;
+    before = time;
     const int number = job.first_number + static_cast<int>(result.moments++);
     if (job.are_frames)
       timeline::compare_with_run(run, scene::frame_of(run.scene, number), simulation.state_hash(),

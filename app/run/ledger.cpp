@@ -110,9 +110,11 @@ void Ledger::note_exports() {
 
 std::vector<exports::Exporter::Work> Ledger::read_exports(const timeline::Timeline& timeline) {
   const int frame = timeline.here().frame;
-  if (!exporter_.is_due(frame)) return {};
-  std::vector<exports::Exporter::Work> work = exporter_.add(
-      timeline.scene().colliders, timeline.simulation(), scene::number_of(job_.scene, frame), true);
+  const int number = scene::number_of(job_.scene, frame);
+  std::vector<exports::Exporter::Work> work;
+  if (exporter_.is_due(frame))
+    work = exporter_.add(timeline.scene().colliders, timeline.simulation(), number, true);
+  exporter_.add_between(timeline.scene().colliders, timeline.simulation(), number, true);
   note_exports();
   return work;
 }

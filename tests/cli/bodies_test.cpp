@@ -109,11 +109,41 @@ TEST_F(Bodies, TheStageMovesThem) {
     const sim::Vec3d x = place(frames[k]["bodies"][0]);
     const std::string row = "(" + app::exports::usd_number(x.x()) + ", " +
                             app::exports::usd_number(x.y()) + ", " +
-                            app::exports::usd_number(x.z()) + ", 1)";
+                            app::exports::usd_number(x.z()) + ")";
     at = stage.find(row, at);
     EXPECT_NE(at, std::string::npos) << k << row;
   }
   EXPECT_EQ(stage.find("visibility"), std::string::npos);
+}
+
+/// Their places follow from no time of the scene, so frames without a file are noted.
+TEST_F(Bodies, TheStageHasThemAtFramesWithoutAFileToo) {
+  const auto make = [&](const std::string& out, const std::string& frames, const char* more) {
+    ASSERT_EQ(render({"scene.toml", "--out", out, "--set", "export.1.every=2", "--frames", frames,
+                      "--no-keep-states", more})
+                  .exit_code,
+              0);
+  };
+  make("all", "0-4", "--set=export.1.every=1");
+  make("some", "0-4", "--quiet");
+  make("parts", "0-1", "--quiet");
+  make("parts", "0-4", "--resume");
+  const auto movements = [&](const std::string& out) {
+    const std::string text = read_text(folder / out / "exports/usda.usda");
+    const std::size_t from = text.find("def Xform \"colliders\"");
+    return text.substr(from, text.find("def Xform \"view\"") - from);
+  };
+  EXPECT_FALSE(std::filesystem::exists(folder / "some/exports/usda/0001.usda"));
+  EXPECT_EQ(movements("some"), movements("all"));
+  EXPECT_EQ(read_text(folder / "parts/exports/usda.usda"),
+            read_text(folder / "some/exports/usda.usda"));
+  // So does an export of times.
+  const auto result = neve({"export", "scene.toml", "--format", "usda", "--at",
+                            "0,0.16666666666666666", "--out", "times", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const std::string text = read_text(folder / "times/usda.usda");
+  const std::size_t from = text.find("def Xform \"colliders\"");
+  EXPECT_EQ(text.substr(from, text.find("def Xform \"view\"") - from), movements("all"));
 }
 
 /// A fork is the run that was changed there; the change may be a new collider.

@@ -1,6 +1,12 @@
 /// neve export: every format holds the state to the bit, all times are of one simulation.
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <sstream>
 
 #include "app/output/atomic_file.h"
 #include "tests/cli/run_neve.h"
@@ -535,15 +541,118 @@ TEST_F(Export, ASceneWithCurvesIsExportedAndTheStagesCameraFollowsAsPicturesDo) 
   folder.write("followed.toml", followed_scene);
   json_of_export({"followed.toml", "--format", "csv,usda", "--out", "made"});
   EXPECT_TRUE(exists("made/csv/0013.csv"));
-  // The last row of each matrix is the place of the eye.
   const std::string text = read_text(folder / "made/usda.usda");
   const std::string view = text.substr(text.find("def Camera"));
+  const std::size_t places = view.find("xformOp:translate.timeSamples");
+  ASSERT_NE(places, std::string::npos) << view;
   for (int k = 0; k <= 3; ++k) {
-    const std::size_t at = view.find(std::to_string(10 + k) + ": ( (");
+    const std::string time = std::to_string(10 + k) + ": (";
+    const std::size_t at = view.find(time, places);
     ASSERT_NE(at, std::string::npos);
-    const std::size_t place = view.rfind('(', view.find(") )", at));
     // The centre of the jittered ball is a part of its spacing beside the origin.
-    EXPECT_NEAR(std::stod(view.substr(place + 1)), 1 + 2 * k / 24.0, 0.02) << k;
+    EXPECT_NEAR(std::stod(view.substr(at + time.size())), 1 + 2 * k / 24.0, 0.02) << k;
+  }
+}
+
+/// The samples of a property, by their times; one at -1 where it has no samples.
+std::map<double, std::vector<double>> samples_of(const std::string& prim,
+                                                 const std::string& property) {
+  std::size_t at = prim.find(property);
+  if (at == std::string::npos) return {};
+  at += property.size();
+  const bool is_fixed = !prim.substr(at).starts_with(".timeSamples");
+  std::string list = prim.substr(at, prim.find(is_fixed ? "\n" : "}", at) - at);
+  std::ranges::replace_if(
+      list, [](char c) { return std::strchr("(),=\n", c) != nullptr; }, ' ');
+  std::map<double, std::vector<double>> samples;
+  double time = -1;
+  std::istringstream words(list);
+  for (std::string word; words >> word;)
+    if (word.ends_with(':'))
+      time = std::stod(word);
+    else if (word.find_first_not_of("0123456789.e+-") == std::string::npos)
+      samples[time].push_back(std::stod(word));
+  return samples;
+}
+
+/// A blade that turns once between two files, and by a quarter between two frames.
+constexpr const char* turning_scene = R"(
+frames = 8
+[solver]
+cell_size = 0.08
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.3, 0], radius = 0.12 } }
+[[collider]]
+name = "blade"
+shape = { box = { center = [0.5, 0.2, 0], size = [0.3, 0.3, 0.3] } }
+angular_velocity = [0, 0, 38]
+[[collider]]
+name = "floor"
+shape = { plane = {} }
+[camera]
+eye = [0.3, 0.3, 0.8]
+target = [0, 0.2, 0]
+turntable = 0.25
+[[export]]
+format = "usda"
+every = 4
+[output]
+size = [160, 90]
+)";
+
+/// USD interpolates between samples: what has two samples half a turn apart shrinks to nothing
+/// there as a matrix, and as a quaternion it turns the wrong way.
+TEST_F(Export, WhatAStageTurnsHasItsSizeAndItsPlaceBetweenFiles) {
+  folder.write("turning.toml", turning_scene);
+  ASSERT_EQ(neve({"render", "turning.toml", "--out", "run", "--quiet", "--no-movie"}).exit_code, 0);
+  const std::string text = read_text(folder / "run/exports/usda.usda");
+  const std::string view = text.substr(text.find("def Camera"));
+  const std::string blade = text.substr(text.find("def Mesh \"blade\""));
+  for (const std::string& prim : {blade, view}) {
+    const auto turns = samples_of(prim, "quatd xformOp:orient");
+    for (int frame = 0; frame <= 8; ++frame) EXPECT_TRUE(turns.contains(frame)) << frame;
+    const std::vector<double>* last = nullptr;
+    for (const auto& [time, q] : turns) {
+      ASSERT_EQ(q.size(), 4u) << time;
+      EXPECT_NEAR(std::inner_product(q.begin(), q.end(), q.begin(), 0.0), 1, 1e-12) << time;
+      // Half the angle of an eighth of a turn.
+      const std::vector<double>& before = last ? *last : q;
+      EXPECT_GT(std::inner_product(q.begin(), q.end(), before.begin(), 0.0),
+                std::cos(std::numbers::pi / 8) - 1e-9)
+          << time;
+      last = &q;
+    }
+  }
+  for (const auto& [time, q] : samples_of(blade, "quatd xformOp:orient"))
+    EXPECT_NEAR(std::abs(q[3]), std::abs(std::sin(19 * time / 24)), 1e-9) << time;
+  // The turntable takes 6 frames.
+  for (const auto& [time, x] : samples_of(view, "double3 xformOp:translate")) {
+    const double turned = 2 * std::numbers::pi * time / 6;
+    EXPECT_NEAR(x[0], 0.3 * std::cos(turned) + 0.8 * std::sin(turned), 1e-9) << time;
+    EXPECT_NEAR(x[1], 0.3, 1e-12);
+  }
+  // A thing that rests has no samples.
+  EXPECT_EQ(samples_of(text.substr(text.find("def Mesh \"floor\"")), "quatd xformOp:orient"),
+            (std::map<double, std::vector<double>>{{-1, {1, 0, 0, 0}}}));
+}
+
+/// USD's own begins at one unit: a scene of half a metre would not be seen.
+TEST_F(Export, TheCameraOfAStageSeesAllThatThereIs) {
+  folder.write("turning.toml", turning_scene);
+  for (const double scale : {1.0, 100.0}) {
+    json_of_export({"turning.toml", "--format", "usda", "--frames", "0-6", "--scale",
+                    std::to_string(scale), "--up", "z", "--out", scale > 1 ? "large" : "small"});
+    const std::string text = read_text(folder / (scale > 1 ? "large" : "small") / "usda.usda");
+    const auto range = samples_of(text, "float2 clippingRange");
+    ASSERT_EQ(range.size(), 1u);
+    const double near = range.at(-1).at(0) / scale, far = range.at(-1).at(1) / scale;
+    // The eye is 0.3 m above the floor and more than 0.25 m from the box, which are seen up to the
+    // corners of the picture; the corners of the floor's square are 7 m away.
+    EXPECT_GT(near, 0.02);
+    EXPECT_LT(near, 0.25);
+    EXPECT_GT(far, 7.5);
+    EXPECT_LT(far, 20);
   }
 }
 

@@ -55,6 +55,8 @@ TEST_F(ExportToUsd, UsdOpensTheStages) {
                std::string(tiny_scene) +
                    "[[collider]]\nname = \"sheet\"\nshape = { mesh_sequence = { files = "
                    "\"sheet_%04d.obj\", first = 0, last = 9, rate = 24, center = [3, 0, 0] } }\n"
+                   "[[collider]]\nname = \"blade\"\nangular_velocity = [0, 0, 38]\nshape = "
+                   "{ box = { center = [2, 0.2, 0], size = [0.3, 0.1, 0.1] } }\n"
                    "[camera]\neye = [0, 0.3, 1]\ntarget = [0, 0.1, 0]\n");
   written_sequence(folder, "sheet", 10, 24, [](int k) {
     return plate_obj({1, 0.3, 1}, 4,

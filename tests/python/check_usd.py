@@ -59,6 +59,14 @@ for mesh in meshes:
         len(mesh.GetPointsAttr().Get(end))), mesh.GetPath()
     assert corners == 3 * len(mesh.GetFaceVertexCountsAttr().Get())
     assert mesh.ComputeLocalToWorldTransform(end).GetDeterminant() > 0
+# Things that turn keep their size and follow their turn between frames.
+blade = UsdGeom.Xformable(stage.GetPrimAtPath("/neve/colliders/blade"))
+for quarter in range(4 * int(start.GetValue()), 4 * int(end.GetValue()) + 1):
+    pose = np.array(blade.ComputeLocalToWorldTransform(quarter / 4))
+    assert abs(np.linalg.det(pose) - 1) < 1e-9, (quarter, pose)
+    angle = 38 * quarter / 4 / float(archives[0]["fps"])
+    # About z of the scene, which is -y of these files.
+    assert abs(pose[0, 0] - np.cos(angle)) < 1e-3 and abs(pose[0, 2] - np.sin(angle)) < 1e-3, (quarter, pose)
 sheet = UsdGeom.Mesh(stage.GetPrimAtPath("/neve/colliders/sheet")).GetPointsAttr()
 assert len(sheet.GetTimeSamples()) == len(archives)
 # One edge rises by 0.1 m a frame. Points are those of the shape, y is up; its transform turns them.
@@ -69,6 +77,10 @@ assert abs(rise[:, 2].max() - 0.1 * scale * (end.GetValue() - start.GetValue()))
 assert abs(rise[:, :2]).max() < 1e-4 * scale, rise
 camera = UsdGeom.Camera(stage.GetPrimAtPath("/neve/view/camera"))
 assert camera and camera.GetCamera(end).focalLength > 0
+near, far = camera.GetClippingRangeAttr().Get()
+to_camera = np.linalg.inv(np.array(camera.ComputeLocalToWorldTransform(end)))
+depth = -(np.c_[archives[-1]["x"], np.ones(len(archives[-1]["x"]))] @ to_camera)[:, 2]
+assert 0 < near < depth.min() and depth.max() < far, (near, far, depth.min(), depth.max())
 assert UsdLux.DistantLight(stage.GetPrimAtPath("/neve/sun"))
 box = UsdGeom.BBoxCache(end, [UsdGeom.Tokens.default_]).ComputeWorldBound(snow.GetPrim())
 low, high = np.array(box.ComputeAlignedRange().GetMin()), np.array(box.ComputeAlignedRange().GetMax())
