@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iostream>
@@ -33,8 +34,14 @@ struct Findings {
   bool is_whole() const { return flaws.empty() && unfinished.empty(); }
 };
 
-Findings verify_run_folder(const fs::path& folder) {
+record::Verification verify_whole_run(const fs::path& folder) {
   record::Verification found = record::verify_run(folder);
+  record::verify_kept(folder, found);
+  return found;
+}
+
+Findings verify_run_folder(const fs::path& folder) {
+  record::Verification found = verify_whole_run(folder);
   Findings findings{found.status, found.files, std::move(found.flaws), {}, false};
   if (found.status == "ok" || found.status == "diverged" || found.status.empty()) return findings;
   findings.is_in_use = output::FolderLock::is_held(folder);
@@ -82,7 +89,7 @@ Findings verify_sweep_folder(const fs::path& folder) {
     if (status.is_damaged)
       findings.flaws.push_back({(place / "status.json").generic_string(), "is damaged"});
     if (status.key != item.key || !sweep::store::has_record(status)) continue;
-    const record::Verification found = record::verify_run(folder / place);
+    const record::Verification found = verify_whole_run(folder / place);
     findings.files += found.files;
     for (const record::Flaw& flaw : found.flaws)
       findings.flaws.push_back({(place / flaw.file).generic_string(), flaw.what});
@@ -99,7 +106,7 @@ Findings verify_sweep_folder(const fs::path& folder) {
     const sweep::store::RunStatus status = sweep::store::read_status(folder / place);
     // One that was refused, say, wrote none.
     if (sweep::store::has_failed(status.state) && !sweep::store::has_record(status)) continue;
-    for (const record::Flaw& flaw : record::verify_run(folder / place).flaws)
+    for (const record::Flaw& flaw : verify_whole_run(folder / place).flaws)
       findings.flaws.push_back({(place / flaw.file).generic_string(), flaw.what});
   }
   if (left > 0)
@@ -143,6 +150,11 @@ void print_json(const std::string& folder, const Findings& findings) {
   std::cout << to_text(json) << "\n";
 }
 
+/// Of states and checkpoints, which --resume does not make again: all else follows from the scene.
+bool is_of_kept_file(const record::Flaw& flaw) {
+  return flaw.file.ends_with(".ckpt");
+}
+
 void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const Findings& findings) {
   for (const record::Flaw& flaw : findings.flaws)
     std::cout << printable_text((fs::path(folder) / flaw.file).string()) << " "
@@ -150,7 +162,12 @@ void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const F
   if (!findings.unfinished.empty())
     std::cout << printable_text(folder + ": " + findings.unfinished) << "\n";
   if (is_quiet) return;
-  if (findings.is_whole())
+  const bool is_made = !findings.flaws.empty() && findings.unfinished.empty() &&
+                       std::ranges::all_of(findings.flaws, is_of_kept_file);
+  if (is_made)
+    std::cout << "no picture, film or export is damaged: remove the folder states, and what is "
+                 "damaged in the folder checkpoint; a command that needs them simulates again\n";
+  else if (findings.is_whole())
     std::cout << folder << ": complete, " << findings.files << " files unchanged\n";
   else if (!findings.is_in_use)
     std::cout << (is_sweep ? "repeat the command of the sweep to make the rest\n"

@@ -38,7 +38,10 @@ void describe_info(Command& visit, PlainOptions& o) {
 }
 
 void describe_verify(Command& visit, PlainOptions& o) {
-  visit.about("verify", "Check that every file of a run or a sweep exists and is unchanged");
+  visit.about(
+      "verify",
+      "Check that every file of a run or a sweep exists and is unchanged, its kept states and "
+      "checkpoints too");
   describe_argument(visit, "DIR", o.name, "Output folder of a run or a sweep").required();
   visit("--json", o.is_json, json_help);
   visit("--quiet,-q", o.is_quiet, "Print only flaws");

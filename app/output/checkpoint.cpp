@@ -85,9 +85,7 @@ fs::path states_folder(const fs::path& folder) {
 }
 
 fs::path state_path(const fs::path& folder, int frame) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%06d.ckpt", frame);
-  return states_folder(folder) / name;
+  return folder / state_name(frame);
 }
 
 /// A file is judged by its first bytes and its size before there is memory for it.
@@ -251,6 +249,46 @@ FoundCheckpoint read_state(const fs::path& folder, int frame) {
   if (!fs::is_regular_file(file, error) || !read_into(found, file)) return found;
   if (found.checkpoint->frame == frame) return found;
   return {std::nullopt, {file.string() + ": is the state of another frame"}};
+}
+
+std::string state_name(int frame) {
+  char name[32];
+  std::snprintf(name, sizeof name, "states/%06d.ckpt", frame);
+  return name;
+}
+
+KeptFiles check_kept(const fs::path& folder) {
+  KeptFiles kept;
+  std::error_code error;
+  const auto note = [&](const fs::path& file, const FoundCheckpoint& found,
+                        const std::string& why) {
+    // A run that is under way may have thinned it out meanwhile.
+    if (!fs::exists(file, error)) return;
+    ++kept.count;
+    const std::string what =
+        !why.empty() || found.damaged.empty()
+            ? why
+            : found.damaged.front().substr(file.string().size() + 2);  // after "FILE: "
+    if (!what.empty()) kept.damaged[file.lexically_relative(folder).generic_string()] = what;
+  };
+  const auto check = [&](const fs::path& file, const auto& read) {
+    try {
+      note(file, read(), "");
+    } catch (const UnreadableError& unreadable) {
+      note(file, {}, unreadable.what());
+    }
+  };
+  kept.has_states = fs::is_directory(states_folder(folder), error);
+  kept.states = kept_states(folder);
+  for (const int frame : kept.states)
+    check(state_path(folder, frame), [&] { return read_state(folder, frame); });
+  for (const fs::path& file : list(folder))
+    check(file, [&] {
+      FoundCheckpoint found;
+      read_into(found, file);
+      return found;
+    });
+  return kept;
 }
 
 void remove_states(const fs::path& folder) {

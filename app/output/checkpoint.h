@@ -71,6 +71,18 @@ std::vector<int> kept_states(const std::filesystem::path& folder);
 /// Empty if the frame has none. @throws UnreadableError likewise
 FoundCheckpoint read_state(const std::filesystem::path& folder, int frame);
 
+/// The kept states and the checkpoints of a run, each read whole and held to its checksum.
+struct KeptFiles {
+  std::size_t count = 0;    ///< that were read
+  bool has_states = false;  ///< DIR/states exists: who wants the disk back removes it
+  std::vector<int> states;  ///< frames, in order, of damaged ones too
+  std::map<std::string, std::string> damaged;  ///< "states/000005.ckpt": "is truncated"
+};
+KeptFiles check_kept(const std::filesystem::path& folder);
+
+/// "states/000005.ckpt"
+std::string state_name(int frame);
+
 void remove_state(const std::filesystem::path& folder, int frame);
 /// Removes all kept states of a folder. Other files stay.
 void remove_states(const std::filesystem::path& folder);

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/output/checkpoint.h"
 #include "app/output/file_hash.h"
 #include "app/output/sequence.h"
 #include "app/record/picture_record.h"
@@ -220,6 +221,31 @@ Verification verify_run(const fs::path& folder) {
   check_other_files(folder, *pictures, result);
   check_export(folder, result);
   return result;
+}
+
+void verify_kept(const fs::path& folder, Verification& result) {
+  const output::KeptFiles kept = output::check_kept(folder);
+  result.files += kept.count;
+  for (const auto& [name, what] : kept.damaged) result.flaws.push_back({name, what});
+  if (!kept.has_states || result.status.empty() || result.status == name(RunStatus::running))
+    return;
+  try {
+    const Json run = read_run_json(folder);
+    if (!run.contains("states") || !run["states"].contains("frames")) return;
+    const int first = run.value("first_number", 0);
+    for (const Json& number : run["states"]["frames"]) {
+      const int frame = whole_number<int>(number) - first;
+      if (frame < 0 || frame > output::max_frame) continue;
+      if (!std::ranges::binary_search(kept.states, frame))
+        result.flaws.push_back({output::state_name(frame), is_missing});
+    }
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const IoError&) {
+    throw;
+  } catch (const std::exception&) {
+    result.flaws.push_back({output::run_json_path({}).string(), "is damaged"});
+  }
 }
 
 std::optional<Verification> verify_list(const fs::path& list, const std::string& below) {

@@ -63,6 +63,12 @@ struct Verification {
 /// Reads run.json and all files that it lists, and those of `neve export` of this run.
 Verification verify_run(const std::filesystem::path& folder);
 
+/// Adds the kept states and the checkpoints of the run, by their own checksums, and states that
+/// run.json lists and that are not in DIR/states. Nothing is said of a folder `states` that was
+/// removed, of states that a run thinned out, and of those of a run that was killed or is under
+/// way, whose list is of its start.
+void verify_kept(const std::filesystem::path& folder, Verification& result);
+
 /// Reads export.json or compare.json and all files that it lists; empty if there is no such list.
 /// @param below  put in front of names: "exports/"
 std::optional<Verification> verify_list(const std::filesystem::path& list,

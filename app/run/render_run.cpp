@@ -104,7 +104,7 @@ RenderResult RenderRun::run() {
     if (timeline_.simulation().steps() == 0) look_at_laws();
     if (laws_) ledger_.record().validation = laws_->records();
     if (mend(flawed)) make_frames();
-    timeline_.moments().settle();
+    timeline_.moments().bring_to_disk();
     note_states();
     add_slates();
     result_.movies = ledger_.finish(result_.status);
@@ -139,7 +139,7 @@ std::vector<int> RenderRun::begin() {
     begin_beside(earlier);
   else if (is_same)
     ledger_.keep_views(*earlier);
-  timeline_.moments() = timeline::Moments(states_folder(), progress_);
+  timeline_.moments() = timeline::Moments(states_folder(earlier), progress_);
   if (!job_.run.empty() && !job_.fork && job_.folder != job_.run)
     timeline_.moments().add_run(job_.run);
   is_continued_ = found || job_.fork;
@@ -178,7 +178,23 @@ void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
         told_before_.push_back(warning);
 }
 
-timeline::StatesFolder RenderRun::states_folder() const {
+/// States that an earlier command of the same simulation has listed at its end.
+std::set<int> RenderRun::trusted_states(const std::optional<EarlierRun>& earlier) const {
+  std::set<int> frames;
+  if (!earlier || !earlier->is_same) return frames;
+  const std::string status = earlier->json.value("status", "");
+  const Json states = earlier->json.value("states", Json());
+  const bool has_ended = status == record::name(record::RunStatus::ok) ||
+                         status == record::name(record::RunStatus::diverged) ||
+                         status == record::name(record::RunStatus::interrupted);
+  if (!has_ended || !states.is_object() || !states.contains("frames")) return frames;
+  for (const Json& number : states["frames"])
+    if (number.is_number_integer())
+      frames.insert(scene::frame_of(job_.scene, whole_number<int>(number)));
+  return frames;
+}
+
+timeline::StatesFolder RenderRun::states_folder(const std::optional<EarlierRun>& earlier) const {
   const std::string simd = timeline_.simulation().simd();
   const RenderOptions& options = job_.options;
   // States of the run that is drawn stay where they are.
@@ -187,6 +203,7 @@ timeline::StatesFolder RenderRun::states_folder() const {
                                 simd, !options.validate};
   states.are_wanted = options.keeps_all_states || (options.keeps_states && !is_elsewhere);
   states.last_frame = frames_.last;
+  states.trusted = trusted_states(earlier);
   if (options.keeps_all_states) return states;
   std::error_code error;
   const std::filesystem::space_info disk = std::filesystem::space(job_.folder, error);

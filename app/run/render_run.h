@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <future>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "app/health/diagnosis.h"
@@ -49,7 +50,8 @@ class RenderRun {
  private:
   /// Adds to the run that the folder has, or replaces it. @throws UsageError for what would be lost
   void begin_beside(const std::optional<EarlierRun>& earlier);
-  timeline::StatesFolder states_folder() const;
+  std::set<int> trusted_states(const std::optional<EarlierRun>& earlier) const;
+  timeline::StatesFolder states_folder(const std::optional<EarlierRun>& earlier) const;
   void note_states();
   /// True where the run has the pictures of a frame already; of a run that was cut off its state
   /// too, if it is to be kept.

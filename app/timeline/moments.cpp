@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "app/output/atomic_file.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
@@ -28,7 +29,15 @@ std::uint64_t bytes_of(const Moment& moment) {
 Moments::Moments(StatesFolder states, Progress& progress)
     : states_(std::move(states)), progress_(&progress) {
   output::tidy_states_folder(states_.folder);
-  const std::vector<int> frames = output::kept_states(states_.folder);
+  std::vector<int> frames = output::kept_states(states_.folder);
+  std::erase_if(frames, [&](int frame) {
+    if (states_.trusted.contains(frame)) return false;
+    const std::vector<std::string> damaged = output::read_state(states_.folder, frame).damaged;
+    for (const std::string& file : damaged)
+      progress.warning(file + "; the frame is simulated again");
+    if (!damaged.empty()) output::remove_state(states_.folder, frame);
+    return !damaged.empty();
+  });
   std::optional<output::Checkpoint> found;
   for (auto frame = frames.begin(); frame != frames.end() && !found; ++frame)
     found = output::read_state(states_.folder, *frame).checkpoint;
@@ -162,10 +171,24 @@ void Moments::settle() {
   try {
     state_bytes_[written_frame_] = writing_.get();
     on_disk_.insert({written_frame_, {}});
+    unsynced_.push_back(states_.folder / output::state_name(written_frame_));
   } catch (const IoError& error) {
     if (states_.budget == 0) throw;
     stop_keeping(error.what());
   }
+}
+
+void Moments::bring_to_disk() {
+  settle();
+  std::error_code error;
+  std::erase_if(unsynced_, [&](const auto& file) { return !std::filesystem::exists(file, error); });
+  try {
+    output::sync_files(unsynced_);
+  } catch (const IoError& failure) {
+    if (states_.budget == 0) throw;
+    stop_keeping(failure.what());
+  }
+  unsynced_.clear();
 }
 
 /// The disk may be full for pictures too: they come first.

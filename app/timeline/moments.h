@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct StatesFolder {
   /// written is an error; otherwise none is kept any more then.
   std::uint64_t budget = 0;
   int last_frame = 0;  ///< of this command
+  /// Frames whose states a command that ended has brought to the disk. A power cut may have left
+  /// others unfinished: those are removed, and made again where their frames are.
+  std::set<int> trusted{};
 };
 
 /// States in DIR/states, as they are now.
@@ -68,6 +72,8 @@ class Moments {
   void keep(Moment moment);
   /// Waits until the last one is written. @throws IoError
   void settle();
+  /// Settles, and has all that were written survive a power cut. @throws IoError likewise
+  void bring_to_disk();
   /// Of DIR/states, when they are settled; nothing where none are wanted.
   std::optional<StatesKept> kept() const;
 
@@ -106,6 +112,7 @@ class Moments {
   std::string stopped_;                       ///< why no state is kept any more
   std::future<std::uint64_t> writing_;        ///< the last state, and its bytes
   int written_frame_ = 0;                     ///< of that state
+  std::vector<std::filesystem::path> unsynced_;
 };
 
 }  // namespace neve::app::timeline

@@ -117,6 +117,36 @@ TEST_F(Store, AWholeRunIsVerifiedAndEveryDamageIsNamed) {
   EXPECT_EQ(neve({"verify", "."}).exit_code, 6) << "no run was ever there";
 }
 
+TEST_F(Store, StatesAndCheckpointsAreVerifiedWhereTheyAreKept) {
+  ASSERT_EQ(render("out", {"--no-movie"}).exit_code, 0);
+  ASSERT_EQ(neve({"verify", "out"}).exit_code, 0);
+  std::string checkpoint;
+  for (const auto& file : fs::directory_iterator(folder / "out/checkpoint"))
+    checkpoint = "out/checkpoint/" + file.path().filename().string();
+  damage("out/states/000002.ckpt");
+  damage(checkpoint);
+  fs::remove(folder / "out/states/000003.ckpt");
+  const auto found = neve({"verify", "out"});
+  EXPECT_EQ(found.exit_code, 9);
+  for (const std::string& line :
+       {std::string("out/states/000002.ckpt is damaged: its checksum is wrong"),
+        std::string("out/states/000003.ckpt is missing"), checkpoint + " is damaged: its checksum",
+        std::string("no picture, film or export is damaged: remove the folder states")})
+    EXPECT_TRUE(contains(found.output, line)) << found.output;
+  // The way out that it names.
+  fs::remove_all(folder / "out/states");
+  fs::remove(folder / checkpoint);
+  EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
+  // Numbers of a shot are not those of the files of its states; a small budget thins states out.
+  ASSERT_EQ(render("shot", {"--set", "first_frame=1001", "--no-movie"}).exit_code, 0);
+  EXPECT_EQ(neve({"verify", "shot"}).exit_code, 0);
+  fs::remove(folder / "shot/states/000003.ckpt");
+  EXPECT_TRUE(contains(neve({"verify", "shot"}).output, "shot/states/000003.ckpt is missing"));
+  ASSERT_EQ(render("thin", {"--states-budget", "64KiB", "--no-movie"}).exit_code, 0);
+  const auto thin = neve({"verify", "thin"});
+  EXPECT_EQ(thin.exit_code, 0) << thin.output;
+}
+
 TEST_F(Store, EveryDamageOfRunJsonIsNoticed) {
   ASSERT_EQ(render("out", {"--frames", "0-2", "--no-movie"}).exit_code, 0);
   const std::string text = read_text(folder / "out/run.json");
