@@ -193,6 +193,9 @@ void describe_export(Command& visit, ExportCommand& o) {
   visit("--frames", o.run.frames, options::frames(), "Frames to write: A-B, or N for all up to N");
   visit("--out", o.run.out, options::folder("ply/0000.ply"),
         "Write to DIR/<format>/0000.<ext> instead of out/<scene name>/exports");
+  visit("--replace", o.run.replaces,
+        "Remove exports of the folder whose place this one takes: of another scene, other frames, "
+        "other parameters or attributes; without it neve says what would go and stops");
   visit("--json", o.run.is_json, "Print the list of files as JSON");
   options::describe_progress(visit, o.run.progress);
   options::describe_verbosity(visit, o.run.verbosity, "Print more");

@@ -1,8 +1,12 @@
 #include "app/run/export_run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
+#include <set>
 
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
@@ -11,6 +15,7 @@
 #include "app/output/sequence.h"
 #include "app/record/earlier.h"
 #include "app/record/run_json.h"
+#include "app/run/identity.h"
 #include "app/scene/check.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
@@ -50,6 +55,14 @@ struct Kept {
   bool is_whole = true;
 };
 
+/// An earlier list of the folder.
+struct Earlier {
+  std::string scene_file, simulation;  ///< "": not said
+  Kept kept;
+  Json replaced = Json::array();   ///< exports whose place is taken
+  record::FileHashes their_files;  ///< of these
+};
+
 /// @throws std::exception for an entry that neve has not written
 void keep_export(const Json& one, const record::FileHashes& files, Kept& kept) {
   const std::string folder = one.at("name").get<std::string>() + "/";
@@ -60,33 +73,100 @@ void keep_export(const Json& one, const record::FileHashes& files, Kept& kept) {
   kept.exports.push_back(one);
 }
 
-/// Removes the files of an earlier export with the same name, or of another scene.
-Kept replace_earlier(const ExportJob& job) {
+/// Names all that the scene says of its simulation; another build may have other bits.
+std::string simulation_of(const RenderJob& run) {
+  return record::hash_of(simulation_text(run.scene) + to_text(scene::to_json(run.changes)));
+}
+
+/// Exports with the same names, or of another scene, give their place to the new ones.
+Earlier earlier_exports(const ExportJob& job) {
   const fs::path file = output::export_list_path(job.run.folder);
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return {};
   const std::vector<scene::Export>& ours = job.run.scene.exports;
   try {
     const Json list = output::read_json(file);
-    const bool is_of_scene = list.at("scene_file") == job.run.scene_file;
-    Kept kept;
-    record::FileHashes replaced = record::file_hashes(list);
+    Earlier earlier;
+    earlier.scene_file = list.at("scene_file").get<std::string>();
+    earlier.simulation = list.value("simulation", "");
+    earlier.their_files = record::file_hashes(list);
+    const bool is_of_scene = earlier.scene_file == job.run.scene_file;
     for (const Json& one : list.at("exports")) {
       const bool is_ours = std::any_of(ours.begin(), ours.end(), [&](const scene::Export& e) {
         return one.at("name") == scene::folder_of(e);
       });
-      if (is_of_scene && !is_ours) keep_export(one, record::file_hashes(list), kept);
+      if (is_of_scene && !is_ours)
+        keep_export(one, record::file_hashes(list), earlier.kept);
+      else
+        earlier.replaced.push_back(one);
     }
-    std::erase_if(replaced, [&](const auto& file) { return kept.files.contains(file.first); });
-    kept.is_whole = kept.exports.empty() || list.at("is_whole").get<bool>();
-    record::remove_listed(job.run.folder, replaced);
-    return kept;
+    std::erase_if(earlier.their_files,
+                  [&](const auto& item) { return earlier.kept.files.contains(item.first); });
+    earlier.kept.is_whole = earlier.kept.exports.empty() || list.at("is_whole").get<bool>();
+    return earlier;
   } catch (const IoError&) {
     throw;  // files of an earlier export would lie beside the new ones
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
     return {};  // No list of ours: nothing is removed.
   }
+}
+
+/// Whether two entries of a list say the same of an export, but for its files.
+bool has_same_settings(const Json& a, const Json& b) {
+  return std::ranges::all_of(
+      std::array{"format", "up", "scale", "attributes", "surface", "dust"},
+      [&](const char* key) { return a.value(key, Json()) == b.value(key, Json()); });
+}
+
+std::set<std::string> files_to_write(const ExportJob& job) {
+  std::set<std::string> names;
+  for (const scene::Export& e : job.run.scene.exports) {
+    const std::string folder = scene::folder_of(e) + "/";
+    names.insert({exports::series_name(e), folder + "manifest.usda"});
+    for (std::size_t k = 0; k < job.times.size(); ++k)
+      names.insert(folder + exports::file_name(e, job.first_number + static_cast<int>(k)));
+  }
+  return names;
+}
+
+/// "8 files, from ply/0000.ply to ply/0007.ply"
+std::string lost_files_text(const std::vector<std::string>& files) {
+  if (files.size() == 1) return files.front();
+  return fmt::format("{} files, from {} to {}", files.size(), files.front(), files.back());
+}
+
+/// An export that is made again, or continued after an interruption, loses nothing: its files are
+/// made again. All else that would go needs --replace.
+/// @param ours  of the new exports, as in export.json
+void refuse_lost_exports(const ExportJob& job, const Earlier& earlier, const Json& ours) {
+  if (job.run.options.replaces) return;
+  const std::set<std::string> written = files_to_write(job);
+  std::vector<std::string> all, gone;
+  for (const auto& [name, hash] : earlier.their_files) {
+    if (!record::is_below(job.run.folder, name) || !record::has_hash(job.run.folder / name, hash))
+      continue;
+    all.push_back(name);
+    if (!written.contains(name)) gone.push_back(name);
+  }
+  const auto refuse = [&](const std::string& what, const std::vector<std::string>& files) {
+    throw UsageError(job.run.options.out.empty() ? "" : "--out",
+                     fmt::format("{} has {}; it would replace {}", job.run.folder.string(), what,
+                                 lost_files_text(files)),
+                     "add --replace, or choose another folder with --out");
+  };
+  if (all.empty()) return;
+  if (earlier.scene_file != job.run.scene_file)
+    refuse("exports of another scene, " + earlier.scene_file, all);
+  for (const Json& before : earlier.replaced)
+    for (const Json& now : ours)
+      if (now.at("name") == before.at("name") && !has_same_settings(before, now))
+        refuse("the export " + before.at("name").get<std::string>() +
+                   " with other attributes, units or axes, or another surface",
+               all);
+  if (!earlier.simulation.empty() && earlier.simulation != simulation_of(job.run))
+    refuse("this export of another simulation of the scene: parameters have changed since", all);
+  if (!gone.empty()) refuse("this export at other frames or times", gone);
 }
 
 /// Goes to a time; a stage also has where things are at the frames on the way from the moment
@@ -127,6 +207,7 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
   Json json;
   json["version"] = version;
   json["scene_file"] = job.run.scene_file;
+  json["simulation"] = simulation_of(job.run);
   json["fps"] = job.run.scene.fps;
   const std::optional<sim::Vec3d> offset = scene::world_offset(job.run.scene);
   json["world_offset"] = offset ? output::vector_json(*offset) : Json();
@@ -177,8 +258,10 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
     output::make_folder(job.run.folder);
   else
     output::make_own_folder(job.run.folder);
-  const Kept kept = replace_earlier(job);
   exports::Exporter exporter(run.scene, job.run.folder, timeline.seeded().body_end);
+  const Earlier earlier = earlier_exports(job);
+  refuse_lost_exports(job, earlier, exporter.to_json(""));
+  record::remove_listed(job.run.folder, earlier.their_files);
   output::PictureWriter writer;
   ExportResult result;
   progress.start(timeline::frame_at(job.times.back(), run.scene.fps),
@@ -202,8 +285,8 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   result.is_whole = result.moments == job.times.size();
   result.divergence = simulation.divergence();
   result.exports = exporter.to_json("");
-  warn_of_other_states(result.exports, kept, progress);
-  write_list(job, result, kept, written);
+  warn_of_other_states(result.exports, earlier.kept, progress);
+  write_list(job, result, earlier.kept, written);
   return result;
 }
 

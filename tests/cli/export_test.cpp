@@ -374,7 +374,7 @@ TEST_F(Export, TheStageOfCollidersThatWaitIsTheSameAfterAResume) {
 TEST_F(Export, TheNextExportReplacesTheOneOfItsNameAndKeepsOthers) {
   json_of_export({"scene.toml", "--format", "vtp,usda", "--out", "x"});
   folder.write("x/vtp/mine.txt", "kept");
-  json_of_export({"scene.toml", "--format", "vtp", "--frames", "0-1", "--out", "x"});
+  json_of_export({"scene.toml", "--format", "vtp", "--frames", "0-1", "--out", "x", "--replace"});
   for (const char* there : {"x/vtp/0001.vtp", "x/vtp/mine.txt", "x/usda.usda", "x/usda/0000.usda"})
     EXPECT_TRUE(exists(there)) << there;
   EXPECT_FALSE(exists("x/vtp/0002.vtp"));
@@ -388,10 +388,48 @@ TEST_F(Export, TheNextExportReplacesTheOneOfItsNameAndKeepsOthers) {
   EXPECT_EQ(changed.exit_code, 0) << changed.errors;
   EXPECT_TRUE(contains(changed.errors, "shows another state than this export")) << changed.errors;
   // Another scene has nothing to do with them.
-  json_of_export({"pair.toml", "--format", "ply", "--frames", "0", "--out", "x"});
+  json_of_export({"pair.toml", "--format", "ply", "--frames", "0", "--out", "x", "--replace"});
   for (const char* gone : {"x/vtp/0001.vtp", "x/usda.usda", "x/usda/manifest.usda"})
     EXPECT_FALSE(exists(gone)) << gone;
   EXPECT_TRUE(exists("x/vtp/mine.txt"));
+}
+
+/// Hours of simulation were gone after the frames of another export, with exit code 0.
+TEST_F(Export, NoExportIsReplacedWithoutAWord) {
+  const std::vector<std::string> first{"scene.toml", "--format", "npz,usda", "--frames",
+                                       "1-2",        "--out",    "x"};
+  json_of_export(first);
+  const std::string list = read_text(folder / "x/export.json");
+  const auto refused = [&](std::vector<std::string> words, const std::string& part) {
+    words.insert(words.end(), {"--out", "x"});
+    expect_refused(words, app::exit_usage, part);
+    words.insert(words.begin(), "export");
+    const auto result = neve(words);
+    EXPECT_TRUE(contains(result.errors, "add --replace, or choose another folder with --out"))
+        << result.errors;
+    EXPECT_EQ(read_text(folder / "x/export.json"), list);
+    EXPECT_TRUE(exists("x/npz/0001.npz") && exists("x/usda/0001.usda")) << part;
+  };
+  refused({"pair.toml", "--format", "ply", "--frames", "4"},
+          "x has exports of another scene, scene.toml; it would replace 6 files, from "
+          "npz/0001.npz to usda/manifest.usda");
+  refused({"scene.toml", "--format", "npz", "--frames", "2-3"},
+          "x has this export at other frames or times; it would replace npz/0001.npz");
+  refused({"scene.toml", "--format", "npz", "--at", "0.1"}, "at other frames or times");
+  refused({"scene.toml", "--format", "usda", "--frames", "1-2", "--up", "z"},
+          "the export usda with other attributes, units or axes");
+  refused({"scene.toml", "--format", "npz", "--frames", "1-2", "--set", "seed=9"},
+          "another simulation of the scene");
+  // What is made again, and more frames of it, loses nothing.
+  json_of_export(first);
+  EXPECT_EQ(read_text(folder / "x/export.json"), list);
+  json_of_export({"scene.toml", "--format", "npz", "--frames", "0-2", "--out", "x"});
+  EXPECT_TRUE(exists("x/npz/0000.npz") && exists("x/usda/0001.usda"));
+  // Files that their owner has changed or removed do not go, so nothing is lost.
+  std::filesystem::remove_all(folder / "x/npz");
+  std::filesystem::remove_all(folder / "x/usda");
+  std::filesystem::remove(folder / "x/usda.usda");
+  json_of_export({"pair.toml", "--format", "ply", "--frames", "0", "--out", "x"});
 }
 
 /// The list may be forged: it removes nothing outside its folder.

@@ -224,7 +224,7 @@ inline std::vector<DisturbedCommand> disturbed_commands(const std::set<std::stri
       {"render_over", "rm -rf out; cp -r earlier out",
        "render scene.toml --out out --frames 0-1 --replace", "out"},
       {"export_over", "rm -rf out; cp -r listed out",
-       "export scene.toml --frames 0-1 --format vtp --out out", "out"},
+       "export scene.toml --frames 0-1 --format vtp --replace --out out", "out"},
       {"sweep", "rm -rf s", "sweep scene.toml -p seed=1,2 --frames 0-1 --out s --jobs 1", "s"},
       {"collect", "rm -rf s; cp -r made s; rm -rf s/data.csv s/sheet* s/strips* s/report.html",
        "sweep collect s", "s"},

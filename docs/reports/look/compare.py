@@ -89,17 +89,24 @@ def numbers(text):
     return np.array(re.findall(r"[-+.\deE]+", text), float)
 
 
+def value_at(block, name, frame):
+    """The value of a property, or its sample nearest to a frame."""
+    if fixed := re.search(name + r" = \((.*?)\)", block):
+        return numbers(fixed[1])
+    samples = re.search(name + r"\.timeSamples = \{(.*?)\n            }", block, re.DOTALL)[1]
+    times = {float(time): numbers(value) for time, value in re.findall(r"([-.\d]+): \((.*?)\)", samples)}
+    return times[min(times, key=lambda time: abs(time - frame))]
+
+
 def colliders_of(stage, frame):
     """Places and triangles of the colliders of a stage at a frame."""
     text = stage.read_text(encoding="utf-8")
     for block in re.findall(r"^        def Mesh .*?^        }", text, re.MULTILINE | re.DOTALL):
         corners = numbers(re.search(r"faceVertexIndices = \[(.*?)\]", block)[1]).astype(int).reshape(-1, 3)
         points = numbers(re.search(r"points = \[(.*?)\]$", block, re.MULTILINE)[1]).reshape(-1, 3)
-        samples = re.search(r"transform.timeSamples = \{(.*?)\n            }", block, re.DOTALL)[1]
-        times = {float(time): numbers(matrix).reshape(4, 4)
-                 for time, matrix in re.findall(r"([-.\d]+): (\( .*? \))", samples)}
-        pose = times[min(times, key=lambda time: abs(time - frame))]
-        yield (np.c_[points, np.ones(len(points))] @ pose)[:, :3], corners
+        place, (w, *axis) = (value_at(block, f"xformOp:{name}", frame) for name in ("translate", "orient"))
+        across = np.cross(axis, points)
+        yield points + 2 * (w * across + np.cross(axis, across)) + place, corners
 
 
 def poly_data(points, corners=None, normals=None):
