@@ -67,6 +67,8 @@ class MeshPly {
             : !header.elements.empty() && numbers.left() >= triangle_size(header.elements.back());
     if (has_more)
       refuse_input(name_, "more data than the elements of the header: faces would be missing");
+    if (!header.axes.are_ours())
+      for (Vec3d& x : mesh_.vertices) x = header.axes.metres(x);
     check();
     return std::move(mesh_);
   }

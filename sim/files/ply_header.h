@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/files/file_axes.h"
 #include "sim/files/input_file.h"
 #include "sim/files/point_table.h"
 
@@ -59,6 +60,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::none;
   std::vector<PlyElement> elements;
+  FileAxes axes;  ///< other than metres, y up, only of a file that neve says it wrote
 };
 
 /// Removes the first word of a line. @return "" at its end

@@ -40,6 +40,7 @@ class PointPly {
     const PlyElement& element = header_.elements.back();
     PointTable points(columns_, element.where);
     points.carry(further, columns_, column_types(element), element.where);
+    points.use(header_.axes);
     if (header_.format == PlyFormat::ascii)
       read_text(points);
     else

@@ -47,6 +47,8 @@ PointCloud parse_points(std::string_view bytes, const std::string& name,
                         const std::vector<std::string>& further = {});
 
 /// Reads the single numbers of the element vertex; lists, and other elements, are passed over.
+/// Positions, velocities, F_E and C of a file that neve wrote with z up or in other units are
+/// turned and scaled back, as the comments of its header say.
 PointCloud parse_ply_points(std::string_view bytes, const std::string& name,
                             const std::vector<std::string>& further = {});
 

@@ -225,7 +225,38 @@ void PointTable::add_history(const std::vector<double>& row,
   cloud_.F_E.push_back(F_E);
 }
 
+/// Of the columns that are vectors or tensors; further ones are passed on as they are.
+std::vector<double> PointTable::in_metres(std::vector<double> row) const {
+  const auto at = [&](std::size_t quantity) -> double& { return row[*column_[quantity]]; };
+  for (const std::size_t first : {position, velocity}) {
+    if (!column_[first]) continue;
+    const Vec3d v = axes_.metres({at(first), at(first + 1), at(first + 2)});
+    for (int axis = 0; axis < 3; ++axis) at(first + static_cast<std::size_t>(axis)) = v[axis];
+  }
+  for (const std::size_t first : {deformation, affine}) {
+    if (!column_[first]) continue;
+    const auto element = [&](int r, int c) -> double& {
+      return at(first + static_cast<std::size_t>(3 * r + c));
+    };
+    Mat3d a;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) a(r, c) = element(r, c);
+    a = axes_.tensor(a);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) element(r, c) = a(r, c);
+  }
+  return row;
+}
+
 void PointTable::add(const std::vector<double>& row, const std::function<std::string()>& where) {
+  if (axes_.are_ours())
+    add_in_metres(row, where);
+  else
+    add_in_metres(in_metres(row), where);
+}
+
+void PointTable::add_in_metres(const std::vector<double>& row,
+                               const std::function<std::string()>& where) {
   cloud_.x.push_back(vector(row, position, where));
   if (column_[velocity]) cloud_.v.push_back(vector(row, velocity, where));
   if (column_[mass]) cloud_.m.push_back(value(row, mass, where));

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/files/file_axes.h"
 #include "sim/files/point_reader.h"
 
 namespace neve::sim::files {
@@ -45,6 +46,9 @@ class PointTable {
   void carry(const std::vector<std::string>& names, const std::vector<std::string>& columns,
              const std::vector<PointColumn::Type>& types, const std::string& where);
 
+  /// Rows are in these axes and units; points are in metres, y up.
+  void use(const FileAxes& axes) { axes_ = axes; }
+
   bool uses(std::size_t column) const;
   void reserve(std::size_t count);
 
@@ -59,6 +63,8 @@ class PointTable {
  private:
   static constexpr std::size_t quantity_count = 30;  ///< see point_table.cpp
 
+  std::vector<double> in_metres(std::vector<double> row) const;
+  void add_in_metres(const std::vector<double>& row, const std::function<std::string()>& where);
   void require(std::size_t first, const std::vector<std::string>& columns, const std::string& where,
                const std::string& what) const;
   double value(const std::vector<double>& row, std::size_t quantity,
@@ -71,6 +77,7 @@ class PointTable {
 
   std::array<std::optional<std::size_t>, quantity_count> column_{};
   std::vector<std::size_t> further_;  ///< columns of cloud_.further
+  FileAxes axes_;
   PointCloud cloud_;
 };
 

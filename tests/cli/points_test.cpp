@@ -1,5 +1,6 @@
 /// Bodies from point files as a user meets them: rendered, checked, coarsened, resumed, refused.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -223,6 +224,44 @@ TEST_F(PointFiles, AnExportedStateContinuesAsIfNothingHadHappened) {
     return sum / count;
   };
   EXPECT_NEAR(mean_height("again/csv/0003.csv"), mean_height("all_csv/csv/0006.csv"), 1e-4);
+}
+
+/// Bodies lay on their side, a hundred times as large.
+TEST_F(PointFiles, AStateInOtherAxesAndUnitsContinuesAsItWas) {
+  folder.write("moving.toml", moving_scene);
+  for (const auto& [out, flags] : {std::pair<std::string, std::vector<std::string>>{"plain", {}},
+                                   {"turned", {"--up", "z"}},
+                                   {"scaled", {"--up", "z", "--scale", "100"}}}) {
+    std::vector<std::string> words{"export",       "moving.toml", "--format", "ply",
+                                   "--attributes", state,         "--frames", "3-3",
+                                   "--out",        out,           "-q"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    ASSERT_EQ(neve(words).exit_code, 0);
+    folder.write(out + ".toml", continued(out + "/ply/0003.ply"));
+    ASSERT_EQ(neve({"export", out + ".toml", "--format", "csv", "--attributes", state, "--frames",
+                    "0-1", "--out", out + "_again", "-q"})
+                  .exit_code,
+              0);
+  }
+  for (const char* frame : {"0000.csv", "0001.csv"})
+    EXPECT_EQ(read_text(folder / "turned_again/csv" / frame),
+              read_text(folder / "plain_again/csv" / frame));
+  // A hundred times a number and a hundredth of it may differ in the last digit.
+  const auto numbers = [&](const std::string& file) {
+    std::string text = read_text(folder / file);
+    text.erase(0, text.find('\n') + 1);
+    std::ranges::replace(text, '\n', ',');
+    std::vector<double> list;
+    std::istringstream words(text);
+    for (std::string word; std::getline(words, word, ',');) list.push_back(std::stod(word));
+    return list;
+  };
+  const std::vector<double> plain = numbers("plain_again/csv/0000.csv"),
+                            scaled = numbers("scaled_again/csv/0000.csv");
+  ASSERT_EQ(plain.size(), scaled.size());
+  ASSERT_GT(plain.size(), 1000u);
+  for (std::size_t k = 0; k < plain.size(); ++k)
+    EXPECT_NEAR(scaled[k], plain[k], 1e-6 * (1 + std::abs(plain[k]))) << k;
 }
 
 TEST_F(PointFiles, ADumpIsABody) {

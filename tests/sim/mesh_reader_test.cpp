@@ -148,6 +148,20 @@ TEST(MeshReader, StripsOfAPlyAreTriangles) {
   }
 }
 
+TEST(MeshReader, APlyThatNeveHasTurnedAndScaledIsTurnedAndScaledBack) {
+  const auto vertex = [](const std::string& comments) {
+    return files::parse_mesh(
+               "ply\nformat ascii 1.0\n" + comments +
+                   "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                   "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                   "100 -300 200\n0 0 0\n100 0 0\n3 0 1 2\n",
+               "m")
+        .vertices.front();
+  };
+  EXPECT_EQ(vertex("comment neve 0.2.0\ncomment up z, units per metre 100\n"), Vec3d(1, 2, 3));
+  EXPECT_EQ(vertex("comment up z, units per metre 100\n"), Vec3d(100, -300, 200));
+}
+
 TEST(MeshReader, AByteOrderMarkShiftsNoIndex) {
   const std::string text =
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 9 9 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n"

@@ -122,6 +122,39 @@ TEST(PointReader, RemarksBeforeTheFirstElementOfAPlyArePassedOver) {
   EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
 }
 
+/// What neve exports with --up z --scale 100 of a point at (1, 2, 3) m; other programs' words about
+/// axes mean nothing.
+TEST(PointReader, PointReaderTurnsAndScalesBackWhatNeveHasTurnedAndScaled) {
+  const auto read = [](const std::string& comments) {
+    std::string text = "ply\nformat ascii 1.0\n" + comments + "element vertex 1\n";
+    for (const char* name : {"x", "y", "z", "vx", "vy", "vz", "m", "V0", "F_E_xx", "F_E_xy",
+                             "F_E_xz", "F_E_yx", "F_E_yy", "F_E_yz", "F_E_zx", "F_E_zy", "F_E_zz"})
+      text += std::string("property double ") + name + "\n";
+    return text +
+           "end_header\n100 -300 200 400 -600 500 7 0.25 1 -0.3 0.2 -0.1 3 -0.4 0.5 -0.6 2\n";
+  };
+  const std::string neve = "comment neve 0.2.0\ncomment time 0 s, frame 0\n";
+  const sim::files::PointCloud cloud =
+      sim::files::parse_points(read(neve + "comment up z, units per metre 100\n"), "p");
+  EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
+  EXPECT_EQ(cloud.v[0], Vec3d(4, 5, 6));
+  EXPECT_EQ(cloud.m[0], 7);
+  EXPECT_EQ(cloud.V[0], 0.25);
+  Mat3d F_E;
+  F_E << 1, 0.2, 0.3, 0.5, 2, 0.6, 0.1, 0.4, 3;
+  EXPECT_EQ(cloud.F_E[0], F_E);
+  for (const std::string& comments :
+       {std::string("comment up z, units per metre 100\n"), neve,
+        neve + "comment up y, units per metre 1\n", std::string("comment made by hand, z up\n")})
+    EXPECT_EQ(sim::files::parse_points(read(comments), "p").x[0], Vec3d(100, -300, 200));
+  for (const char* axes : {"up x, units per metre 1", "up z, units per metre 0",
+                           "up z, units per metre", "up z", "up z, units per metre nan"})
+    EXPECT_EQ(
+        point_error(read(neve + "comment " + axes + "\n")),
+        "p:5: the comment on the axes of a file of neve cannot be read; expected comment up y, "
+        "units per metre 1, or none");
+}
+
 TEST(PointReader, PointReaderReadsBinaryPlyOfBothByteOrders) {
   for (const bool is_little : {true, false}) {
     const sim::files::PointCloud cloud = sim::files::parse_points(binary_ply(is_little), "p");
