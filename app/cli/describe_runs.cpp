@@ -266,6 +266,9 @@ void describe_compare(Command& visit, CompareOptions& o) {
   visit("--range", pictures.range,
         options::number<double>("M", 1e-12, 1e12, "a number of metres, as in --range 0.1"),
         "Displacement in metres that gets the last colour; default: ten cells");
+  visit("--replace", pictures.replaces,
+        "Remove an earlier comparison of the folder that is of other runs, or has frames or modes "
+        "that this one does not make; without it neve says what would go and stops");
   options::describe_movie(visit, pictures.movie);
   for (std::size_t k = first; k < visit.options.size(); ++k)
     visit.options[k].needs("--out", "needs pictures",

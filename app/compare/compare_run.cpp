@@ -83,8 +83,14 @@ class PairRun {
     return moment_of(frame, pair_.a.job.scene, pair_.a.job.run_frames, pair_.b.job.run_frames);
   }
 
+  /// As pictures have them.
+  setup::FrameRange numbers_of(const setup::FrameRange& frames) const {
+    return {scene::number_of(pair_.a.job.scene, frames.first),
+            scene::number_of(pair_.a.job.scene, frames.last)};
+  }
+
   void list_moments() {
-    target_.begin();
+    target_.begin(numbers_of(pair_.frames));
     for (int frame = pair_.frames.first; frame <= pair_.frames.last; ++frame)
       result_.moments.push_back(moment(frame));
   }
@@ -99,7 +105,7 @@ class PairRun {
     timeline::Timeline b = timeline::open(pair_.b.job, options_.threads, progress_);
     refuse_mode(options_, Mode::displacement, id_problem(pair_, a.seeded(), b.seeded()), target_,
                 result_);
-    target_.begin();
+    target_.begin(numbers_of(frames));
     progress_.start(frames.last, scene::number_of(pair_.a.job.scene, 0));
     for (int frame = frames.first; frame <= frames.last; ++frame) {
       if (!advance(a, pair_.a, frame) || !advance(b, pair_.b, frame)) {
@@ -184,7 +190,7 @@ PairResult compare_plain_pictures(const PairOptions& options) {
                        renderer.max_size(), options.out, "compare smaller pictures");
   std::vector<render::Image> images{a, b};
   if (mode == Mode::wipe) images = {wiped(a, b, options.wipe)};
-  target.begin();
+  target.begin({0, 0});
   target.add(
       mode, 0,
       with_strip(images, {StripWords{"A   " + options.a, ""}, StripWords{"B   " + options.b, ""}},

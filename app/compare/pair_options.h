@@ -42,6 +42,7 @@ struct PairOptions {
   std::optional<double> range;  ///< m, displacement that has the last colour
   int threads = 0;              ///< 0: one per core
   setup::CapTexts caps;
+  bool replaces = false;   ///< what an earlier comparison left in the folder
   bool is_agreed = false;  ///< to the cost of pictures that came alone
   std::string backend = "auto";
   Verbosity verbosity = Verbosity::normal;

@@ -1,6 +1,9 @@
 #include "app/compare/target.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <set>
 
 #include "app/output/atomic_file.h"
 #include "app/output/movie.h"
@@ -72,6 +75,9 @@ std::vector<Mode> modes_for(const PairOptions& options, TargetKind kind) {
 
 Target::Target(const PairOptions& options)
     : out_(options.out),
+      a_(fs::path(options.a).lexically_normal().generic_string()),
+      b_(fs::path(options.b).lexically_normal().generic_string()),
+      replaces_(options.replaces),
       kind_(kind_of(options.out)),
       modes_(modes_for(options, kind_)),
       movie_(movie_for(options, kind_)) {
@@ -104,7 +110,45 @@ fs::path Target::folder_of(Mode mode) const {
   return kind_ == TargetKind::movie ? scratch_ : out_ / name(mode);
 }
 
-void Target::begin() {
+/// Names of the files of this comparison.
+std::set<std::string> Target::files_to_come(const setup::FrameRange& frames) const {
+  std::set<std::string> files;
+  for (const Mode mode : modes_) {
+    if (mode == Mode::metrics) {
+      files.insert({"metrics.csv", "metrics.png"});
+      continue;
+    }
+    if (movie_.is_made)
+      files.insert(output::movie_path("", name(mode), movie_.format).generic_string());
+    for (int frame = frames.first; frame <= frames.last; ++frame)
+      files.insert(output::frame_path("", name(mode), frame).generic_string());
+  }
+  return files;
+}
+
+/// A comparison that is made again loses nothing.
+void Target::refuse_loss(const Json& earlier, const setup::FrameRange& frames) const {
+  if (replaces_) return;
+  const bool is_of_others = earlier.is_object() && earlier.contains("a") &&
+                            (earlier["a"] != a_ || earlier.value("b", Json()) != b_);
+  const std::set<std::string> to_come = files_to_come(frames);
+  std::vector<std::string> gone;
+  for (const auto& [file, hash] : record::file_hashes(earlier))
+    if ((is_of_others || !to_come.contains(file)) && record::is_below(out_, file) &&
+        record::has_hash(out_ / file, hash))
+      gone.push_back(file);
+  if (gone.empty()) return;
+  throw UsageError(
+      "--out",
+      fmt::format("{} has a comparison {}; it would replace {}", out_.string(),
+                  is_of_others ? "of other runs" : "with other frames or modes",
+                  gone.size() == 1 ? gone.front()
+                                   : fmt::format("{} files, from {} to {}", gone.size(),
+                                                 gone.front(), gone.back())),
+      "add --replace, or choose another folder with --out");
+}
+
+void Target::begin(const setup::FrameRange& frames) {
   if (kind_ != TargetKind::folder) {
     if (!out_.parent_path().empty()) output::make_folder(out_.parent_path());
     if (kind_ == TargetKind::movie) scratch_ = output::temporary_name(out_);
@@ -113,8 +157,9 @@ void Target::begin() {
   }
   output::make_folder(out_);
   lock_.emplace(out_, "neve compare");
-  record::remove_listed(out_,
-                        record::file_hashes(record::read_json(output::comparison_list_path(out_))));
+  const Json earlier = record::read_json(output::comparison_list_path(out_));
+  refuse_loss(earlier, frames);
+  record::remove_listed(out_, record::file_hashes(earlier));
   for (const Mode mode : modes_)
     if (mode != Mode::metrics) output::make_own_folder(folder_of(mode));
 }
@@ -171,8 +216,9 @@ void Target::finish() {
   record::FileHashes hashes;
   for (const output::WrittenFile& file : files_)
     hashes[file.file.lexically_relative(out_).generic_string()] = record::hash_text(file.hash);
-  output::write_file(output::comparison_list_path(out_),
-                     record::with_own_hash({{"version", version}, {"files", hashes}}));
+  output::write_file(
+      output::comparison_list_path(out_),
+      record::with_own_hash({{"version", version}, {"a", a_}, {"b", b_}, {"files", hashes}}));
 }
 
 }  // namespace neve::app::compare

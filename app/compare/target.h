@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "app/output/file_hash.h"
 #include "app/output/folder_lock.h"
 #include "app/output/movie.h"
+#include "app/support/json.h"
 #include "render/image/image.h"
 
 namespace neve::app::compare {
@@ -35,7 +37,9 @@ class Target {
   /// @param fps  of the scenes @throws IoError, UsageError where movies cannot be made as asked for
   void check_movies(double fps) { movie_ = output::available_movie(movie_, fps); }
   /// Takes the folder and removes the files that an earlier comparison wrote there.
-  void begin();
+  /// @param frames  numbers of the pictures to come
+  /// @throws UsageError where some are of other runs or will not be made again, without --replace
+  void begin(const setup::FrameRange& frames);
   void add(Mode mode, int frame, const render::Image& image);
   /// Movies of all modes. @return warnings @throws IoError where a movie alone cannot be made
   std::vector<std::string> add_movies(double fps);
@@ -47,8 +51,12 @@ class Target {
 
  private:
   std::filesystem::path folder_of(Mode mode) const;
+  std::set<std::string> files_to_come(const setup::FrameRange& frames) const;
+  void refuse_loss(const Json& earlier, const setup::FrameRange& frames) const;
 
   std::filesystem::path out_;
+  std::string a_, b_;  ///< as they were named
+  bool replaces_;
   TargetKind kind_;
   std::vector<Mode> modes_;
   output::MovieStyle movie_;

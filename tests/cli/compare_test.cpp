@@ -170,7 +170,20 @@ TEST_F(Compare, AnotherComparisonReplacesTheFilesOfTheOneBefore) {
   ASSERT_NO_FATAL_FAILURE(render_both());
   ASSERT_EQ(compare("a", "b", {"--out", "both", "--mode", "beside"}).exit_code, 0);
   folder.write("both/beside/mine.txt", "kept");
-  ASSERT_EQ(compare("a", "b", {"--out", "both", "--mode", "beside", "--frames", "1-2"}).exit_code,
+  // Not without a word, but for what is made again.
+  const auto refused = [&](const char* a, std::vector<std::string> words, const std::string& part) {
+    words.insert(words.begin(), {"--out", "both", "--mode"});
+    const auto result = compare(a, "b", words);
+    EXPECT_EQ(result.exit_code, 2) << result.errors;
+    EXPECT_TRUE(contains(result.errors, part)) << result.errors;
+    EXPECT_TRUE(exists("both/beside/0004.png"));
+  };
+  refused("a", {"beside", "--frames", "1-2"}, "both has a comparison with other frames or modes");
+  refused("a", {"metrics"}, "files, from beside");
+  refused("b", {"beside"}, "both has a comparison of other runs; it would replace");
+  ASSERT_EQ(compare("a", "b", {"--out", "both", "--mode", "beside"}).exit_code, 0);
+  ASSERT_EQ(compare("a", "b", {"--out", "both", "--mode", "beside", "--frames", "1-2", "--replace"})
+                .exit_code,
             0);
   EXPECT_TRUE(exists("both/beside/0002.png"));
   EXPECT_FALSE(exists("both/beside/0004.png"));
