@@ -81,5 +81,22 @@ TEST(SheetLayout, TheRowsOfAScreeningAreWholeTrajectories) {
   }
 }
 
+/// Several lines would hide the snow: they are above the picture, one is on it.
+TEST(TileWords, OfSeveralLinesAreAboveThePicture) {
+  store::Manifest m = study_of({{"5", "48000", "0.3"}, {"7", "48000", "0.4"}});
+  m.tile_width = 240;
+  m.tile_height = 135;
+  const SheetLayout many = layout_sheet(m, false, 8192);
+  for (auto& run : m.runs) run.settings.resize(1);
+  const SheetLayout one = layout_sheet(m, false, 8192);
+  EXPECT_EQ(one.label_height, 0);
+  EXPECT_GE(many.label_height, 2 * many.font_size);
+  EXPECT_EQ(many.tiles[0].y, one.tiles[0].y + many.label_height);
+  EXPECT_EQ(many.tile_height, one.tile_height);
+  EXPECT_GE(many.height, one.height + many.label_height);
+  m.tile_label = "none";
+  EXPECT_EQ(layout_sheet(m, false, 8192).label_height, 0);
+}
+
 }  // namespace
 }  // namespace neve::app::sweep::sheet

@@ -56,12 +56,13 @@ std::string paper_section(const store::Manifest& manifest, const SheetLayout& la
   for (const SheetTile& tile : layout.tiles) {
     const std::size_t first = tile.run * static_cast<std::size_t>(manifest.seeds);
     const std::string run = std::to_string(manifest.runs[first].index);
-    html += "<a href=\"#run-" + run + "\" data-run=\"" + run + "\" title=\"run " + run +
-            "\" style=\"left:" + css_percent(tile.x, layout.width) +
-            ";top:" + css_percent(tile.y, layout.height) +
-            ";width:" + css_percent(layout.tile_width, layout.width) +
-            ";height:" + css_percent(layout.tile_height + layout.seal_height, layout.height) +
-            "\"></a>\n";
+    html +=
+        "<a href=\"#run-" + run + "\" data-run=\"" + run + "\" title=\"run " + run +
+        "\" style=\"left:" + css_percent(tile.x, layout.width) +
+        ";top:" + css_percent(tile.y - layout.label_height, layout.height) +
+        ";width:" + css_percent(layout.tile_width, layout.width) + ";height:" +
+        css_percent(layout.label_height + layout.tile_height + layout.seal_height, layout.height) +
+        "\"></a>\n";
   }
   return html + "</div>\n";
 }

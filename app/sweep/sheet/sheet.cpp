@@ -181,25 +181,22 @@ render::Image SheetMaker::tile_picture(const Tile& tile, int width, int height,
 void SheetMaker::add_tile_words(const SheetLayout& layout, const Tile& tile, bool is_dark,
                                 render::Frame& words) const {
   const auto size = static_cast<float>(layout.font_size);
-  const float left = static_cast<float>(tile.x) + 0.6f * size,
-              top = static_cast<float>(tile.y) + 0.45f * size;
+  const float left = static_cast<float>(tile.x) + 0.6f * size;
   const float room = static_cast<float>(layout.tile_width) - 1.2f * size;
-  std::vector<std::string> lines = tile_words(manifest_, *tile.run, layout.has_edges, layout.words);
-  const std::size_t names = lines.size();
+  float at = static_cast<float>(tile.y - layout.label_height) +
+             (layout.label_height > 0 ? 0.25f : 0.45f) * size;
+  const auto add = [&](const std::string& line, const std::array<std::uint8_t, 3>& ink) {
+    words.notes.push_back({left, at, line, render::Note::Anchor::left, room, false, ink});
+    at += 1.25f * size;
+  };
+  bool is_first = true;
+  for (const std::string& line : tile_words(manifest_, *tile.run, layout.has_edges, layout.words)) {
+    add(line, is_first && !tile.run->label.empty() ? seal_ink : seal_grey);
+    is_first = false;
+  }
+  if (layout.label_height > 0) at = static_cast<float>(tile.y) + 0.45f * size;
   if (!tile.result->warnings.empty())
-    lines.push_back("! " + store::warning_count_text(tile.result->warnings.size()));
-  // Several lines reach into the snow.
-  if (lines.size() > 1)
-    words.patches.push_back({static_cast<float>(tile.x), static_cast<float>(tile.y),
-                             static_cast<float>(layout.tile_width),
-                             1.25f * size * static_cast<float>(lines.size()) + 0.7f * size,
-                             render::Patch{}.color, lines, 0.6f * size});
-  for (std::size_t k = 0; k < lines.size(); ++k)
-    words.notes.push_back({left, top + 1.25f * size * static_cast<float>(k), lines[k],
-                           render::Note::Anchor::left, room, false,
-                           k >= names                           ? seal_caution
-                           : k == 0 && !tile.run->label.empty() ? seal_ink
-                                                                : seal_grey});
+    add("! " + store::warning_count_text(tile.result->warnings.size()), seal_caution);
   add_seal(layout, tile, words);
   add_star(layout, tile, words);
   if (tile.result->frames.empty()) return add_missing(layout, tile, words);

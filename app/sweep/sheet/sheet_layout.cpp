@@ -121,9 +121,11 @@ class Layouter {
   }
 
   SheetLayout make(const std::vector<KeyLine>& key) {
+    is_wrapped_ = is_wrapped(m_);
+    out_.has_edges = !is_wrapped_;
+    out_.label_height = label_height();
     const double aspect = 1.0 * out_.tile_width / whole_height();
     sides_ = choose_sides(m_, aspect);
-    is_wrapped_ = is_wrapped(m_);
     columns_ = is_wrapped_ ? wrap_count(m_, m_.runs.size(), aspect) : sides_.columns.count(m_);
     if (!is_wrapped_) {
       column_gaps_ = gaps_of(sides_.columns, columns_);
@@ -135,7 +137,6 @@ class Layouter {
     top_ = static_cast<int>(3.6 * line()) + (is_wrapped_ ? 0 : column_label_height());
     out_.header = static_cast<int>(3.3 * line());
     place_tiles();
-    out_.has_edges = !is_wrapped_;
     if (!is_wrapped_) add_labels();
     const int legend = has_legend_ ? static_cast<int>(9.5 * out_.font_size) : 0;
     out_.width = column_x(columns_ - 1) + out_.tile_width + margin() + legend;
@@ -157,8 +158,18 @@ class Layouter {
             static_cast<std::size_t>(std::max(1.0, lines))};
   }
 
-  /// px, of a picture with what is below it.
-  int whole_height() const { return out_.tile_height + out_.seal_height; }
+  /// One line is on the picture; several would hide the snow and are above it.
+  int label_height() const {
+    std::size_t lines = 0;
+    for (const Run& run : m_.runs)
+      lines = std::max(lines, tile_words(m_, run, out_.has_edges, out_.words).size());
+    return lines < 2 ? 0
+                     : static_cast<int>(
+                           std::lround((1.25 * static_cast<double>(lines) + 0.5) * out_.font_size));
+  }
+
+  /// px, of a picture with what is above and below it.
+  int whole_height() const { return out_.label_height + out_.tile_height + out_.seal_height; }
 
   double line() const { return 1.3 * out_.font_size; }
   int margin() const { return out_.font_size; }
@@ -181,7 +192,7 @@ class Layouter {
   int row_y(int row) const { return top_ + row * (whole_height() + gap_) + gap_at(row_gaps_, row); }
 
   void put(std::size_t run, int column, int row) {
-    out_.tiles.push_back({run, column_x(column), row_y(row)});
+    out_.tiles.push_back({run, column_x(column), row_y(row) + out_.label_height});
     bottom_ = std::max(bottom_, row_y(row) + whole_height());
   }
 

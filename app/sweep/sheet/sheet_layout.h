@@ -31,6 +31,7 @@ struct SheetTile {
 struct SheetLayout {
   int width = 0, height = 0;            ///< px
   int tile_width = 0, tile_height = 0;  ///< px, of a picture
+  int label_height = 0;                 ///< px, above each picture; 0: words of a line are on it
   int seal_height = 0;                  ///< px, below each picture; 0 without noise
   int font_size = 16;                   ///< px
   int header = 0;                       ///< px, above the labels
