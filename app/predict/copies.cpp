@@ -42,7 +42,7 @@ void run(const scene::Scene& scene, int last, int threads, Progress& progress, C
   }
   const record::Metrics end = record::measure(timeline.simulation().particles(), h);
   copy.has_broken = record::has_broken(first, end);
-  if (first.largest_fragment > 0) copy.whole = end.largest_fragment / first.largest_fragment;
+  copy.whole = record::held_whole(first, end).value_or(copy.whole);
   const double values[] = {end.spread, end.height, end.mean_J_P, end.largest_fragment, force};
   std::copy(std::begin(values), std::end(values), copy.values);
 }

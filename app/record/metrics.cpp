@@ -107,6 +107,7 @@ void measure_fragments(const Occupied& occupied, std::size_t particle_count, Met
   const auto share = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(particle_count);
   };
+  metrics.particles = particle_count;
   metrics.largest_fragment = share(largest);
   metrics.powder = share(powder);
   metrics.crumbs = share(crumbs);
@@ -114,9 +115,20 @@ void measure_fragments(const Occupied& occupied, std::size_t particle_count, Met
 
 }  // namespace
 
-std::optional<bool> has_broken(const Metrics& first, const Metrics& last) {
+std::optional<double> held_whole(const Metrics& first, const Metrics& last) {
   if (!(first.largest_fragment > 0 && last.largest_fragment > 0)) return std::nullopt;
-  return last.largest_fragment < whole_share * first.largest_fragment;
+  const double shares = last.largest_fragment / first.largest_fragment;
+  if (first.particles == 0 || last.particles == 0) return shares;
+  return shares * static_cast<double>(last.particles) / static_cast<double>(first.particles);
+}
+
+std::optional<bool> has_broken(const Metrics& first, const Metrics& last) {
+  const std::optional<double> held = held_whole(first, last);
+  if (!held || *held >= whole_share) return held ? std::optional(false) : std::nullopt;
+  const bool is_whole_of_the_rest =
+      last.particles < first.particles &&
+      last.largest_fragment >= whole_share * first.largest_fragment;
+  return is_whole_of_the_rest ? std::nullopt : std::optional(true);
 }
 
 Metrics measure(const sim::ParticleArrays& particles, double cell_size) {

@@ -14,6 +14,7 @@ struct Metrics {
   double mean_J_P = 1;  ///< weighted by mass
   std::size_t fragments = 0;    ///< groups of occupied cells that touch, corners included
   double largest_fragment = 0;  ///< share of the particles that are in the largest of them
+  std::size_t particles = 0;    ///< all of them; 0: not known
   double powder = 0;            ///< share of the particles that are alone in theirs
   double crumbs = 0;            ///< share of them in groups of 2 to 100
   double max_depth_cells = 0;   ///< of the particle that is deepest in a collider, cells
@@ -24,7 +25,12 @@ struct Metrics {
 /// of one that bursts into a core, pieces and crumbs 1 to 8 % lie apart, since heaped pieces touch.
 inline constexpr double whole_share = 0.99;
 
-/// True if snow has broken between two frames of a run, nothing if one of them has no snow.
+/// What the largest piece holds at last of what it held at first, particles; of runs that did not
+/// keep their numbers, by its shares. Nothing if one of them has no snow.
+std::optional<double> held_whole(const Metrics& first, const Metrics& last);
+
+/// True if snow has broken between two frames of a run: what emitters add does not count. Nothing
+/// if one of them has no snow, and where sinks have taken what the largest piece lacks.
 std::optional<bool> has_broken(const Metrics& first, const Metrics& last);
 
 /// Particles whose position is no number are left out.

@@ -69,6 +69,7 @@ Metrics metrics_of(const Json& json) {
   for (const auto& [name, value] :
        {std::pair{"powder", &metrics.powder}, std::pair{"crumbs", &metrics.crumbs}})
     *value = json.contains(name) ? output::number_or_nan(json.at(name)) : std::nan("");
+  metrics.particles = whole_number_or(json, "particles", std::size_t{0});
   return metrics;
 }
 
@@ -81,6 +82,7 @@ Json bodies_json(const std::vector<BodyRecord>& bodies) {
 Json start_json(const RunStart& start) {
   Json json;
   add_metrics(start.metrics, json);
+  json["particles"] = start.metrics.particles;
   json["bodies"] = bodies_json(start.bodies);
   return json;
 }

@@ -37,60 +37,83 @@ std::array<Vec3d, 2> across(const Vec3d& axis) {
 /// is free, by 1e9 m/s.
 constexpr double recovery = 2;
 
-/// A step of one freedom x' = v that moves by dt times the speed at its end:
-/// v1 = kept v0 - returned x0 / dt + given J / inertia, J being the impulse of other forces.
+/// A step of one freedom on a spring and a damper, under a force that is constant in it. With the
+/// place x from where the spring is at rest, and the impulse J of other forces over the inertia:
+/// its way / dt = way_by_speed v + way_by_place x / dt + way_by_push J, and the speed at its end
+/// likewise.
 struct Swing {
-  double kept = 1, returned = 0, given = 1;
+  double way_by_speed, way_by_place, way_by_push;
+  double end_by_speed, end_by_place, end_by_push;
 };
 
-/// The map of the exact motion: of its two eigenvalues, hence of its period, its decay and, under a
-/// constant force, its place of rest, for any step.
-/// @param stiffness  times dt^2 / inertia, more than 0 @param damping  times dt / inertia
-Swing exact_swing(double stiffness, double damping) {
-  const double half = 0.5 * damping, over = half * half - stiffness;
-  double returned = 0;
-  if (over < 0) {
-    // 1 + kept - 2 e^(-half) cos(turn), without differences of nearly equal numbers.
-    const double fall = std::sinh(0.5 * half), turn = std::sin(0.5 * std::sqrt(-over));
-    returned = 4 * std::exp(-half) * (fall * fall + turn * turn);
-  } else {
-    const double root = std::sqrt(over), slow = 0.5 * stiffness / (half + root),
-                 fast = 0.5 * (half + root);
-    returned = 2 * std::sinh(slow) * (std::exp(fast - half) - std::exp(-fast - half));
-  }
-  return {std::exp(-damping), returned, returned / stiffness};
+/// Integral of the way that a speed of 1 makes in time 1, over that time.
+/// @param stiffness  times dt^2 / inertia @param damping  times dt / inertia @param end  of x = 1
+/// at rest
+double way_of_push(double stiffness, double damping, double end) {
+  constexpr double small = 1e-3, tiny = 1e-9;
+  if (stiffness < small && damping < small)  // differences of nearly equal numbers: by its series
+    return 0.5 - damping / 6 + (damping * damping - stiffness) / 24 -
+           damping * (damping * damping - 2 * stiffness) / 120;
+  if (stiffness < tiny) return (1 + std::expm1(-damping) / damping) / damping;
+  return (1 - end) / stiffness;
 }
 
-/// Implicit Euler: stable for any stiffness, and what is too fast for the step comes to rest.
+/// The exact motion, in a step of any length after one of any length.
+Swing exact_swing(double stiffness, double damping) {
+  const double half = 0.5 * damping, over = half * half - stiffness;
+  double even = 0, odd = 0;  // e^-half times cos and sin(t) / t, or cosh and sinh(u) / u
+  if (over < 0) {
+    const double turn = std::sqrt(-over);
+    even = std::exp(-half) * std::cos(turn);
+    odd = std::exp(-half) * std::sin(turn) / turn;
+  } else {
+    const double root = std::sqrt(over);
+    const double slow = std::exp(root - half), fast = std::exp(-root - half);
+    even = 0.5 * (slow + fast);
+    odd = root < 1e-5 ? std::exp(-half) : 0.5 * (slow - fast) / root;
+  }
+  const double end_of_place = even + half * odd,
+               push = way_of_push(stiffness, damping, end_of_place);
+  return {odd, -stiffness * push, push, even - half * odd, -stiffness * odd, odd};
+}
+
+/// Implicit Euler: what is too fast for the step comes to rest.
 Swing damped_swing(double stiffness, double damping) {
   const double kept = 1 / (1 + damping + stiffness);
-  return {kept, stiffness * kept, kept};
+  return {kept, -stiffness * kept, kept, kept, -stiffness * kept, kept};
 }
 
 /// Swings of more than 12 steps a period are exact; those of less than six are damped. In between
-/// both maps are mixed, which is stable as they are.
+/// both are mixed. Neither adds to the energy, nor does the mixture, whatever steps follow.
 Swing swing_of(double stiffness, double damping) {
-  if (stiffness <= 0)
-    return {std::exp(-damping), 0, damping > 0 ? -std::expm1(-damping) / damping : 1};
   constexpr double finely = 0.5, coarsely = 1;  // rad in a step
   const double share = (std::sqrt(stiffness) - finely) / (coarsely - finely);
-  const Swing damped = damped_swing(stiffness, damping);
-  if (share >= 1) return damped;
-  const Swing exact = exact_swing(stiffness, damping);
-  if (share <= 0) return exact;
-  const auto mix = [&](double a, double b) { return a + share * (b - a); };
-  return {mix(exact.kept, damped.kept), mix(exact.returned, damped.returned),
-          mix(exact.given, damped.given)};
+  const Swing b = damped_swing(stiffness, damping);
+  if (share >= 1) return b;
+  const Swing a = exact_swing(stiffness, damping);
+  if (share <= 0) return a;
+  const auto mix = [&](double from, double to) { return from + share * (to - from); };
+  return {mix(a.way_by_speed, b.way_by_speed), mix(a.way_by_place, b.way_by_place),
+          mix(a.way_by_push, b.way_by_push),   mix(a.end_by_speed, b.end_by_speed),
+          mix(a.end_by_place, b.end_by_place), mix(a.end_by_push, b.end_by_push)};
 }
 
-/// Impulse of a spring and a damper along one freedom.
-/// @param beyond  of rest  @param speed  of it  @param impulse  of all else  @param inertia  of the
-/// freedom
-double spring(double stiffness, double damping, double beyond, double speed, double impulse,
-              double inertia, double dt) {
+struct SpringStep {
+  double impulse = 0;  ///< of the spring, for the way in the step
+  double later = 0;    ///< speed at its end beyond that of the way
+};
+
+/// @param beyond  of rest  @param speed  at the start  @param push  impulse of all else
+/// @param inertia  of the freedom
+SpringStep spring(double stiffness, double damping, double beyond, double speed, double push,
+                  double inertia, double dt) {
   const Swing swing = swing_of(stiffness * dt * dt / inertia, damping * dt / inertia);
-  return inertia * ((swing.kept - 1) * speed - swing.returned * beyond / dt) +
-         (swing.given - 1) * impulse;
+  const double by_push = push / inertia, by_place = beyond / dt;
+  const double way =
+      swing.way_by_speed * speed + swing.way_by_place * by_place + swing.way_by_push * by_push;
+  const double end =
+      swing.end_by_speed * speed + swing.end_by_place * by_place + swing.end_by_push * by_push;
+  return {inertia * (way - speed) - push, end - way};
 }
 
 }  // namespace
@@ -167,20 +190,26 @@ void Held::add_joint(std::vector<Row>& rows) const {
   for (const Vec3d& b : across(axis_)) rows.push_back({Vec3d::Zero(), b, b.dot(tilt)});
 }
 
-void Held::add_springs(double dt, const Speeds& before, const Speeds& pushed, const Mat3d& inertia,
-                       Vec3d& impulse, Vec3d& moment) const {
+Held::Speeds Held::add_springs(double dt, const Speeds& before, const Speeds& pushed,
+                               const Mat3d& inertia, Vec3d& impulse, Vec3d& moment) const {
+  Speeds later{Vec3d::Zero(), Vec3d::Zero()};
   if (held_.spring_stiffness > 0 || held_.spring_damping > 0) {
-    for (int a = 0; a < 3; ++a)
-      impulse[a] +=
+    for (int a = 0; a < 3; ++a) {
+      const SpringStep along =
           spring(held_.spring_stiffness, held_.spring_damping, centre_[a] - held_.spring_place[a],
                  before.velocity[a], mass_ * (pushed.velocity[a] - before.velocity[a]), mass_, dt);
+      impulse[a] += along.impulse;
+      later.velocity[a] += along.later;
+    }
   }
-  if (held_.joint_stiffness <= 0 && held_.joint_damping <= 0) return;
+  if (held_.joint_stiffness <= 0 && held_.joint_damping <= 0) return later;
   if (held_.joint == Joint::slider) {
     const double speed = axis_.dot(before.velocity);
-    impulse +=
-        axis_ * spring(held_.joint_stiffness, held_.joint_damping, axis_.dot(centre_ - start_),
-                       speed, mass_ * (axis_.dot(pushed.velocity) - speed), mass_, dt);
+    const SpringStep along =
+        spring(held_.joint_stiffness, held_.joint_damping, axis_.dot(centre_ - start_), speed,
+               mass_ * (axis_.dot(pushed.velocity) - speed), mass_, dt);
+    impulse += along.impulse * axis_;
+    later.velocity += along.later * axis_;
   } else if (held_.joint == Joint::hinge) {
     const Vec3d arm = now_ * arm_, off = arm - axis_.dot(arm) * axis_;
     const double about = axis_.dot(inertia * axis_) + mass_ * off.squaredNorm();
@@ -188,10 +217,15 @@ void Held::add_springs(double dt, const Speeds& before, const Speeds& pushed, co
     const auto turning = [&](const Speeds& free) {
       return axis_.dot(inertia * free.spin) - mass_ * axis_.dot(arm.cross(free.velocity));
     };
-    moment += axis_ * spring(held_.joint_stiffness, held_.joint_damping,
-                             hinge_angle(axis_, now_ * rotation_.transpose(), angle_),
-                             turning(before) / about, turning(pushed) - turning(before), about, dt);
+    const SpringStep turn =
+        spring(held_.joint_stiffness, held_.joint_damping,
+               hinge_angle(axis_, now_ * rotation_.transpose(), angle_), turning(before) / about,
+               turning(pushed) - turning(before), about, dt);
+    moment += turn.impulse * axis_;
+    later.spin += turn.later * axis_;
+    later.velocity -= turn.later * axis_.cross(arm);
   }
+  return later;
 }
 
 void Held::getInfo1(btConstraintInfo1* info) {

@@ -32,12 +32,13 @@ class Held final : public btTypedConstraint {
   /// @param rotation  as in the constructor, now  @param angle  rad, of a hinge, with whole turns
   void set_place(const Vec3d& centre, const Mat3d& rotation, double angle);
 
-  /// The impulse of the springs in a step of dt, and its moment about the centre of mass: exact for
-  /// the one freedom that the joint leaves where a period has 12 steps or more, damped and stable
-  /// where it has less.
+  /// Adds the impulse of the springs in a step of dt, and its moment about the centre of mass:
+  /// exact for the one freedom that the joint leaves where a period has 12 steps or more, damped
+  /// and stable where it has less.
   /// @param before  the step @param pushed  by all else in it
-  void add_springs(double dt, const Speeds& before, const Speeds& pushed, const Mat3d& inertia,
-                   Vec3d& impulse, Vec3d& moment) const;
+  /// @return the speeds at the end of the step beyond those of its way, which impulses give
+  Speeds add_springs(double dt, const Speeds& before, const Speeds& pushed, const Mat3d& inertia,
+                     Vec3d& impulse, Vec3d& moment) const;
 
   void getInfo1(btConstraintInfo1* info) override;
   void getInfo2(btConstraintInfo2* info) override;

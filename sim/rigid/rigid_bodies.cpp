@@ -222,8 +222,7 @@ class RigidBodies::World {
     if (thing.held) thing.held->set_place(body.before.centre, form, body.joint_angle);
   }
 
-  static void push(const Body& body, Thing& thing, double dt, const Vec3d& gravity,
-                   const Push& push) {
+  static void push(Body& body, Thing& thing, double dt, const Vec3d& gravity, const Push& push) {
     const Mat3d form = body.before.rotation * thing.axes;
     const Mat3d inertia = form * body.mass.inertia * form.transpose();
     Vec3d impulse = push.impulse + body.mass.mass * dt * gravity, moment = push.moment;
@@ -231,8 +230,10 @@ class RigidBodies::World {
       // A spring knows what else pushes: it resists the velocity that the body will have.
       const Vec3d velocity = body.before.velocity + impulse / body.mass.mass;
       const Vec3d spin = body.before.spin + inertia.ldlt().solve(moment);
-      thing.held->add_springs(dt, {body.before.velocity, body.before.spin}, {velocity, spin},
-                              inertia, impulse, moment);
+      const Held::Speeds later = thing.held->add_springs(
+          dt, {body.before.velocity, body.before.spin}, {velocity, spin}, inertia, impulse, moment);
+      body.later_velocity = later.velocity;
+      body.later_spin = later.spin;
     }
     const Vec3d velocity = body.before.velocity + impulse / body.mass.mass;
     const Vec3d spin = body.before.spin + inertia.ldlt().solve(moment);
@@ -339,9 +340,9 @@ class RigidBodies::World {
       if (colliders[k].body.joint == shapes::Joint::none) continue;
       std::vector<Body> start = bodies;
       for (Body& body : start) body.before = at_start(body, colliders[body.collider]);
-      std::vector<shapes::Collider> first = colliders;
-      for (shapes::Collider& collider : first) collider.pose_offset = {};
-      place(start, first, 0);
+      std::vector<shapes::Collider> unmoved = colliders;
+      for (shapes::Collider& collider : unmoved) collider.pose_offset = {};
+      place(start, unmoved, 0);
       for (int m = 0; m < dispatcher_->getNumManifolds(); ++m) {
         const btPersistentManifold* manifold = dispatcher_->getManifoldByIndexInternal(m);
         const int first = manifold->getBody0()->getUserIndex(),
@@ -425,7 +426,11 @@ RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
                          far.norm(),
                          is_convex(c.shape),
                          {},
-                         {}});
+                         {},
+                         Vec3d::Zero(),
+                         0,
+                         Vec3d::Zero(),
+                         Vec3d::Zero()});
     } catch (const ShapeError& error) {
       throw ShapeError("collider " + c.name + ": " + error.what());
     } catch (const std::invalid_argument& error) {
@@ -450,6 +455,8 @@ void RigidBodies::begin(const std::vector<shapes::Collider>& colliders, double t
     const shapes::Pose pose = shapes::pose_at(colliders[body.collider], time);
     body.before = motion_of(pose, body.axes * body.mass.centre);
     body.after = body.before;
+    body.later_velocity.setZero();
+    body.later_spin.setZero();
     body.point = pose.point - body.before.centre;
     body.joint_angle = colliders[body.collider].pose_offset.joint_angle;
   }
@@ -521,6 +528,7 @@ void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& 
     turned = turn.rotation;
     spin = turn.spin;
   }
+  spin += body.later_spin;
   // Products of many turns stay a turn.
   const Eigen::Quaterniond attitude = Eigen::Quaterniond(turned).normalized();
   const Mat3d rotation = attitude.toRotationMatrix();
@@ -532,12 +540,13 @@ void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& 
     const Vec3d axis = collider.body.joint_axis.stableNormalized();
     joint_angle = hinge_angle(axis, since_start, body.joint_angle + dt * axis.dot(body.after.spin));
   }
-  collider.pose_offset = {time,
-                          point - shapes::center(collider.shape),
-                          since_start,
-                          collider.pose_offset.delay,
-                          std::array{Vec3d(body.after.velocity - spin.cross(arm)), spin},
-                          joint_angle};
+  collider.pose_offset = {
+      time,
+      point - shapes::center(collider.shape),
+      since_start,
+      collider.pose_offset.delay,
+      std::array{Vec3d(body.after.velocity + body.later_velocity - spin.cross(arm)), spin},
+      joint_angle};
 }
 
 }  // namespace neve::sim::rigid

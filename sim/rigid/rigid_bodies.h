@@ -80,6 +80,8 @@ class RigidBodies {
     Motion before, after;
     Vec3d point{0, 0, 0};    ///< see point()
     double joint_angle = 0;  ///< rad, before the step; see PoseOffset
+    /// What springs change after the way of the step: `after` has the speeds of the way.
+    Vec3d later_velocity{0, 0, 0}, later_spin{0, 0, 0};
   };
   class World;
 

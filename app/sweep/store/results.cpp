@@ -178,7 +178,7 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   if (!frames.empty() && is_whole(run, result)) {
     const record::Metrics &first = notes.start->metrics, &last = frames.back().metrics;
     result.has_broken = record::has_broken(first, last);
-    if (first.largest_fragment > 0) result.whole = last.largest_fragment / first.largest_fragment;
+    result.whole = record::held_whole(first, last);
     if (result.status.state == RunState::ok && frames.back().advance.steps > 0)
       result.end_hash = frames.back().state_hash;
   }
