@@ -36,11 +36,15 @@ std::string force_line(const record::ColliderForce& force) {
 
 std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOptions& options,
                                  const dump::StepInspection& inside, const dump::Listing& listing) {
+  const char* const given_up = inside.step.is_given_up
+                                   ? "; its solve is given up: a run takes shorter ones in its "
+                                     "place, and after no stage is as it is here"
+                                   : "";
   std::vector<std::string> lines{
       job.scene_file + (job.scene.title.empty() ? "" : ": " + job.scene.title),
       "t = " + rough_text(inside.simulation.time()) + " s after " +
           std::to_string(inside.simulation.steps()) + " steps; the next has dt = " +
-          rough_text(inside.dt) + " s, set by " + sim::name(inside.limit),
+          rough_text(inside.dt) + " s, set by " + sim::name(inside.limit) + given_up,
       (options.stage ? std::string("after the stage ") + sim::name(*options.stage)
                      : std::string("before the step")) +
           ": " + std::to_string(listing.place.size()) +

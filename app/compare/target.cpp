@@ -73,10 +73,27 @@ std::vector<Mode> modes_for(const PairOptions& options, TargetKind kind) {
 
 }  // namespace
 
+namespace {
+
+/// Without the slash that completion in a shell writes.
+std::string run_name(const std::string& run) {
+  const fs::path path = fs::path(run).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).generic_string();
+}
+
+bool is_same_run(const Json& before, const std::string& now) {
+  if (!before.is_string()) return false;
+  std::error_code error;
+  const auto name = before.get<std::string>();
+  return name == now || fs::equivalent(name, now, error);
+}
+
+}  // namespace
+
 Target::Target(const PairOptions& options)
     : out_(options.out),
-      a_(fs::path(options.a).lexically_normal().generic_string()),
-      b_(fs::path(options.b).lexically_normal().generic_string()),
+      a_(run_name(options.a)),
+      b_(run_name(options.b)),
       replaces_(options.replaces),
       kind_(kind_of(options.out)),
       modes_(modes_for(options, kind_)),
@@ -129,8 +146,9 @@ std::set<std::string> Target::files_to_come(const setup::FrameRange& frames) con
 /// A comparison that is made again loses nothing.
 void Target::refuse_loss(const Json& earlier, const setup::FrameRange& frames) const {
   if (replaces_) return;
-  const bool is_of_others = earlier.is_object() && earlier.contains("a") &&
-                            (earlier["a"] != a_ || earlier.value("b", Json()) != b_);
+  const bool is_of_others =
+      earlier.is_object() && earlier.contains("a") &&
+      !(is_same_run(earlier["a"], a_) && is_same_run(earlier.value("b", Json()), b_));
   const std::set<std::string> to_come = files_to_come(frames);
   std::vector<std::string> gone;
   for (const auto& [file, hash] : record::file_hashes(earlier))

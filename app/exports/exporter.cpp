@@ -181,9 +181,11 @@ void Exporter::add_between(const std::vector<scene::Collider>& colliders,
   Sample sample{number, time, placed_at(colliders, time)};
   sample.is_elsewhere = !are_as_in(scene_, sample.colliders, time);
   if (follows()) sample.followed = followed(simulation.particles(), time, colliders);
-  if (!sample.is_elsewhere && !sample.followed) return;
+  const bool says_nothing =
+      !sample.is_elsewhere && !sample.followed && !scene::has_moving_bodies(scene_);
+  // Once something was elsewhere, a frame that is not listed would be taken for that, too.
   for (Job& job : jobs_)
-    if (has_no_file(job)) put(job.between, sample);
+    if (has_no_file(job) && !(says_nothing && job.between.empty())) put(job.between, sample);
 }
 
 bool Exporter::has_stage() const {
@@ -294,6 +296,7 @@ Json Exporter::to_json(const std::string& below) const {
         {"scale", spec.scale},
         {"attributes", has_grid(spec) ? Json::array() : attributes_json(job.record.columns)}};
     if (spec.dust) json["dust"] = true;
+    if (!spec.bodies.empty()) json["bodies"] = spec.bodies;
     json["surface"] = spec.surface ? surface_json(scene_, spec) : Json();
     json["series"] = series.empty() ? Json() : Json(below + series);
     json["files"] = Json::array();

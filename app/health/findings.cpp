@@ -205,10 +205,12 @@ void check_implicit_steps(const sim::SolverSettings& s, const Check& check,
   findings.push_back(
       {Severity::note, "solver.beta",
        fmt::format("semi-implicit steps: a wave 10 cells long keeps {} of its energy "
-                   "after a period; the first steps took {} iterations to a "
-                   "residual of {}",
+                   "after a period; the first steps {}",
                    percent_text(std::exp(-s.beta * w * w * dt * 2 * pi / w)),
-                   check.solve.iterations, rough_text(check.solve.residual)),
+                   std::isfinite(check.solve.residual)
+                       ? fmt::format("took {} iterations to a residual of {}",
+                                     check.solve.iterations, rough_text(check.solve.residual))
+                       : "could not be solved, and shorter ones replaced them"),
        ""});
   if (check.solve.residual > s.solve_tolerance)
     findings.push_back(

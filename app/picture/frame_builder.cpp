@@ -72,9 +72,12 @@ std::string grouped(std::size_t count) {
 std::string steps_text(const sim::AdvanceReport& advance) {
   std::string text = grouped(advance.steps) + (advance.steps == 1 ? " step" : " steps") + ", dt " +
                      rough_text(advance.dt_min) + " s (" + sim::name(advance.limit()) + ")";
-  if (advance.solve)
+  if (!advance.solve) return text;
+  if (std::isfinite(advance.solve->residual))
     text += ", solved in " + std::to_string(advance.solve->iterations) + " to " +
             rough_text(advance.solve->residual);
+  if (advance.solve->given_up > 0)
+    text += ", " + grouped(advance.solve->given_up) + " solves given up";
   return text;
 }
 

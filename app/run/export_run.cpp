@@ -78,6 +78,12 @@ std::string simulation_of(const RenderJob& run) {
   return record::hash_of(simulation_text(run.scene) + to_text(scene::to_json(run.changes)));
 }
 
+/// Paths are written as people gave them.
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return a == b || fs::equivalent(a, b, error);
+}
+
 /// Exports with the same names, or of another scene, give their place to the new ones.
 Earlier earlier_exports(const ExportJob& job) {
   const fs::path file = output::export_list_path(job.run.folder);
@@ -90,7 +96,8 @@ Earlier earlier_exports(const ExportJob& job) {
     earlier.scene_file = list.at("scene_file").get<std::string>();
     earlier.simulation = list.value("simulation", "");
     earlier.their_files = record::file_hashes(list);
-    const bool is_of_scene = earlier.scene_file == job.run.scene_file;
+    const bool is_of_scene = is_same_file(earlier.scene_file, job.run.scene_file) ||
+                             earlier.simulation == simulation_of(job.run);
     for (const Json& one : list.at("exports")) {
       const bool is_ours = std::any_of(ours.begin(), ours.end(), [&](const scene::Export& e) {
         return one.at("name") == scene::folder_of(e);
@@ -115,8 +122,19 @@ Earlier earlier_exports(const ExportJob& job) {
 /// Whether two entries of a list say the same of an export, but for its files.
 bool has_same_settings(const Json& a, const Json& b) {
   return std::ranges::all_of(
-      std::array{"format", "up", "scale", "attributes", "surface", "dust"},
+      std::array{"format", "up", "scale", "attributes", "surface", "dust", "bodies"},
       [&](const char* key) { return a.value(key, Json()) == b.value(key, Json()); });
+}
+
+/// Files of moments are numbered from 0, whatever the moments are.
+bool has_other_moments(const Json& before, const ExportJob& job) {
+  const Json at = before.value("at", Json());
+  if (job.are_frames || !at.is_array()) return job.are_frames == at.is_array();
+  for (std::size_t k = 0; k < at.size(); ++k)
+    if (k >= job.times.size() || !at[k].is_number() ||
+        std::abs(at[k].get<double>() - job.times[k]) > 1e-9)
+      return true;
+  return false;
 }
 
 std::set<std::string> files_to_write(const ExportJob& job) {
@@ -156,16 +174,22 @@ void refuse_lost_exports(const ExportJob& job, const Earlier& earlier, const Jso
                      "add --replace, or choose another folder with --out");
   };
   if (all.empty()) return;
-  if (earlier.scene_file != job.run.scene_file)
+  const bool is_same_simulation = earlier.simulation == simulation_of(job.run);
+  if (!is_same_simulation && !is_same_file(earlier.scene_file, job.run.scene_file))
     refuse("exports of another scene, " + earlier.scene_file, all);
   for (const Json& before : earlier.replaced)
     for (const Json& now : ours)
       if (now.at("name") == before.at("name") && !has_same_settings(before, now))
         refuse("the export " + before.at("name").get<std::string>() +
-                   " with other attributes, units or axes, or another surface",
+                   " with other attributes, bodies, units or axes, or another surface",
                all);
-  if (!earlier.simulation.empty() && earlier.simulation != simulation_of(job.run))
-    refuse("this export of another simulation of the scene: parameters have changed since", all);
+  if (!earlier.simulation.empty() && !is_same_simulation)
+    refuse(
+        "this export of another simulation of the scene: parameters have changed since, or "
+        "another build of neve has written it",
+        all);
+  for (const Json& before : earlier.replaced)
+    if (has_other_moments(before, job)) refuse("this export at other frames or times", all);
   if (!gone.empty()) refuse("this export at other frames or times", gone);
 }
 
@@ -213,7 +237,10 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
   json["world_offset"] = offset ? output::vector_json(*offset) : Json();
   json["is_whole"] = result.is_whole && kept.is_whole;
   json["exports"] = kept.exports;
-  for (const Json& one : result.exports) json["exports"].push_back(one);
+  for (const Json& one : result.exports) {
+    json["exports"].push_back(one);
+    if (!job.are_frames) json["exports"].back()["at"] = job.times;
+  }
   json["files"] = kept.files;
   for (const auto& [file, hash] : files) json["files"][file] = hash;
   output::write_file(output::export_list_path(job.run.folder), record::with_own_hash(json));

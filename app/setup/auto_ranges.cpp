@@ -191,6 +191,41 @@ double body_speed(const scene::Scene& scene, const sim::shapes::Collider& body) 
   return std::max(setup::impact_speed(scene), falling);
 }
 
+/// m/s, that snow gains on the steepest plane until the end of the scene; 0: none is steep.
+double sliding_speed(const scene::Scene& scene) {
+  const double g = scene.solver.gravity.norm();
+  if (g == 0) return 0;
+  double steepest = 0;
+  for (const sim::shapes::Collider& collider : scene.colliders) {
+    const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
+    if (!plane || collider.contact == sim::shapes::Contact::sticky) continue;
+    const Vec3d normal =
+        sim::rotation_from_degrees(collider.shape.rotation) * plane->normal.normalized();
+    const double across = -normal.dot(scene.solver.gravity) / g,
+                 along = std::sqrt(std::max(0.0, 1 - across * across));
+    const bool slips = collider.contact == sim::shapes::Contact::slip;
+    if (across > 0) steepest = std::max(steepest, along - (slips ? 0 : collider.friction) * across);
+  }
+  return g * steepest * scene::duration(scene);
+}
+
+double fastest_collider(const scene::Scene& scene) {
+  double speed = 0;
+  for (const sim::shapes::Collider& collider : scene.colliders)
+    speed = std::max(speed, setup::collider_speed(scene, collider));
+  return speed;
+}
+
+/// m/s, of the fastest of its snow: the top falls further than the middle, and slides.
+double speed_of(const scene::Scene& scene, const SnowPiece& piece) {
+  const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
+  const Vec3d half = 0.5 * (box.max - box.min), down = down_in(scene);
+  const double impact = impact_speed(scene, piece),
+               above = half.dot(Vec3d(down.cwiseAbs())) * scene.solver.gravity.norm();
+  return std::max(std::sqrt(impact * impact + 2 * above),
+                  piece.velocity.norm() + sliding_speed(scene));
+}
+
 }  // namespace
 
 double impact_speed(const scene::Scene& scene) {
@@ -206,16 +241,16 @@ double collider_speed(const scene::Scene& scene, const sim::shapes::Collider& co
 }
 
 double largest_speed(const scene::Scene& scene) {
-  double speed = impact_speed(scene);
-  for (const sim::shapes::Collider& body : scene.colliders)
-    if (body.body.moves()) speed = std::max(speed, body_speed(scene, body));
+  double speed = fastest_collider(scene);
+  for (const SnowPiece& piece : snow_places(scene)) speed = std::max(speed, speed_of(scene, piece));
   return speed;
 }
 
 double energy_of_impact(const scene::Scene& scene) {
   double energy = 0;
+  const double pushed = fastest_collider(scene);
   for (const SnowPiece& piece : snow_pieces(scene)) {
-    const double speed = impact_speed(scene, piece);
+    const double speed = std::max(speed_of(scene, piece), pushed);
     energy += 0.5 * piece.mass * speed * speed;
   }
   return energy;
@@ -223,8 +258,11 @@ double energy_of_impact(const scene::Scene& scene) {
 
 double force_of_impact(const scene::Scene& scene) {
   double force = 0;
-  for (const SnowPiece& piece : snow_pieces(scene))
-    force += piece.mass * (scene.solver.gravity.norm() + impact_speed(scene, piece) * scene.fps);
+  const double pushed = fastest_collider(scene);
+  for (const SnowPiece& piece : snow_pieces(scene)) {
+    const double speed = std::max(speed_of(scene, piece), pushed);
+    force += piece.mass * (scene.solver.gravity.norm() + speed * scene.fps);
+  }
   return force;
 }
 

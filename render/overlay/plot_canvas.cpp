@@ -1,7 +1,9 @@
 #include "render/overlay/plot_canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace neve::render::overlay {
@@ -49,6 +51,7 @@ class PlotDrawing {
     for (auto series = plot_.series.rbegin(); series != plot_.series.rend(); ++series)
       if (series->dot_radius > 0) draw_dots(*series);
     if (words.has_x) draw_x_words();
+    draw_beyond();
   }
 
  private:
@@ -181,6 +184,19 @@ class PlotDrawing {
       canvas_.circle(at(series, k), series.dot_radius * unit_, color_of(series),
                      series.has_rings ? 2 * unit_ : 0,
                      k < series.notes.size() ? series.notes[k] : std::string());
+  }
+
+  /// "to 12.2", where a curve leaves the axis at its upper end.
+  void draw_beyond() {
+    double largest = max_;
+    for (const PlotSeries& series : plot_.series)
+      for (const float value : series.value)
+        if (std::isfinite(value)) largest = std::max(largest, static_cast<double>(value));
+    if (!(largest > max_ + 1e-3 * (max_ - min_))) return;
+    std::array<char, 32> number{};
+    std::snprintf(number.data(), number.size(), "to %.3g", largest);
+    canvas_.text({panel_.right - 0.4f * size_, panel_.top + 0.2f * size_}, Note::Anchor::right,
+                 bright_text, number.data());
   }
 
   void draw_x_words() {

@@ -36,10 +36,13 @@ struct Reach {
 
 Reach reach_of(std::span<const SnowGrain> snow, const std::vector<Mote>& motes,
                const DustSettings& settings) {
+  // Spray feels the air whatever the speed that sheds dust.
+  constexpr double slow_spray = 0.75;  // m/s
+  const double moving = 0.5 * settings.speed,
+               slowest = settings.spray_drag > 0 ? std::min(moving, slow_spray) : moving;
   Reach reach;
   for (const SnowGrain& grain : snow)
-    if (grain.x.allFinite() && (grain.v - settings.wind).norm() > 0.5 * settings.speed)
-      reach.take(grain.x);
+    if (grain.x.allFinite() && (grain.v - settings.wind).norm() > slowest) reach.take(grain.x);
   for (const Mote& mote : motes) reach.take({mote.x[0], mote.x[1], mote.x[2]});
   return reach;
 }

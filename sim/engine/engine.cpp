@@ -1,6 +1,7 @@
 #include "sim/engine/engine.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -82,7 +83,7 @@ template <class Real>
 void Engine<Real>::take_implicit(double dt, int halvings) {
   const bool is_taken = take_fused(dt, true);
   SolveReport solve = parts_.solver.last_solve();
-  if (!is_taken) solve.residual = 0;
+  if (!is_taken) solve.residual = std::numeric_limits<double>::quiet_NaN();
   solve_.add(solve);
   if (is_taken) return;
   if (halvings > 0) {

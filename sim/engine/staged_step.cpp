@@ -67,6 +67,7 @@ StagedStep staged_step(State<Real> copy, double dt) {
   out.after = reader.particles();
   copy.grid.add_loads(copy.method.load_unit, out.loads);
   out.state_hash = reader.state_hash();
+  out.is_given_up = parts.solver.last_solve().given_up > 0;
   out.seconds = fields.seconds;
   return out;
 }

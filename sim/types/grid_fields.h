@@ -40,6 +40,8 @@ struct StagedStep {
   Vec3d own_taken{0, 0, 0};
   std::vector<ColliderLoad> loads;  ///< per collider, of the step
   std::uint64_t state_hash = 0;     ///< of the state at the end
+  /// Its solve is of no use: a run takes shorter steps in its place.
+  bool is_given_up = false;
   /// s that each stage took, one after the other; deformation has the gathering of velocities for
   /// the stages after it. A copy moves no colliders.
   std::array<double, stage_names.size()> seconds{};

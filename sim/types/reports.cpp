@@ -1,6 +1,7 @@
 #include "sim/types/reports.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace neve::sim {
 
@@ -15,9 +16,12 @@ DtLimit AdvanceReport::limit() const {
 }
 
 void SolveReport::add(const SolveReport& other) {
+  const bool is_empty = all_iterations == 0 && given_up == 0 && cut_short == 0;
+  if (is_empty && std::isnan(other.residual)) residual = other.residual;
+  if (!std::isnan(other.residual))
+    residual = std::isnan(residual) ? other.residual : std::max(residual, other.residual);
   iterations = std::max(iterations, other.iterations);
   all_iterations += other.all_iterations;
-  residual = std::max(residual, other.residual);
   cut_short += other.cut_short;
   given_up += other.given_up;
 }

@@ -60,7 +60,8 @@ struct Summary {
 struct SolveReport {
   int iterations = 0;  ///< of conjugate residuals
   /// |v_star - (I + beta dt^2 M^-1 H) v_new|, weighted by mass, over the same norm of v_star less
-  /// the velocity of the centre of mass and of what gravity adds in the step
+  /// the velocity of the centre of mass and of what gravity adds in the step; no number where every
+  /// solve was given up
   double residual = 0;
   std::size_t cut_short = 0;         ///< solves taken as they were after solve_iterations
   std::size_t given_up = 0;          ///< solves of no use: shorter steps in their place

@@ -171,6 +171,27 @@ TEST(Bodies, RangesOfPlotsHoldTheFall) {
   EXPECT_FALSE(without.views[0].plots.body_height);
 }
 
+/// Axes reach to what rams and slopes do to the snow, and to what falls from its top.
+TEST(Ranges, AxesReachToWhatPushesAndSlides) {
+  const std::string snow =
+      "frames = 48\n[[body]]\nname = \"block\"\n"
+      "shape = { box = { center = [0, 0.1, 0], size = [0.3, 0.2, 0.3] } }\n";
+  const auto speed_with = [&](const std::string& collider) {
+    return setup::largest_speed(
+        scene::read_scene_text(snow + "[[collider]]\n" + collider, "s.toml"));
+  };
+  const double still = speed_with("shape = { plane = {} }\n");
+  EXPECT_GE(speed_with("shape = { box = { center = [-0.6, 0.1, 0], size = [0.2, 0.2, 0.5] } }\n"
+                       "keyframes = [{ time = 0, position = [-0.6, 0.1, 0] },\n"
+                       "  { time = 0.5, position = [3.4, 0.1, 0] }]\n"),
+            8);
+  // g sin(30 degrees) for 2 s; friction takes its share.
+  const std::string slope = "shape = { plane = { normal = [0.5, 0.8660254, 0] } }\n";
+  EXPECT_NEAR(speed_with(slope + "contact = \"slip\"\n"), 9.81, 1e-6);
+  EXPECT_NEAR(speed_with(slope + "friction = 0.3\n"), 9.81 - 0.3 * 9.81 * std::sqrt(3.0), 1e-6);
+  EXPECT_LT(speed_with(slope + "contact = \"sticky\"\n"), 1.2 * still);
+}
+
 double share_of_picture(const scene::CameraSettings& camera, double aspect, const Vec3d& point) {
   const Vec3d forward = (*camera.target - *camera.eye).normalized();
   const Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);

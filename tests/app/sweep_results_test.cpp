@@ -63,6 +63,24 @@ TEST(Metrics, SnowHasBrokenOnceAHundredthOfItsLargestPieceIsApart) {
   EXPECT_EQ(app::record::has_broken(first, last), true);
   last.largest_fragment = 0;
   EXPECT_FALSE(app::record::has_broken(first, last).has_value()) << "a sink has taken all of it";
+  // What an emitter adds breaks nothing, and what a sink takes cannot be told from what came off.
+  first = {}, last = {};
+  first.largest_fragment = 1;
+  first.particles = 1000;
+  last.largest_fragment = 0.7;
+  last.particles = 1430;
+  EXPECT_EQ(app::record::has_broken(first, last), false);
+  last.particles = 1300;
+  EXPECT_EQ(app::record::has_broken(first, last), true);
+  EXPECT_NEAR(*app::record::held_whole(first, last), 0.91, 1e-12);
+  last.largest_fragment = 1;
+  last.particles = 600;
+  EXPECT_FALSE(app::record::has_broken(first, last).has_value());
+  last.largest_fragment = 0.8;
+  EXPECT_EQ(app::record::has_broken(first, last), true);
+  first.particles = last.particles = 0;  // records of earlier versions
+  EXPECT_EQ(app::record::has_broken(first, last), true);
+  first.largest_fragment = 0.5;
   last.largest_fragment = 1;  // they cling to each other
   EXPECT_EQ(app::record::has_broken(first, last), false);
 }

@@ -194,6 +194,11 @@ TEST_F(Compare, ItsFolderIsVerifiedAsThoseOfRunsAre) {
   ASSERT_NO_FATAL_FAILURE(render_both());
   ASSERT_EQ(compare("a", "b", {"--out", "c", "--mode", "beside", "--mode", "metrics"}).exit_code,
             0);
+  // Completion in a shell writes a slash.
+  EXPECT_EQ(
+      compare("a/", (folder / "b").c_str(), {"--out", "c", "--mode", "beside", "--mode", "metrics"})
+          .exit_code,
+      0);
   const auto whole = neve({"verify", "c"});
   EXPECT_EQ(whole.exit_code, 0) << whole.output << whole.errors;
   folder.write("c/metrics.csv", "");

@@ -417,10 +417,16 @@ TEST_F(Export, NoExportIsReplacedWithoutAWord) {
           "x has this export at other frames or times; it would replace npz/0001.npz");
   refused({"scene.toml", "--format", "npz", "--at", "0.1"}, "at other frames or times");
   refused({"scene.toml", "--format", "usda", "--frames", "1-2", "--up", "z"},
-          "the export usda with other attributes, units or axes");
+          "the export usda with other attributes, bodies, units or axes");
   refused({"scene.toml", "--format", "npz", "--frames", "1-2", "--set", "seed=9"},
           "another simulation of the scene");
-  // What is made again, and more frames of it, loses nothing.
+  refused({"scene.toml", "--format", "npz", "--frames", "1-2", "--body", "ball"},
+          "the export npz with other attributes, bodies, units or axes");
+  // What is made again, and more frames of it, loses nothing; nor does another way to its scene.
+  json_of_export(first);
+  EXPECT_EQ(read_text(folder / "x/export.json"), list);
+  json_of_export(
+      {(folder / "scene.toml").string(), "--format", "npz,usda", "--frames", "1-2", "--out", "x"});
   json_of_export(first);
   EXPECT_EQ(read_text(folder / "x/export.json"), list);
   json_of_export({"scene.toml", "--format", "npz", "--frames", "0-2", "--out", "x"});
@@ -430,6 +436,18 @@ TEST_F(Export, NoExportIsReplacedWithoutAWord) {
   std::filesystem::remove_all(folder / "x/usda");
   std::filesystem::remove(folder / "x/usda.usda");
   json_of_export({"pair.toml", "--format", "ply", "--frames", "0", "--out", "x"});
+}
+
+/// Moments are numbered from 0, whatever they are.
+TEST_F(Export, OtherMomentsAreNotTheSameExport) {
+  json_of_export({"scene.toml", "--format", "npz", "--at", "0.01,0.02", "--out", "m"});
+  json_of_export({"scene.toml", "--format", "npz", "--at", "0.01,0.02", "--out", "m"});
+  expect_refused({"scene.toml", "--format", "npz", "--at", "0.03,0.04", "--out", "m"},
+                 app::exit_usage, "m has this export at other frames or times");
+  expect_refused({"scene.toml", "--format", "npz", "--frames", "0-1", "--out", "m"},
+                 app::exit_usage, "m has this export at other frames or times");
+  json_of_export({"scene.toml", "--format", "npz", "--at", "0.01,0.02,0.03", "--out", "m"});
+  EXPECT_TRUE(exists("m/npz/0002.npz"));
 }
 
 /// The list may be forged: it removes nothing outside its folder.

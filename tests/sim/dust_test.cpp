@@ -467,6 +467,12 @@ TEST(DustOfARun, SpraySlowsDownInTheAirAsTheClosedFormSays) {
     EXPECT_NEAR(simulation.particles().v[0].x(), expected, 0.06 * expected) << t;
   }
   EXPECT_FALSE(simulation.divergence());
+  // The speed that sheds dust is of no matter.
+  s.dust.speed = 25;
+  Simulation hardly_dusty(s, {Material{}}, {}, p, 1);
+  hardly_dusty.advance_to(0.4);
+  // Steps of the air are shorter then.
+  EXPECT_NEAR(hardly_dusty.particles().v[0].x(), simulation.particles().v[0].x(), 1e-3);
   s.dust.spray_drag = 0;
   Simulation without(s, {Material{}}, {}, p, 1);
   without.advance_to(0.4);

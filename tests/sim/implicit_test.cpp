@@ -222,6 +222,7 @@ TEST(ImplicitSolve, ImplicitSolveThatFailsIsReplacedByExplicitSteps) {
   const AdvanceReport report = reporting.advance_to(dt);
   ASSERT_TRUE(report.solve);
   EXPECT_GT(report.solve->given_up, 0u);
+  EXPECT_TRUE(std::isnan(report.solve->residual)) << "no solve was taken";
   EXPECT_EQ(report.limit(), DtLimit::acoustic);  // of the steps that were taken
 }
 

@@ -89,6 +89,7 @@ void draw_phases(const session::LiveFrame& live) {
                                                    {"grid update", p.grid_update},
                                                    {"solve", p.solve},
                                                    {"grid to particles", p.grid_to_particles},
+                                                   {"dust", p.dust},
                                                    {"checks", p.checks}};
   double all = 0;
   for (const auto& [name, seconds] : phases) all += seconds;
