@@ -9,9 +9,10 @@
 namespace neve::app::pick {
 
 struct RoundNoise {
-  std::vector<std::string> tiles;    ///< "breaks in 1 of 4, spread 0.42 m a"; none without seeds
-  std::vector<std::string> letters;  ///< theirs alone, "-" where all are too close to call
-  std::string key;                   ///< explains the letters
+  std::vector<std::string> tiles;  ///< "breaks in 1 of 4, spread 0.42 m a"; none without seeds
+  std::vector<std::string>
+      letters;      ///< theirs alone, "-" where all are too close to call, or none can be compared
+  std::string key;  ///< explains the letters
 };
 
 /// @param folder  of a search whose round is made @throws IoError

@@ -67,15 +67,17 @@ TEST(Statistics, TwoPointsDifferBeyondWelchsInterval) {
 TEST(Statistics, WithoutNoiseAnyDifferenceAboveRoundingIsOne) {
   EXPECT_TRUE(differ(point(1, 0), point(1.001, 0)));
   EXPECT_FALSE(differ(point(1, 0), point(1 + 1e-12, 0)));
-  EXPECT_TRUE(vary({point(1, 0), point(1, 0), point(2, 0)}));
-  EXPECT_FALSE(vary({point(1, 0), point(1, 0)}));
+  EXPECT_EQ(vary({point(1, 0), point(1, 0), point(2, 0)}), Verdict::real);
+  EXPECT_EQ(vary({point(1, 0), point(1, 0)}), Verdict::noise);
 }
 
 TEST(Statistics, OneRunTellsNothing) {
   EXPECT_FALSE(differ(point(0, 0, 1), point(100, 0.01)));
   EXPECT_FALSE(differ(point(0, 0, 0), point(100, 0.01)));
-  EXPECT_FALSE(vary({point(0, 0, 1), point(1, 0, 1)}));
-  EXPECT_FALSE(change({{point(0, 0, 1), point(1, 0, 1)}}));
+  EXPECT_EQ(vary({point(0, 0, 1), point(1, 0, 1)}), Verdict::unknown);
+  EXPECT_EQ(change({{point(0, 0, 1), point(1, 0, 1)}}), Verdict::unknown);
+  EXPECT_EQ(vary({point(0, 1), point(0, 0, 0)}), Verdict::unknown) << "no second point";
+  EXPECT_EQ(change({}), Verdict::unknown);
   EXPECT_EQ(summary_of({}).count, 0u);
   EXPECT_EQ(summary_of({3}).variance, 0);
 }
@@ -88,13 +90,13 @@ TEST(Statistics, AMetricVariesByTheTestOfAnAnalysisOfVariance) {
   EXPECT_DOUBLE_EQ(a.variance, 3.2);
   EXPECT_EQ(b.min, 6);
   EXPECT_EQ(b.max, 12);
-  EXPECT_TRUE(vary({a, b, c}));
-  EXPECT_FALSE(vary({b, c}));  // F = 1.5 of 1 and 10 degrees
+  EXPECT_EQ(vary({a, b, c}), Verdict::real);
+  EXPECT_EQ(vary({b, c}), Verdict::noise);  // F = 1.5 of 1 and 10 degrees
   // Three points of four values and variance 1: F = 4 times the variance of their means, 4.256495
   // of 2 and 9 degrees.
   const double edge = std::sqrt(4.256495 / 4);
-  EXPECT_FALSE(vary({point(-0.999 * edge, 1), point(0, 1), point(0.999 * edge, 1)}));
-  EXPECT_TRUE(vary({point(-1.001 * edge, 1), point(0, 1), point(1.001 * edge, 1)}));
+  EXPECT_EQ(vary({point(-0.999 * edge, 1), point(0, 1), point(0.999 * edge, 1)}), Verdict::noise);
+  EXPECT_EQ(vary({point(-1.001 * edge, 1), point(0, 1), point(1.001 * edge, 1)}), Verdict::real);
 }
 
 TEST(Statistics, StepsChangeAMetricByTheTestOfTheirMeanSquare) {
@@ -104,8 +106,8 @@ TEST(Statistics, StepsChangeAMetricByTheTestOfTheirMeanSquare) {
     return std::vector<std::pair<Summary, Summary>>{{point(0, 1), point(d, 1)},
                                                     {point(5, 1), point(5 - d, 1)}};
   };
-  EXPECT_FALSE(change(steps(0.999 * edge)));
-  EXPECT_TRUE(change(steps(1.001 * edge)));
+  EXPECT_EQ(change(steps(0.999 * edge)), Verdict::noise);
+  EXPECT_EQ(change(steps(1.001 * edge)), Verdict::real);
 }
 
 TEST(Statistics, PointsTooCloseToCallShareARankAndALetter) {
@@ -427,6 +429,40 @@ TEST(Noise, ASweepSaysInWordsWhatItsSeedsTell) {
   ASSERT_EQ(noise_lines(study.manifest, study.results).size(), 1u) << "lattices without lumps";
   study.manifest.seeds = 1;
   EXPECT_TRUE(noise_lines(study.manifest, study.results).empty());
+}
+
+TEST(Noise, WithoutTwoEndedSeedsOfAPointNothingIsCalledNoise) {
+  Study study = study_of_seeds();
+  for (std::size_t k = 0; k < 12; ++k)
+    if (k % 4 != 0) study.results[k].status.state = RunState::pending;
+  Manifest& m = study.manifest;
+  const std::vector<Point> points = points_of(m, study.results);
+  for (const std::size_t metric : {0, 1}) EXPECT_FALSE(is_noise(m, points, metric));
+  EXPECT_EQ(noise_lines(m, study.results).front(), unknown_words);
+  EXPECT_EQ(sheet::metric_plots_svg(m, study.results).find("noise here"), std::string::npos);
+  const sheet::Seals seals = sheet::seals_of(m, study.results, {});
+  EXPECT_FALSE(seals.is_noise);
+  EXPECT_EQ(seals.key.front().text, unknown_words);
+  EXPECT_TRUE(seals.of_points[0].groups.empty());
+  EXPECT_NE(seals.of_points[0].whisker.value, "");
+  const std::vector<neve::test::CsvRow> rows =
+      neve::test::parse_csv(sheet::points_csv(m, study.results));
+  for (std::size_t k = 0; k < rows[0].size(); ++k) {
+    const std::string& name = rows[0][k];
+    if (name == "spread_rank" || name == "spread_groups") {
+      EXPECT_EQ(rows[1][k], "") << name;
+    }
+  }
+  // A screening names its strongest effects and leaves the column of noise empty.
+  m.axes.clear();
+  m.screened = {{"hardening", {}, {"m.hardening"}}, {"friction", {}, {"c.friction"}}};
+  for (std::size_t k = 0; k < 12; ++k) m.runs[k].coordinates = {k < 4 ? 0 : 2, k < 8 ? 0 : 2};
+  for (const sheet::Effect& effect : sheet::effects_on(m, study.results, 0)) {
+    EXPECT_FALSE(effect.is_noise);
+    EXPECT_TRUE(effect.is_unknown);
+  }
+  EXPECT_TRUE(sheet::effect_lines(m, study.results).front().starts_with("spread (m): friction "));
+  EXPECT_NE(sheet::effects_csv(m, study.results).find(",\n"), std::string::npos);
 }
 
 TEST(Noise, RunsThatFailAreCountedAndNotAveraged) {

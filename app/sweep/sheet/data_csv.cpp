@@ -246,16 +246,19 @@ struct PointColumns {
   std::vector<int> ranks;
   std::vector<std::vector<int>> groups;
   bool is_whole = false;
+  bool is_known = true;  ///< which points differ
 };
 
-std::vector<PointColumns> point_columns_of(const std::vector<store::Point>& points,
+std::vector<PointColumns> point_columns_of(const store::Manifest& manifest,
+                                           const std::vector<store::Point>& points,
                                            const Listed& listed) {
   std::vector<PointColumns> columns;
   for (const std::size_t metric : listed) {
     const store::MetricInfo& info = store::metric_infos()[metric];
     const std::vector<store::Summary> summaries = store::summaries_of(points, metric);
-    columns.push_back(
-        {summaries, store::shared_ranks(summaries), store::close_groups(summaries), info.is_whole});
+    columns.push_back({summaries, store::shared_ranks(summaries), store::close_groups(summaries),
+                       info.is_whole,
+                       store::verdict_of(manifest, points, metric) != store::Verdict::unknown});
   }
   return columns;
 }
@@ -283,8 +286,8 @@ void add_cells(const PointColumns& column, std::size_t point, Rows& rows) {
   rows.add(float_text(s.mean));
   for (const double end : {s.min, s.max})
     rows.add(column.is_whole ? whole_text(end) : float_text(end));
-  rows.add(std::to_string(column.ranks[point]));
-  rows.add(store::group_letters(column.groups[point]));
+  rows.add(column.is_known ? std::to_string(column.ranks[point]) : "");
+  rows.add(column.is_known ? store::group_letters(column.groups[point]) : "");
 }
 
 }  // namespace
@@ -296,7 +299,7 @@ std::string points_csv(const store::Manifest& manifest,
   const store::Manifest shown = store::first_draws(manifest);
   const std::vector<store::Point> points = store::points_of(manifest, results);
   const Listed listed = listed_metrics(results, with_times);
-  const std::vector<PointColumns> columns = point_columns_of(points, listed);
+  const std::vector<PointColumns> columns = point_columns_of(manifest, points, listed);
   Rows rows;
   add_point_header(shown, !predictions.empty(), listed, rows);
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -194,7 +194,10 @@ std::vector<Effect> effects_on(const store::Manifest& manifest,
   std::vector<Effect> effects;
   for (std::size_t a = 0; a < axes; ++a) {
     effects.push_back(effect_of(changes[a]));
-    effects.back().is_noise = manifest.seeds > 1 && !store::change(steps[a]);
+    if (manifest.seeds == 1) continue;
+    const store::Verdict verdict = store::change(steps[a]);
+    effects.back().is_noise = verdict == store::Verdict::noise;
+    effects.back().is_unknown = verdict == store::Verdict::unknown;
   }
   return effects;
 }
@@ -212,9 +215,10 @@ std::string effects_csv(const store::Manifest& manifest,
       csv += fmt::format("{},{},\"{}\",{},{:.6g},{:.6g},{:.6g}{}\n", info.name, info.unit,
                          joined(manifest.screened[a].addresses, " "), effects[a].steps,
                          effects[a].mean, effects[a].strength, effects[a].spread,
-                         !has_noise            ? ""
-                         : effects[a].is_noise ? ",1"
-                                               : ",0");
+                         !has_noise              ? ""
+                         : effects[a].is_unknown ? ","
+                         : effects[a].is_noise   ? ",1"
+                                                 : ",0");
   }
   return csv;
 }

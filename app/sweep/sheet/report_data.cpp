@@ -196,25 +196,44 @@ Json axes_of(const store::Manifest& manifest) {
   return axes;
 }
 
+/// 1 + the number of points with a greater mean.
+std::vector<int> ranks_of_means(const std::vector<store::Summary>& summaries) {
+  std::vector<int> ranks;
+  for (const store::Summary& point : summaries)
+    ranks.push_back(1 + static_cast<int>(std::count_if(
+                            summaries.begin(), summaries.end(), [&](const store::Summary& other) {
+                              return other.count > 0 && other.mean > point.mean;
+                            })));
+  return ranks;
+}
+
 /// A metric at each point, with its noise or interval: what the page compares, it does not compute.
-Json noise_of(const std::string& metric, bool is_noise,
+/// Where noise is not known there are no groups, and ranks are those of the means alone.
+Json noise_of(const std::string& metric, store::Verdict verdict,
               const std::vector<store::Summary>& summaries) {
-  const std::vector<int> ranks = store::shared_ranks(summaries);
+  const bool is_known = verdict != store::Verdict::unknown;
+  const std::vector<int> ranks =
+      is_known ? store::shared_ranks(summaries) : ranks_of_means(summaries);
   const std::vector<double> shared = store::shared_means(summaries, ranks);
-  const std::vector<std::vector<int>> groups = store::close_groups(summaries);
+  const std::vector<std::vector<int>> groups =
+      is_known ? store::close_groups(summaries) : std::vector<std::vector<int>>(summaries.size());
   Json list = Json::array();
   for (std::size_t k = 0; k < summaries.size(); ++k) {
     const store::Summary& s = summaries[k];
-    list.push_back(s.count == 0 ? Json()
-                                : Json{{"mean", s.mean},
-                                       {"min", s.min},
-                                       {"max", s.max},
-                                       {"rank", ranks[k]},
-                                       {"shared", shared[k]},
-                                       {"groups", groups[k]},
-                                       {"letters", store::group_letters(groups[k])}});
+    list.push_back(s.count == 0
+                       ? Json()
+                       : Json{{"mean", s.mean},
+                              {"min", s.min},
+                              {"max", s.max},
+                              {"rank", ranks[k]},
+                              {"shared", shared[k]},
+                              {"groups", groups[k]},
+                              {"letters", is_known ? store::group_letters(groups[k]) : ""}});
   }
-  return {{"metric", metric}, {"noise", is_noise}, {"points", list}};
+  return {{"metric", metric},
+          {"noise", verdict == store::Verdict::noise},
+          {"known", is_known},
+          {"points", list}};
 }
 
 /// The verdict at full resolution, with what the runs of the point did.
@@ -240,12 +259,12 @@ void add_noise(const store::Manifest& manifest, const std::vector<store::RunResu
   for (const std::size_t metric :
        manifest.seeds > 1 ? store::listed_metrics(results) : std::vector<std::size_t>{})
     data["noise"].push_back(noise_of(store::metric_infos()[metric].name,
-                                     store::is_noise(manifest, points, metric),
+                                     store::verdict_of(manifest, points, metric),
                                      store::summaries_of(points, metric)));
   if (predictions.empty()) return;
   for_each_quantity([&](predict::Quantity quantity) {
-    data["noise"].push_back(
-        noise_of(full_name(quantity), false, store::summaries_of(predictions, quantity)));
+    data["noise"].push_back(noise_of(full_name(quantity), store::Verdict::real,
+                                     store::summaries_of(predictions, quantity)));
   });
 }
 

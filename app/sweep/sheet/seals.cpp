@@ -102,7 +102,7 @@ Scale place_whiskers(const Whiskers& shown, Seals& seals) {
     const store::Summary& s = shown.points[k];
     if (s.count == 0) continue;
     seal.whisker = {with_unit(s.mean, shown.unit), span_on(scale, s)};
-    if (!seals.is_noise) seal.groups = groups[k];
+    if (!seals.is_noise && !seals.is_unknown) seal.groups = groups[k];
   }
   return scale;
 }
@@ -112,6 +112,10 @@ using Mark = KeyLine::Mark;
 /// What it means that two tiles share a letter, or none.
 /// @param differs  "their spread differs for real"
 void explain_letters(const std::string& differs, const char* why_not, Seals& seals) {
+  if (seals.is_unknown) {
+    seals.key.push_back({Mark::none, store::unknown_words});
+    return;
+  }
   if (seals.is_noise) {
     seals.key.push_back(
         {Mark::none, fmt::format("all tiles are {}: {}", store::close_words, why_not)});
@@ -146,6 +150,8 @@ Seals seals_of_seeds(const store::Manifest& manifest, const std::vector<store::P
   Seals seals;
   const std::optional<std::size_t> telling = store::telling_metric(manifest, points);
   seals.is_noise = !telling;
+  seals.is_unknown =
+      telling && store::verdict_of(manifest, points, *telling) == store::Verdict::unknown;
   for (const store::Point& point : points)
     seals.of_points.push_back(
         {outcome_at(point, results[point.first]), store::is_undecided(point), false});

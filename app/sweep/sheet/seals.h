@@ -34,6 +34,7 @@ struct Seals {
   std::vector<KeyLine> key;  ///< explains them
   std::string title;         ///< what the whiskers show: "spread"
   bool is_noise = false;     ///< no metric tells points apart: whiskers are grey
+  bool is_unknown = false;   ///< too few runs ended to say what is noise: tiles have no letters
   std::vector<Seal> of_points;
 };
 

@@ -74,19 +74,26 @@ std::vector<Summary> summaries_of(const std::vector<Point>& points, std::size_t 
   return summaries;
 }
 
+Verdict verdict_of(const Manifest& manifest, const std::vector<Point>& points, std::size_t metric) {
+  return manifest.seeds > 1 ? vary(summaries_of(points, metric)) : Verdict::unknown;
+}
+
 bool is_noise(const Manifest& manifest, const std::vector<Point>& points, std::size_t metric) {
-  const auto is_told = [&](const Point& point) { return point.metrics[metric].count > 0; };
-  return manifest.seeds > 1 && points.size() > 1 &&
-         std::any_of(points.begin(), points.end(), is_told) && !vary(summaries_of(points, metric));
+  return verdict_of(manifest, points, metric) == Verdict::noise;
 }
 
 std::optional<std::size_t> telling_metric(const Manifest& manifest,
                                           const std::vector<Point>& points) {
-  for (std::size_t metric = 0; metric < metric_infos().size(); ++metric)
-    if (!metric_infos()[metric].is_cost && !metric_infos()[metric].is_of_bodies &&
-        !is_noise(manifest, points, metric))
-      return metric;
-  return std::nullopt;
+  std::optional<std::size_t> unknown;
+  bool has_noise = false;
+  for (std::size_t metric = 0; metric < metric_infos().size(); ++metric) {
+    if (metric_infos()[metric].is_cost || metric_infos()[metric].is_of_bodies) continue;
+    const Verdict verdict = verdict_of(manifest, points, metric);
+    if (verdict == Verdict::real) return metric;
+    has_noise |= verdict == Verdict::noise;
+    if (verdict == Verdict::unknown && !unknown) unknown = metric;
+  }
+  return has_noise ? std::nullopt : unknown;
 }
 
 std::string outcome_text(const Point& point) {
@@ -123,7 +130,10 @@ std::vector<std::string> noise_lines(const Manifest& manifest,
   for (std::size_t metric = 0; metric < metric_infos().size(); ++metric)
     if (!metric_infos()[metric].is_time && is_noise(manifest, points, metric))
       noise.emplace_back(metric_infos()[metric].title);
-  if (const auto telling = telling_metric(manifest, points)) {
+  const auto telling = telling_metric(manifest, points);
+  if (telling && verdict_of(manifest, points, *telling) == Verdict::unknown) {
+    lines.emplace_back(unknown_words);
+  } else if (telling) {
     const std::vector<Summary> summaries = summaries_of(points, *telling);
     lines.push_back(fmt::format(
         "{}: of {} pairs of points {} differ, the others are {}", metric_infos()[*telling].title,

@@ -25,10 +25,15 @@ std::vector<Point> points_of(const Manifest& manifest, const std::vector<RunResu
 /// A metric of all points.
 std::vector<Summary> summaries_of(const std::vector<Point>& points, std::size_t metric);
 
+/// Of a sweep with seeds: whether its points differ in this metric by more than their runs do.
+Verdict verdict_of(const Manifest& manifest, const std::vector<Point>& points, std::size_t metric);
+
 /// True of a sweep with seeds whose points differ in this metric by no more than their runs do.
+/// False where that is not known.
 bool is_noise(const Manifest& manifest, const std::vector<Point>& points, std::size_t metric);
 
-/// The first metric of the snow that is not noise; nothing if all are.
+/// The first metric of the snow that tells points apart; the first one of all where of none is
+/// known whether it does; nothing if those of which it is known are noise.
 std::optional<std::size_t> telling_metric(const Manifest& manifest,
                                           const std::vector<Point>& points);
 
@@ -43,6 +48,10 @@ std::string group_letters(const std::vector<int>& groups);
 /// What the seeds of a sweep say of it, a sentence a line; none without seeds.
 std::vector<std::string> noise_lines(const Manifest& manifest,
                                      const std::vector<RunResult>& results);
+
+/// Why nothing is said of noise, everywhere.
+inline constexpr const char* unknown_words =
+    "what is noise is not known: no two points have ended, one of them with two seeds";
 
 /// Words for it, everywhere.
 inline constexpr const char* close_words = "too close to call";

@@ -51,11 +51,13 @@ double rounding_square(const Summary& point) {
 }
 
 /// @param between, within  mean squares; of values that agree within points any change is one
-bool is_above_noise(double between, double within, double freedom_between, double freedom_within,
-                    double least) {
-  if (freedom_within < 1 || !(between > least)) return false;
-  if (!(within > 0)) return true;
-  return f_tail(between / within, freedom_between, freedom_within) < doubt;
+Verdict verdict_of(double between, double within, double freedom_between, double freedom_within,
+                   double least) {
+  if (freedom_within < 1) return Verdict::unknown;
+  if (!(between > least)) return Verdict::noise;
+  const bool is_real =
+      !(within > 0) || f_tail(between / within, freedom_between, freedom_within) < doubt;
+  return is_real ? Verdict::real : Verdict::noise;
 }
 
 /// Sets of points no two of which differ; Piepho's inserting and absorbing.
@@ -154,7 +156,7 @@ bool differ(const Summary& a, const Summary& b) {
   return t_tail(difference / std::sqrt(sum), freedom) < doubt;
 }
 
-bool vary(const std::vector<Summary>& points) {
+Verdict vary(const std::vector<Summary>& points) {
   double count = 0, groups = 0, sum = 0, least = 0;
   for (const Summary& point : points) {
     if (point.count == 0) continue;
@@ -164,7 +166,7 @@ bool vary(const std::vector<Summary>& points) {
     sum += n * point.mean;
     least = std::max(least, rounding_square(point));
   }
-  if (groups < 2) return false;
+  if (groups < 2) return Verdict::unknown;
   double between = 0, within = 0;
   for (const Summary& point : points) {
     if (point.count == 0) continue;
@@ -173,11 +175,11 @@ bool vary(const std::vector<Summary>& points) {
     within += (n - 1) * point.variance;
   }
   const double freedom = count - groups;
-  return is_above_noise(between / (groups - 1), freedom > 0 ? within / freedom : 0, groups - 1,
-                        freedom, least);
+  return verdict_of(between / (groups - 1), freedom > 0 ? within / freedom : 0, groups - 1, freedom,
+                    least);
 }
 
-bool change(const std::vector<std::pair<Summary, Summary>>& steps) {
+Verdict change(const std::vector<std::pair<Summary, Summary>>& steps) {
   double between = 0, within = 0, count = 0, freedom = 0, least = 0;
   for (const auto& [a, b] : steps) {
     if (a.count == 0 || b.count == 0) continue;
@@ -188,8 +190,8 @@ bool change(const std::vector<std::pair<Summary, Summary>>& steps) {
     ++count;
     least = std::max({least, rounding_square(a), rounding_square(b)});
   }
-  if (count == 0) return false;
-  return is_above_noise(between / count, freedom > 0 ? within / freedom : 0, count, freedom, least);
+  if (count == 0) return Verdict::unknown;
+  return verdict_of(between / count, freedom > 0 ? within / freedom : 0, count, freedom, least);
 }
 
 std::vector<int> shared_ranks(const std::vector<Summary>& points) {

@@ -35,13 +35,19 @@ double f_tail(double f, double between, double within);
 /// Source: B. L. Welch 1947, The generalization of "Student's" problem.
 bool differ(const Summary& a, const Summary& b);
 
-/// True if the means of some of these points differ by more than the values within points do: the F
-/// test of an analysis of variance. A metric for which they do not is noise.
-bool vary(const std::vector<Summary>& points);
+/// What a test says of a metric. Without a point of two values nothing is known of noise, which is
+/// no evidence of it.
+enum class Verdict { unknown, noise, real };
 
-/// True if these steps, each from one point to another, change the metric by more than noise: the F
-/// test of the mean square of their changes. No point may belong to two steps.
-bool change(const std::vector<std::pair<Summary, Summary>>& steps);
+/// Real if the means of some of these points differ by more than the values within points do: the F
+/// test of an analysis of variance. A metric for which they do not is noise. Unknown without two
+/// points that have values, or without a point that has two.
+Verdict vary(const std::vector<Summary>& points);
+
+/// Real if these steps, each from one point to another, change the metric by more than noise: the F
+/// test of the mean square of their changes. No point may belong to two steps. Unknown without
+/// steps, or without a point of two values.
+Verdict change(const std::vector<std::pair<Summary, Summary>>& steps);
 
 /// 1 + the number of points that are greater by more than noise: those that are too close to call
 /// with the greatest share rank 1. 0 of points without values.

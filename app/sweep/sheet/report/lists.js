@@ -99,6 +99,7 @@ function sealHint() {
     ? `Whisker: ${column.title}, expected at full resolution, with the interval that holds four times in five. `
     : `Whisker: ${column.title} over ${seeds} seeds, from min to max, with the mean. `;
   return start + (column.isNoise ? 'It is noise here: all tiles are too close to call.'
+    : column.isUnknown ? `Which tiles differ is not known: ${unknownWords}.`
     : `Tiles that share a letter${twins ? ' in the same line' : ''} are too close to call; they share a colour where they share a rank.`);
 }
 

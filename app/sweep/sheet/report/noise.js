@@ -13,10 +13,12 @@ const seedAxis = axes.findIndex(axis => axis.isSeed);
 for (const own of study.noise || []) {
   const column = columns.find(c => c.kind === 'metric' && c.help === own.metric);
   column.isNoise = own.noise;
+  column.isUnknown = !own.known;  // too few runs ended to say what is noise
   column.points = own.points;
 }
 const titleOf = column => column.title + (column.isNoise ? ': noise here' : '');
 const noiseWords = 'noise here: the points differ by no more than runs with other seeds';
+const unknownWords = 'no two points have ended, one of them with two seeds';
 
 /** Mean, min and max of a metric at the point of a run; nothing where it has none, or no run tells. */
 const summaryOf = (column, at) => column.points ? column.points[pointOf(at)] : null;
@@ -32,7 +34,7 @@ function pointText(column, at) {
   const s = summaryOf(column, at);
   if (!s) return '';
   const range = s.min === s.max ? '' : ` (${roughText(s.min)} to ${roughText(s.max)})`;
-  return roughText(Number(s.mean.toPrecision(4))) + range + (column.isNoise ? '' : ' ' + s.letters);
+  return roughText(Number(s.mean.toPrecision(4))) + range + (s.letters && !column.isNoise ? ' ' + s.letters : '');
 }
 
 /** "breaks in 1 of 4: here" */
@@ -95,7 +97,9 @@ const rankOf = (column, at) => { const s = summaryOf(column, at); return s ? -s.
 function differenceText(a, b) {
   if (!hasSeals) return '';
   if (hasSeeds && pointOf(a) === pointOf(b)) return ' One point with two seeds: the difference is noise.';
-  const told = measured.filter(c => summaryOf(c, a) && summaryOf(c, b) && !c.isNoise);
+  const both = measured.filter(c => summaryOf(c, a) && summaryOf(c, b));
+  if (both.length > 0 && both.every(c => c.isUnknown)) return ` It is not known whether they differ: ${unknownWords}.`;
+  const told = both.filter(c => !c.isNoise && !c.isUnknown);
   const names = list => list.map(c => c.title).join(', ');
   const close = told.filter(c => isClose(c, a, b)), apart = told.filter(c => !isClose(c, a, b));
   return (apart.length > 0 ? ` They differ in ${names(apart)}.` : ' No metric tells them apart.') +
