@@ -220,6 +220,52 @@ std::vector<std::vector<std::string>> texts(const std::vector<Run>& runs) {
   return list;
 }
 
+/// Few whole numbers and entries of lists take other shares of their range than the levels do.
+TEST_F(Designs, EffectsAreForTheWholeRangeOfListsWholeNumbersAndDistributions) {
+  folder_.write("sweep.toml",
+                "[sweep]\nscene = \"scene.toml\"\nmethod = \"morris\"\nsamples = 20\n[axis]\n"
+                "\"material.snow.hardening\" = [5, 10]\n"
+                "\"material.snow.critical_compression\" = [0.01, 0.02, 0.03]\n"
+                "\"material.snow.density\" = [100, 200, 300, 400, 500]\n"
+                "\"material.snow.critical_stretch\" = { log_uniform = [0.001, 0.05] }\n"
+                "\"material.snow.youngs_modulus\" = { normal = [1e5, 1e4] }\n"
+                "seed = { uniform = [1, 3] }\n"
+                "fps = [24]\n"
+                "\"solver.transfer\" = [\"flip\", \"apic\", \"mls\"]\n");
+  const read::Sweep sweep = read::read_sweep((folder_ / "sweep.toml").string(), {});
+  store::Manifest manifest;
+  manifest.parameters = {{"solver.transfer", "transfer", "", "choice"}};
+  for (const read::Axis& axis : sweep.axes) {
+    const std::string address = axis.parameters.front().address;
+    manifest.screened.push_back({address, {}, {address}, plan::level_shares(axis)});
+  }
+  manifest.runs = plan::expand(sweep);
+  std::vector<store::RunResult> results;
+  for (const sweep::Run& run : manifest.runs) {
+    const auto x = [&](const char* address) { return std::stod(run.setting(address)); };
+    store::RunResult& result = results.emplace_back();
+    result.status.state = store::RunState::ok;
+    result.frames = {0};
+    result.metrics.resize(store::metric_infos().size());
+    result.metrics[0] =
+        x("material.snow.hardening") + 1000 * x("material.snow.critical_compression") +
+        0.01 * x("material.snow.density") + std::log(x("material.snow.critical_stretch")) +
+        1e-4 * x("material.snow.youngs_modulus") + x("seed") +
+        (run.setting("solver.transfer") == "\"flip\"" ? 0 : 7);
+  }
+  const double expected[] = {5, 20, 4, std::log(50), 2 * plan::normal_quantile(0.95), 2};
+  const std::vector<sheet::Effect> effects = sheet::effects_on(manifest, results, 0);
+  ASSERT_EQ(effects.size(), sweep.axes.size());
+  for (std::size_t a = 0; a < std::size(expected); ++a) {
+    EXPECT_NEAR(effects[a].mean, expected[a], 1e-4) << manifest.screened[a].name;
+    EXPECT_NEAR(effects[a].spread, 0, 1e-4) << manifest.screened[a].name;
+    EXPECT_EQ(effects[a].steps, 20);
+  }
+  EXPECT_EQ(effects[6].steps, 0) << "one value has no range";
+  EXPECT_GT(effects[7].strength, 0) << "a step between two others than flip changes nothing";
+  EXPECT_LE(effects[7].strength, 7);
+}
+
 TEST_F(Designs, MoreSamplesKeepTheFirstOnes) {
   for (const char* method : {"sobol", "random", "morris"})
     for (const char* where :

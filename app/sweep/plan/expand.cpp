@@ -42,18 +42,25 @@ void append_value(Run& run, const read::Axis& axis, std::size_t value) {
   run.label += (run.label.empty() ? "" : ", ") + axis.value_labels[value];
 }
 
+/// The entry of a list at a place, 0 to 1.
+std::size_t entry_at(const read::Axis& axis, double u) {
+  const auto count = static_cast<double>(axis.size());
+  return static_cast<std::size_t>(std::min(u * count, count - 1));
+}
+
+/// The value of a drawn axis at a place, as runs have it.
+double value_at(const read::Axis::Parameter& parameter, double u) {
+  const std::optional<scene::ParamInfo> info = scene::param_at(parameter.address);
+  const double x = drawn_value(*parameter.drawn, u);
+  return info && info->type == "integer" ? std::round(x) : six_digits(x);
+}
+
 /// @param u place on the axis, 0 to 1
 void append_at(Run& run, const read::Axis& axis, double u) {
   const read::Axis::Parameter& parameter = axis.parameters.front();
-  if (!parameter.drawn) {
-    const auto count = static_cast<double>(axis.size());
-    return append_value(run, axis, static_cast<std::size_t>(std::min(u * count, count - 1)));
-  }
-  const std::optional<scene::ParamInfo> info = scene::param_at(parameter.address);
-  const double x = drawn_value(*parameter.drawn, u);
+  if (!parameter.drawn) return append_value(run, axis, entry_at(axis, u));
   scene::Override setting = parameter.values.front();
-  setting.value =
-      scene::toml::number_text(info && info->type == "integer" ? std::round(x) : six_digits(x));
+  setting.value = scene::toml::number_text(value_at(parameter, u));
   run.settings.push_back(setting);
 }
 
@@ -92,21 +99,24 @@ std::vector<Run> latin_hypercube(const read::Sweep& sweep) {
   return runs;
 }
 
-/// The runs of a trajectory, with their levels as coordinates.
-std::vector<Run> trajectory(const read::Sweep& sweep, std::uint32_t k) {
+/// The place of a level of a screening on its axis, 0 to 1.
+double place_of_level(const read::Axis& axis, int level) {
   // Ends of a normal distribution are infinite: its levels lie between these shares.
   constexpr double first_share = 0.05, last_share = 0.95;
+  const double place = static_cast<double>(level) / (morris_levels - 1);
+  const std::optional<read::AxisRule>& drawn = axis.parameters.front().drawn;
+  return drawn && drawn->normal ? first_share + place * (last_share - first_share) : place;
+}
+
+/// The runs of a trajectory, with their levels as coordinates.
+std::vector<Run> trajectory(const read::Sweep& sweep, std::uint32_t k) {
   std::vector<Run> runs;
   for (const std::vector<int>& levels :
        morris_trajectory(k, sweep.axes.size(), sweep.settings.seed)) {
     Run& run = runs.emplace_back();
     run.coordinates = levels;
-    for (std::size_t a = 0; a < levels.size(); ++a) {
-      const double place = static_cast<double>(levels[a]) / (morris_levels - 1);
-      const std::optional<read::AxisRule>& drawn = sweep.axes[a].parameters.front().drawn;
-      append_at(run, sweep.axes[a],
-                drawn && drawn->normal ? first_share + place * (last_share - first_share) : place);
-    }
+    for (std::size_t a = 0; a < levels.size(); ++a)
+      append_at(run, sweep.axes[a], place_of_level(sweep.axes[a], levels[a]));
   }
   return runs;
 }
@@ -212,6 +222,25 @@ void check_axes(const read::Sweep& sweep) {
 }
 
 }  // namespace
+
+std::vector<double> level_shares(const read::Axis& axis) {
+  const read::Axis::Parameter& parameter = axis.parameters.front();
+  const auto value = [&](int level) {
+    const double place = place_of_level(axis, level);
+    return parameter.drawn ? value_at(parameter, place)
+                           : static_cast<double>(entry_at(axis, place));
+  };
+  const double first = value(0), last = value(morris_levels - 1);
+  const bool is_logarithmic = parameter.drawn && parameter.drawn->log_uniform && first > 0;
+  std::vector<double> shares;
+  for (int level = 0; level < morris_levels; ++level) {
+    const double x = value(level);
+    shares.push_back(!(last > first)  ? 0
+                     : is_logarithmic ? std::log(x / first) / std::log(last / first)
+                                      : (x - first) / (last - first));
+  }
+  return shares;
+}
 
 double normal_quantile(double p) {
   double low = -8, high = 8;

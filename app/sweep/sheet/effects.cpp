@@ -24,14 +24,36 @@ struct Step {
   double share = 0;
 };
 
-Step step_between(const Run& a, const Run& b) {
+/// Choices have no order, so that nothing rises with them.
+bool is_ordered(const store::Manifest& manifest, const store::AxisLabels& axis) {
+  return std::all_of(
+      manifest.parameters.begin(), manifest.parameters.end(), [&](const Parameter& parameter) {
+        const bool is_of_axis = std::find(axis.addresses.begin(), axis.addresses.end(),
+                                          parameter.address) != axis.addresses.end();
+        return !is_of_axis || parameter.type == "number" || parameter.type == "integer";
+      });
+}
+
+/// The share of the range of an axis between two levels; of a choice, which has no range, the whole
+/// of it with each step.
+double share_between(const store::Manifest& manifest, const store::AxisLabels& axis, int from,
+                     int to) {
+  const auto count = static_cast<int>(axis.shares.size());
+  const auto share = [&](int level) {
+    return level >= 0 && level < count ? axis.shares[static_cast<std::size_t>(level)]
+                                       : level / (plan::morris_levels - 1.0);
+  };
+  const double way = share(to) - share(from);
+  return is_ordered(manifest, axis) || way == 0 ? way : std::copysign(1, way);
+}
+
+Step step_between(const store::Manifest& manifest, const Run& a, const Run& b) {
   Step step;
   for (std::size_t k = 0; k < a.coordinates.size(); ++k) {
     if (a.coordinates[k] == b.coordinates[k]) continue;
     if (step.axis >= 0) return {};
-    const double levels =
-        static_cast<double>(b.coordinates[k]) - static_cast<double>(a.coordinates[k]);
-    step = {static_cast<int>(k), levels / (plan::morris_levels - 1)};
+    step = {static_cast<int>(k),
+            share_between(manifest, manifest.screened[k], a.coordinates[k], b.coordinates[k])};
   }
   return step;
 }
@@ -86,16 +108,6 @@ std::vector<std::size_t> strongest_first(const std::vector<Column>& columns, std
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
   return order;
-}
-
-/// Choices have no order, so that nothing rises with them.
-bool is_ordered(const store::Manifest& manifest, const store::AxisLabels& axis) {
-  return std::all_of(
-      manifest.parameters.begin(), manifest.parameters.end(), [&](const Parameter& parameter) {
-        const bool is_of_axis = std::find(axis.addresses.begin(), axis.addresses.end(),
-                                          parameter.address) != axis.addresses.end();
-        return !is_of_axis || parameter.type == "number" || parameter.type == "integer";
-      });
 }
 
 /// An effect of an axis, with its sign where it always has the same.
@@ -163,9 +175,11 @@ std::string bar_legend(double y, bool has_noise) {
     x += 32 + 6.6 * static_cast<double>(std::string_view(words).size());
   }
   return svg +
-         svg_text(12, y + 30, "start", "",
-                  "Bar and number: mean change for the whole range of the parameter. Line: its "
-                  "standard deviation; a long one means that it depends on the others.");
+         svg_text(
+             12, y + 30, "start", "",
+             "Bar and number: mean change for the whole range of the parameter, from one end of "
+             "a list to the other, or from one choice to another. Line: its standard "
+             "deviation; a long one means that it depends on the others.");
 }
 
 }  // namespace
@@ -185,8 +199,9 @@ std::vector<Effect> effects_on(const store::Manifest& manifest,
     const store::Summary &before = points[k].metrics[metric],
                          &after = points[k + 1].metrics[metric];
     if (before.count == 0 || after.count == 0) continue;
-    const Step step = step_between(a, b);
-    if (step.axis < 0) continue;
+    const Step step = step_between(manifest, a, b);
+    // Two levels may be the same value, of few whole numbers or of a list of one.
+    if (step.axis < 0 || step.share == 0) continue;
     const auto axis = static_cast<std::size_t>(step.axis);
     changes[axis].push_back((after.mean - before.mean) / step.share);
     steps[axis].emplace_back(before, after);

@@ -20,6 +20,7 @@
 #include "app/support/film_rate.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
+#include "app/sweep/plan/expand.h"
 #include "app/sweep/read/sweep.h"
 #include "app/sweep/read/sweep_leaf.h"
 #include "app/sweep/store/prepare.h"
@@ -258,6 +259,9 @@ void check_values(const Manifest& m) {
   double places = 1;
   for (const AxisLabels& axis : m.axes) places *= static_cast<double>(axis.values.size());
   check(places >= 1 && places <= 10.0 * read::max_runs, "its axes have no or too many values");
+  for (const AxisLabels& axis : m.screened)
+    for (const double share : axis.shares)
+      check(share >= 0 && share <= 1, "a level of a screening is beyond the ends of its axis");
   if (m.beginning) {
     check(is_amount(m.beginning->time), "its fork time is invalid");
     check(m.beginning->runs.size() <= static_cast<std::size_t>(m.seeds),
@@ -382,6 +386,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
     for (const read::Axis& axis : plan.sweep.axes) {
       m.screened.push_back(manifest_axis(axis, m.parameters));
       m.screened.back().values.clear();
+      m.screened.back().shares = plan::level_shares(axis);
     }
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     Run& run = m.runs.emplace_back(plan.runs[k].run);
@@ -469,7 +474,8 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
     json["axes"].push_back(
         {{"name", axis.name}, {"values", axis.values}, {"addresses", axis.addresses}});
   for (const AxisLabels& axis : m.screened)
-    json["screened"].push_back({{"name", axis.name}, {"addresses", axis.addresses}});
+    json["screened"].push_back(
+        {{"name", axis.name}, {"addresses", axis.addresses}, {"shares", axis.shares}});
   if (m.varied) json["varied"] = *m.varied;
   if (m.beginning) json["beginning"] = beginning_json(*m.beginning);
   json["keeps_states"] = m.keeps_states;
@@ -528,7 +534,8 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     for (const Json& axis : json.value("screened", Json::array()))
       m.screened.push_back({axis.at("name").get<std::string>(),
                             {},
-                            axis.at("addresses").get<std::vector<std::string>>()});
+                            axis.at("addresses").get<std::vector<std::string>>(),
+                            axis.value("shares", std::vector<double>{})});
     if (json.contains("set")) m.fixed = settings_of(json.at("set"));
     m.scene_hash = json.value("scene_hash", "");
     if (json.contains("varied")) m.varied = json.at("varied").get<std::vector<std::string>>();

@@ -24,6 +24,8 @@ struct AxisLabels {
   std::string name;                      ///< may be empty
   std::vector<std::string> values;       ///< texts, with units
   std::vector<std::string> addresses{};  ///< of the parameters that it sets
+  /// Of a screening, see plan::level_shares(); none in files of before they had them.
+  std::vector<double> shares{};
 };
 
 /// The common beginning of runs that fork later than at the start, one for each seed.
