@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "app/scene/toml/error.h"
@@ -290,6 +291,26 @@ TEST_F(Designs, AScreeningHasOneMoreRunThanAxesForEachTrajectory) {
       changes += list[k].settings[a].value != list[k - 1].settings[a].value;
     EXPECT_EQ(changes, 1) << "run " << k;
   }
+}
+
+TEST_F(Designs, WholeNumbersAreDrawnAsOftenAsTheirShareOfTheAxis) {
+  const auto counts = [&](const std::string& method, int samples, const std::string& rule) {
+    std::map<std::string, int> count;
+    for (const sweep::Run& run :
+         runs("method = \"" + method + "\"\nsamples = " + std::to_string(samples) +
+              "\n[axis]\nseed = { " + rule + " }\n"))
+      ++count[run.settings[0].value];
+    return count;
+  };
+  using Counts = std::map<std::string, int>;
+  EXPECT_EQ(counts("lhs", 60, "uniform = [1, 3]"), (Counts{{"1", 20}, {"2", 20}, {"3", 20}}));
+  EXPECT_EQ(counts("sobol", 64, "uniform = [0.5, 4.5]"),
+            (Counts{{"1", 16}, {"2", 16}, {"3", 16}, {"4", 16}}));
+  // log(3), log(5 / 3) and log(7 / 5) of log(7).
+  Counts logarithmic = counts("lhs", 1000, "log_uniform = [1, 3]");
+  EXPECT_NEAR(logarithmic["1"], 564.6, 1);
+  EXPECT_NEAR(logarithmic["2"], 262.5, 1);
+  EXPECT_NEAR(logarithmic["3"], 172.9, 1);
 }
 
 TEST_F(Designs, ConditionsHoldInEveryRun) {

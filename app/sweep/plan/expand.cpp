@@ -48,19 +48,38 @@ std::size_t entry_at(const read::Axis& axis, double u) {
   return static_cast<std::size_t>(std::min(u * count, count - 1));
 }
 
-/// The value of a drawn axis at a place, as runs have it.
-double value_at(const read::Axis::Parameter& parameter, double u) {
+bool is_whole(const read::Axis::Parameter& parameter) {
   const std::optional<scene::ParamInfo> info = scene::param_at(parameter.address);
-  const double x = drawn_value(*parameter.drawn, u);
-  return info && info->type == "integer" ? std::round(x) : six_digits(x);
+  return info && info->type == "integer";
 }
 
-/// @param u place on the axis, 0 to 1
-void append_at(Run& run, const read::Axis& axis, double u) {
+/// The value of a drawn axis at a place, as runs have it; both ends are among its values.
+double value_at(const read::Axis::Parameter& parameter, double u) {
+  const double x = drawn_value(*parameter.drawn, u);
+  return is_whole(parameter) ? std::round(x) : six_digits(x);
+}
+
+/// As value_at(), but each whole number between the ends is as likely as its share of the axis: the
+/// first and the last are rounded to from one side only.
+double sample_at(const read::Axis::Parameter& parameter, double u) {
+  const read::AxisRule& rule = *parameter.drawn;
+  const std::optional<read::Ends>& ends = rule.log_uniform ? rule.log_uniform : rule.uniform;
+  if (!ends || !is_whole(parameter)) return value_at(parameter, u);
+  const double first = std::ceil(ends->first), last = std::floor(ends->last);
+  if (first > last) return value_at(parameter, u);
+  const double low = first - 0.5, high = last + 0.5;
+  const double x = rule.log_uniform ? std::round(low * std::pow(high / low, u))
+                                    : std::floor(first + u * (last + 1 - first));
+  return std::clamp(x, first, last);
+}
+
+/// @param value_of  value_at() or sample_at() @param u place on the axis, 0 to 1
+template <class F>
+void append_at(Run& run, const read::Axis& axis, double u, const F& value_of) {
   const read::Axis::Parameter& parameter = axis.parameters.front();
   if (!parameter.drawn) return append_value(run, axis, entry_at(axis, u));
   scene::Override setting = parameter.values.front();
-  setting.value = scene::toml::number_text(value_at(parameter, u));
+  setting.value = scene::toml::number_text(value_of(parameter, u));
   run.settings.push_back(setting);
 }
 
@@ -80,7 +99,8 @@ Run sample(const read::Sweep& sweep, std::uint32_t k) {
     const std::uint64_t seed = mix64(sweep.settings.seed, a);
     append_at(run, sweep.axes[a],
               sweep.settings.method == read::Method::sobol ? sobol_place(k, a, sweep.settings.seed)
-                                                           : unit_double(mix64(seed + 1, k)));
+                                                           : unit_double(mix64(seed + 1, k)),
+              sample_at);
   }
   return run;
 }
@@ -94,7 +114,8 @@ std::vector<Run> latin_hypercube(const read::Sweep& sweep) {
     for (std::size_t k = 0; k < count; ++k)
       append_at(runs[k], sweep.axes[a],
                 (static_cast<double>(stratum[k]) + unit_double(mix64(seed + 1, k))) /
-                    static_cast<double>(count));
+                    static_cast<double>(count),
+                sample_at);
   }
   return runs;
 }
@@ -116,7 +137,7 @@ std::vector<Run> trajectory(const read::Sweep& sweep, std::uint32_t k) {
     Run& run = runs.emplace_back();
     run.coordinates = levels;
     for (std::size_t a = 0; a < levels.size(); ++a)
-      append_at(run, sweep.axes[a], place_of_level(sweep.axes[a], levels[a]));
+      append_at(run, sweep.axes[a], place_of_level(sweep.axes[a], levels[a]), value_at);
   }
   return runs;
 }
