@@ -337,6 +337,18 @@ TEST_F(Designs, ConditionsHoldInEveryRun) {
   EXPECT_EQ(grid[1].index, 1);
 }
 
+TEST_F(Designs, ConditionsBySizeNeedNumbers) {
+  const std::string axes = "[axis]\nfps = [1, 2]\n\"solver.transfer\" = [\"flip\", \"apic\"]\n";
+  const std::string why =
+      "solver.transfer has values without a size, such as \"flip\"; use == or !=, with a text in "
+      "quotes, or leave values out of the axis";
+  for (const char* where :
+       {"transfer < 3", "transfer >= fps", "fps > transfer", "2 * transfer == 1"})
+    EXPECT_EQ(complaint(std::string("where = [\"") + where + "\"]\n" + axes),
+              std::string("3:9 where = \"") + where + "\": " + why);
+  EXPECT_EQ(runs("where = [\"transfer != 'apic'\"]\n" + axes).size(), 2u);
+}
+
 TEST_F(Designs, ConditionsThatMeanNothingAreExplained) {
   const std::string axes = "[axis]\nfps = [1, 2]\nseed = [1, 2]\n";
   const std::vector<std::pair<const char*, const char*>> cases{

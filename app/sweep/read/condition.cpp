@@ -74,6 +74,20 @@ std::string address_of(const std::string& name, const Sweep& sweep) {
   return found;
 }
 
+/// Values of an axis that is compared by size: texts and vectors have none.
+void check_numbers(const std::string& address, const Sweep& sweep) {
+  for (const Axis& axis : sweep.axes)
+    for (const Axis::Parameter& parameter : axis.parameters) {
+      if (parameter.address != address || parameter.drawn) continue;
+      for (const scene::Override& setting : parameter.values)
+        if (!number_of(setting.value))
+          throw std::invalid_argument(
+              fmt::format("{} has values without a size, such as {}; use == or !=, with a text in "
+                          "quotes, or leave values out of the axis",
+                          address, setting.value));
+    }
+}
+
 bool compare(const std::string& comparison, double a, double b) {
   if (comparison == "<") return a < b;
   if (comparison == "<=") return a <= b;
@@ -118,6 +132,9 @@ Condition::Condition(const std::string& text, const Sweep& sweep) {
   const bool has_text = !left_.text.empty() || !right_.text.empty();
   if (has_text && comparison_ != "==" && comparison_ != "!=")
     throw std::invalid_argument("text compares only with == and !=");
+  for (const Side& side : {left_, right_})
+    if (!side.address.empty() && ((comparison_ != "==" && comparison_ != "!=") || side.factor != 1))
+      check_numbers(side.address, sweep);
 }
 
 bool Condition::holds(
