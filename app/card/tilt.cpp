@@ -10,6 +10,7 @@
 
 #include "app/card/falls.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::card {
 
@@ -45,6 +46,14 @@ double way_of(const std::vector<Vec3d>& now, const std::vector<Vec3d>& first) {
     if (first[p].y() > depth / 2) sum += now[p].x() - first[p].x(), ++count;
   return sum / count;
 }
+
+/// What way_of() an elastic layer makes under its own weight, m: shear that grows linearly with
+/// depth, over the modulus, in the mean of the upper half. It swings about that way.
+double elastic_way(const sim::Material& m, double angle) {
+  const double shear = m.density * gravity_at(angle).x() * depth;
+  return 11.0 / 24 * depth * shear / sim::lame(m.youngs_modulus, m.poisson_ratio).mu;
+}
+constexpr double swing = 1.5;  // times the elastic way, at most, of a load that grows
 
 /// What the slope bears.
 class Balance {
@@ -107,7 +116,7 @@ Experiment tilt(const Subject& subject) {
   scene::Scene stage = layer(subject);
   sim::Simulation simulation = simulation_of(stage);
   const std::vector<Vec3d> first = simulation.particles().x;
-  double angle = 0, slides_at = 0;
+  double angle = 0, slides_at = 0, slid = 0;
   Balance balance;
   advance(simulation, rest, e);
   while (e.failure.empty() && angle < steepest) {
@@ -119,13 +128,16 @@ Experiment tilt(const Subject& subject) {
     balance.add(angle, report.loads.front().impulse);
     e.x.push_back(angle);
     e.y.push_back(way_of(simulation.particles().x, first));
-    if (slides_at == 0 && balance.is_known() && balance.angle() - balance.borne() > out_of_balance)
-      slides_at = balance.borne();
-    if (slides_at > 0 && e.y.back() > seen_to_slide * depth) break;
+    slid = e.y.back() - swing * elastic_way(subject.material, angle);
+    const bool is_out = balance.is_known() && balance.angle() - balance.borne() > out_of_balance;
+    if (slides_at == 0 && is_out) slides_at = balance.borne();
+    // Soft layers lag behind their slope, and catch up with it.
+    if (!is_out && slid < seen_to_slide * depth / 3) slides_at = 0;
+    if (slides_at > 0 && slid > seen_to_slide * depth) break;
   }
   show_layer(simulation, stage, angle, e);
   // An elastic layer swings, and leaves its balance without sliding away.
-  const bool slides = slides_at > 0 && e.y.back() > seen_to_slide * depth / 3;
+  const bool slides = slides_at > 0 && slid > seen_to_slide * depth / 3;
   e.measures = {{"angle", slides ? slides_at : NAN}};
   e.words.push_back(slides ? "slides at " + rough_text(slides_at) + "\u00b0"
                            : "holds at " + rough_text(angle) + "\u00b0");

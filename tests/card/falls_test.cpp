@@ -32,6 +32,18 @@ TEST(CardTilt, ElasticLayersHold) {
   EXPECT_EQ(tilted.x.back(), 90);
 }
 
+/// The upper half of this layer makes a way of 20 cm, which is no sliding.
+TEST(CardTilt, SoftElasticLayersHold) {
+  for (const double E : {5e3, 2e3}) {
+    neve::sim::Material m = preset_snow(Preset::wet, neve::sim::laws::model::neo_hookean);
+    m.youngs_modulus = E;
+    const Experiment tilted = tilt(subject_of(m));
+    EXPECT_EQ(tilted.failure, "");
+    EXPECT_TRUE(std::isnan(tilted.value("angle").value_or(0))) << E;
+    EXPECT_EQ(tilted.x.back(), 90) << E;
+  }
+}
+
 /// Run-outs of dry sand whose height is a times its radius: 1.6 sqrt(a) (Lube, Huppert, Sparks and
 /// Hallworth 2004, J. Fluid Mech. 508, a > 1.7), a (Lajeunesse, Mangeney-Castelnau and Vilotte
 /// 2004, Phys. Fluids 16, a < 3). The front is thinner than a cell: 98 % of the sand is nearer by a
