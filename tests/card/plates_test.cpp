@@ -92,6 +92,9 @@ TEST(CardTear, SandBearsNoTensionAndElasticLawsDoNotTear) {
   EXPECT_LT(value(tear(subject_of(dry_sand(30))), "strength"), 1e-3);
   const Experiment stretched = tear(subject_of(elastic(0.2)));
   EXPECT_EQ(std::max_element(stretched.y.begin(), stretched.y.end()), stretched.y.end() - 1);
+  for (const char* name : {"strength", "stretch_at_strength", "work"})
+    EXPECT_TRUE(std::isnan(value(stretched, name))) << name << ": it bears more";
+  EXPECT_TRUE(stretched.words.front().starts_with("bears at least ")) << stretched.words.front();
 }
 
 /// Below 0.6 % of shear strain the law is linear to 1e-4; the rest is waves and the plate's start.
@@ -108,6 +111,24 @@ TEST(CardShear, ShearedSandHasTheFrictionOfItsAngle) {
   for (const double angle : {20.0, 30.0, 36.0})
     EXPECT_NEAR(value(shear(subject_of(dry_sand(angle))), "friction") / critical_slope(angle), 1,
                 0.05);
+}
+
+/// Whatever holds the snow, and for soft laws too, whose stress is no line.
+TEST(CardShear, TheBlockIsPressedByFiveHundredPascal) {
+  using neve::sim::ContactAt, neve::sim::Kernel, neve::sim::Transfer;
+  Material m = preset_snow(Preset::wet, neve::sim::laws::model::neo_hookean);
+  Subject subject = subject_of(m);
+  for (const double E : {1e4, 1e5, 1e6}) {
+    subject.material.youngs_modulus = E;
+    EXPECT_NEAR(value(shear(subject), "pressure") / 500, 1, 0.02) << E;
+  }
+  subject.solver.transfer = Transfer::mls;
+  subject.solver.kernel = Kernel::quadratic;
+  EXPECT_NEAR(value(shear(subject), "pressure") / 500, 1, 0.03);
+  subject.solver.contact_at = ContactAt::nodes;
+  EXPECT_NEAR(value(shear(subject), "pressure") / 500, 1, 0.05);
+  for (const Material& law : {preset_snow(Preset::powder), preset_snow(Preset::icy), dry_sand(30)})
+    EXPECT_NEAR(value(shear(subject_of(law)), "pressure") / 500, 1, 0.03);
 }
 
 }  // namespace
