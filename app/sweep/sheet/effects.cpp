@@ -130,7 +130,7 @@ struct Shown {
 };
 
 constexpr double row_height = 30, bar_height = 14, column_width = 106, bar_room = 76, head = 56,
-                 foot = 64, name_per_letter = 7.2;
+                 foot = 80, name_per_letter = 7.2;
 
 constexpr const char* bar_style = R"(<style>
 text { font-family: "DejaVu Sans", Verdana, sans-serif; fill: #55606e; font-size: 11px }
@@ -174,12 +174,13 @@ std::string bar_legend(double y, bool has_noise) {
            svg_text(x + 17, y + 10, "start", "", words);
     x += 32 + 6.6 * static_cast<double>(std::string_view(words).size());
   }
-  return svg +
-         svg_text(
-             12, y + 30, "start", "",
-             "Bar and number: mean change for the whole range of the parameter, from one end of "
-             "a list to the other, or from one choice to another. Line: its standard "
-             "deviation; a long one means that it depends on the others.");
+  svg +=
+      svg_text(12, y + 30, "start", "",
+               "Bar and number: mean change for the whole range of the parameter, from one end of "
+               "a list to the other, or from one choice to another.");
+  return svg + svg_text(12, y + 46, "start", "",
+                        "Line: its standard deviation; a long one means that it depends on the "
+                        "others.");
 }
 
 }  // namespace
