@@ -23,8 +23,7 @@ constexpr double largest_turn = std::numbers::pi / 4;
 constexpr int max_pieces = 256;
 
 int pieces_of(double turn) {
-  return static_cast<int>(
-      std::clamp(std::ceil(turn / largest_turn - 1e-9), 1.0, 1.0 * max_pieces));
+  return static_cast<int>(std::clamp(std::ceil(turn / largest_turn - 1e-9), 1.0, 1.0 * max_pieces));
 }
 
 double angle_between(const Mat3d& a, const Mat3d& b) {
