@@ -216,14 +216,18 @@ double fastest_collider(const scene::Scene& scene) {
   return speed;
 }
 
-/// m/s, of the fastest of its snow: the top falls further than the middle, and slides.
+/// m/s, of a piece as a whole.
 double speed_of(const scene::Scene& scene, const SnowPiece& piece) {
+  return std::max(impact_speed(scene, piece), piece.velocity.norm() + sliding_speed(scene));
+}
+
+/// m/s, of the fastest of its snow: the top falls further than the middle.
+double fastest_of(const scene::Scene& scene, const SnowPiece& piece) {
   const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
   const Vec3d half = 0.5 * (box.max - box.min), down = down_in(scene);
   const double impact = impact_speed(scene, piece),
                above = half.dot(Vec3d(down.cwiseAbs())) * scene.solver.gravity.norm();
-  return std::max(std::sqrt(impact * impact + 2 * above),
-                  piece.velocity.norm() + sliding_speed(scene));
+  return std::max(std::sqrt(impact * impact + 2 * above), speed_of(scene, piece));
 }
 
 }  // namespace
@@ -242,7 +246,7 @@ double collider_speed(const scene::Scene& scene, const sim::shapes::Collider& co
 
 double largest_speed(const scene::Scene& scene) {
   double speed = fastest_collider(scene);
-  for (const SnowPiece& piece : snow_places(scene)) speed = std::max(speed, speed_of(scene, piece));
+  for (const SnowPiece& piece : snow_places(scene)) speed = std::max(speed, fastest_of(scene, piece));
   return speed;
 }
 
