@@ -246,7 +246,8 @@ double collider_speed(const scene::Scene& scene, const sim::shapes::Collider& co
 
 double largest_speed(const scene::Scene& scene) {
   double speed = fastest_collider(scene);
-  for (const SnowPiece& piece : snow_places(scene)) speed = std::max(speed, fastest_of(scene, piece));
+  for (const SnowPiece& piece : snow_places(scene))
+    speed = std::max(speed, fastest_of(scene, piece));
   return speed;
 }
 
