@@ -26,7 +26,7 @@ struct Copy {
   std::string failure;  ///< why it has no end, a sentence; empty: it has
   /// At the last frame; the force is the largest mean over a frame that a collider felt.
   double values[quantity_count] = {};
-  std::optional<bool> has_broken;  ///< nothing where there was no snow at the start
+  std::optional<bool> has_broken;  ///< see record::has_broken
   double whole = 1;                ///< largest piece as a share of what it was at the start
   double value(Quantity quantity) const { return values[static_cast<int>(quantity)]; }
 };

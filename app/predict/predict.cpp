@@ -53,7 +53,9 @@ std::string silence(const std::vector<Copy>& copies) {
     if (!copy.failure.empty())
       return fmt::format("the copy with --coarsen {} and seed {} has no end: {}",
                          rough_text(copy.coarsening), copy.seed, copy.failure);
-    if (!copy.has_broken) return "there is no snow at the start";
+    if (!copy.has_broken)
+      return "there is no snow at the start or at the end, or a sink takes what the largest piece "
+             "lacks";
   }
   return "";
 }

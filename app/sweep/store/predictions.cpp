@@ -40,7 +40,8 @@ predict::Copy copy_of(const std::filesystem::path& folder, const Manifest& manif
 
 /// The runs themselves, one for each seed: mean and range of their values.
 predict::Prediction prediction_of(const std::vector<const RunResult*>& full) {
-  predict::Prediction known = predict::silent("it has no snow at the start");
+  predict::Prediction known = predict::silent(
+      "it has no snow at the start or at the end, or a sink takes what its largest piece lacks");
   known.is_run = true;
   for (const RunResult* result : full) {
     known.runs += result->has_broken.has_value();
