@@ -320,16 +320,13 @@ std::string states_text(const run::RenderJob& job, const Json& states) {
 /// What films of a run show that was drawn before: all pictures of their views.
 std::string films_text(const run::RenderJob& job, const run::RenderRun& run,
                        const run::RenderResult& result) {
-  if (!result.is_addition || result.movies.empty() || run.record().frames.empty()) return {};
+  if (!result.is_addition || result.movies.empty()) return {};
   std::vector<std::string> names;
   bool are_longer = false;
   for (const fs::path& movie : result.movies) {
     names.push_back(movie.string());
-    const auto view = run.record().view_records.find(movie.stem().string());
-    if (view == run.record().view_records.end()) continue;
-    const record::ViewFrames shown = view->second.frames.value_or(
-        record::ViewFrames{run.record().frames.front().frame, run.record().frames.back().frame});
-    are_longer |= shown.count() > job.frames.count();
+    are_longer |=
+        record::frames_of(run.record(), movie.stem().string()).count() > job.frames.count();
   }
   if (!are_longer) return {};
   return joined(names, ", ") + (names.size() == 1 ? " has" : " have") +

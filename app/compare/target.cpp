@@ -71,10 +71,6 @@ std::vector<Mode> modes_for(const PairOptions& options, TargetKind kind) {
   return options.modes.empty() ? std::vector<Mode>{Mode::beside} : options.modes;
 }
 
-}  // namespace
-
-namespace {
-
 /// Without the slash that completion in a shell writes.
 std::string run_name(const std::string& run) {
   const fs::path path = fs::path(run).lexically_normal();
@@ -82,10 +78,7 @@ std::string run_name(const std::string& run) {
 }
 
 bool is_same_run(const Json& before, const std::string& now) {
-  if (!before.is_string()) return false;
-  std::error_code error;
-  const auto name = before.get<std::string>();
-  return name == now || fs::equivalent(name, now, error);
+  return before.is_string() && record::is_same_path(before.get<std::string>(), now);
 }
 
 }  // namespace
@@ -150,20 +143,16 @@ void Target::refuse_loss(const Json& earlier, const setup::FrameRange& frames) c
       earlier.is_object() && earlier.contains("a") &&
       !(is_same_run(earlier["a"], a_) && is_same_run(earlier.value("b", Json()), b_));
   const std::set<std::string> to_come = files_to_come(frames);
-  std::vector<std::string> gone;
-  for (const auto& [file, hash] : record::file_hashes(earlier))
-    if ((is_of_others || !to_come.contains(file)) && record::is_below(out_, file) &&
-        record::has_hash(out_ / file, hash))
-      gone.push_back(file);
+  record::FileHashes lost = record::file_hashes(earlier);
+  if (!is_of_others)
+    std::erase_if(lost, [&](const auto& file) { return to_come.contains(file.first); });
+  const std::vector<std::string> gone = record::unchanged_files(out_, lost);
   if (gone.empty()) return;
-  throw UsageError(
-      "--out",
-      fmt::format("{} has a comparison {}; it would replace {}", out_.string(),
-                  is_of_others ? "of other runs" : "with other frames or modes",
-                  gone.size() == 1 ? gone.front()
-                                   : fmt::format("{} files, from {} to {}", gone.size(),
-                                                 gone.front(), gone.back())),
-      "add --replace, or choose another folder with --out");
+  throw UsageError("--out",
+                   fmt::format("{} has a comparison {}; it would replace {}", out_.string(),
+                               is_of_others ? "of other runs" : "with other frames or modes",
+                               record::files_text(gone)),
+                   "add --replace, or choose another folder with --out");
 }
 
 void Target::begin(const setup::FrameRange& frames) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "app/exports/usda.h"
@@ -173,21 +174,23 @@ std::string usd_property(const scene::Scene& scene, const std::string& declared,
 
 std::string usd_placed(const scene::Scene& scene, const Axes& axes,
                        const std::vector<Place>& path) {
+  // In double, unlike usd_tuple(). Adding 0 turns -0 into 0.
+  const auto tuple = [](std::initializer_list<double> numbers) {
+    std::string text;
+    for (const double x : numbers) text += (text.empty() ? "(" : ", ") + usd_number(x + 0.0);
+    return text + ")";
+  };
   std::vector<std::pair<double, std::string>> places, attitudes;
   Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
   for (const Place& place : path) {
     const Vec3d x = axes.scaled(place.point);
-    places.emplace_back(place.time, "(" + usd_number(x.x()) + ", " + usd_number(x.y()) + ", " +
-                                        usd_number(x.z()) + ")");
+    places.emplace_back(place.time, tuple({x.x(), x.y(), x.z()}));
     Eigen::Quaterniond q(axes.turned(place.rotation));
     q.normalize();
     // A quaternion and its negative are one attitude; programs that mix elements need neighbours.
-    // Adding 0 turns -0 into 0.
     if (q.dot(last) < 0) q.coeffs() = -q.coeffs();
     last = q;
-    attitudes.emplace_back(place.time,
-                           "(" + usd_number(q.w() + 0.0) + ", " + usd_number(q.x() + 0.0) + ", " +
-                               usd_number(q.y() + 0.0) + ", " + usd_number(q.z() + 0.0) + ")");
+    attitudes.emplace_back(place.time, tuple({q.w(), q.x(), q.y(), q.z()}));
   }
   const std::string indent(12, ' ');
   return usd_property(scene, indent + "double3 xformOp:translate", places) +

@@ -158,15 +158,15 @@ std::optional<Idle> idle_in_solver(const sim::SolverSettings& s, const std::stri
   const bool is_fixed = s.time_step == sim::TimeStep::fixed,
              is_asflip = s.transfer == sim::Transfer::asflip,
              is_aflip = s.transfer == sim::Transfer::aflip;
-  const char* const or_adaptive = "remove it, or set solver.time_step = \"adaptive\"";
   if (key == "dt" && !is_fixed)
     return Idle{"adaptive steps are chosen by the state; it is for time_step = \"fixed\"",
                 "set time_step = \"fixed\"; solver.max_dt limits adaptive steps"};
-  if (is_one_of(key, {"max_dt", "strain_limit"}) && is_fixed)
-    return Idle{"it limits adaptive steps, and time_step = \"fixed\" takes dt", or_adaptive};
-  // Explicit parts of a solve that is given up keep them.
-  if (is_one_of(key, {"cfl", "acoustic_cfl"}) && is_fixed && !s.is_implicit())
-    return Idle{"it limits adaptive steps, and time_step = \"fixed\" takes dt", or_adaptive};
+  // Explicit parts of a solve that is given up keep two of the limits.
+  const bool is_limit = is_one_of(key, {"max_dt", "strain_limit"}) ||
+                        (is_one_of(key, {"cfl", "acoustic_cfl"}) && !s.is_implicit());
+  if (is_limit && is_fixed)
+    return Idle{"it limits adaptive steps, and time_step = \"fixed\" takes dt",
+                "remove it, or set solver.time_step = \"adaptive\""};
   if (key == "advect" && (is_asflip || is_aflip))
     return Idle{"aflip moves particles with the grid's velocity, asflip with a share of theirs",
                 "remove it; solver.separation_min and separation_max are asflip's shares"};

@@ -1,5 +1,7 @@
 #include "app/record/earlier.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <system_error>
 
@@ -43,6 +45,23 @@ bool is_below(const fs::path& folder, const fs::path& name) {
     if (fs::is_symlink(fs::symlink_status(at, error))) return false;
   }
   return !name.empty() && fs::is_regular_file(fs::symlink_status(at, error));
+}
+
+bool is_same_path(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return a == b || fs::equivalent(a, b, error);
+}
+
+std::vector<std::string> unchanged_files(const fs::path& folder, const FileHashes& files) {
+  std::vector<std::string> names;
+  for (const auto& [name, hash] : files)
+    if (is_below(folder, name) && has_hash(folder / name, hash)) names.push_back(name);
+  return names;
+}
+
+std::string files_text(const std::vector<std::string>& files) {
+  if (files.size() == 1) return files.front();
+  return fmt::format("{} files, from {} to {}", files.size(), files.front(), files.back());
 }
 
 std::size_t remove_listed(const fs::path& folder, const FileHashes& files) {

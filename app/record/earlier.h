@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "app/record/run_json.h"
 
@@ -15,6 +17,17 @@ bool is_below(const std::filesystem::path& folder, const std::filesystem::path& 
 
 /// False also for a file that is missing or cannot be read.
 bool has_hash(const std::filesystem::path& file, const std::string& hash);
+
+/// True of two names, as people gave them, of one file or folder.
+bool is_same_path(const std::string& a, const std::string& b);
+
+/// Names of the files of a list that are below the folder and have the bytes that it gives the hash
+/// of: those that remove_listed() would remove.
+std::vector<std::string> unchanged_files(const std::filesystem::path& folder,
+                                         const FileHashes& files);
+
+/// "8 files, from ply/0000.ply to ply/0007.ply". @param files  at least one
+std::string files_text(const std::vector<std::string>& files);
 
 /// Removes the files of a list that are below the folder and have the bytes that it gives the hash
 /// of, and folders that are empty then. @return how many files @throws IoError, also where one

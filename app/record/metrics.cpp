@@ -124,10 +124,13 @@ std::optional<double> held_whole(const Metrics& first, const Metrics& last) {
 
 std::optional<bool> has_broken(const Metrics& first, const Metrics& last) {
   const std::optional<double> held = held_whole(first, last);
-  if (!held || *held >= whole_share) return held ? std::optional(false) : std::nullopt;
-  const bool is_whole_of_the_rest = last.particles < first.particles &&
-                                    last.largest_fragment >= whole_share * first.largest_fragment;
-  return is_whole_of_the_rest ? std::nullopt : std::optional(true);
+  if (!held) return std::nullopt;
+  if (*held >= whole_share) return false;
+  // Less of it, and yet it is as much of what is left: a sink has taken the rest.
+  if (last.particles < first.particles &&
+      last.largest_fragment >= whole_share * first.largest_fragment)
+    return std::nullopt;
+  return true;
 }
 
 Metrics measure(const sim::ParticleArrays& particles, double cell_size) {

@@ -409,6 +409,12 @@ std::string with_own_hash(const Json& json) {
   return text;
 }
 
+ViewFrames frames_of(const RunRecord& run, const std::string& view) {
+  if (run.frames.empty()) return {};
+  return run.view_records.at(view).frames.value_or(
+      ViewFrames{run.frames.front().frame, run.frames.back().frame});
+}
+
 void write_run_json(const std::filesystem::path& folder, const RunRecord& run) {
   output::write_file(output::run_json_path(folder), with_own_hash(to_json(run)));
 }

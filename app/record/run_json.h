@@ -167,6 +167,10 @@ std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder)
 
 Json to_json(const RunRecord& run);
 
+/// The frames of a view: its own, or all of the run's. @throws std::out_of_range where the run has
+/// none of the name
+ViewFrames frames_of(const RunRecord& run, const std::string& view);
+
 /// @throws IoError
 void write_run_json(const std::filesystem::path& folder, const RunRecord& run);
 

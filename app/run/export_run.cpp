@@ -78,12 +78,6 @@ std::string simulation_of(const RenderJob& run) {
   return record::hash_of(simulation_text(run.scene) + to_text(scene::to_json(run.changes)));
 }
 
-/// Paths are written as people gave them.
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  return a == b || fs::equivalent(a, b, error);
-}
-
 /// Exports with the same names, or of another scene, give their place to the new ones.
 Earlier earlier_exports(const ExportJob& job) {
   const fs::path file = output::export_list_path(job.run.folder);
@@ -96,7 +90,7 @@ Earlier earlier_exports(const ExportJob& job) {
     earlier.scene_file = list.at("scene_file").get<std::string>();
     earlier.simulation = list.value("simulation", "");
     earlier.their_files = record::file_hashes(list);
-    const bool is_of_scene = is_same_file(earlier.scene_file, job.run.scene_file) ||
+    const bool is_of_scene = record::is_same_path(earlier.scene_file, job.run.scene_file) ||
                              earlier.simulation == simulation_of(job.run);
     for (const Json& one : list.at("exports")) {
       const bool is_ours = std::any_of(ours.begin(), ours.end(), [&](const scene::Export& e) {
@@ -148,34 +142,23 @@ std::set<std::string> files_to_write(const ExportJob& job) {
   return names;
 }
 
-/// "8 files, from ply/0000.ply to ply/0007.ply"
-std::string lost_files_text(const std::vector<std::string>& files) {
-  if (files.size() == 1) return files.front();
-  return fmt::format("{} files, from {} to {}", files.size(), files.front(), files.back());
-}
-
 /// An export that is made again, or continued after an interruption, loses nothing: its files are
 /// made again. All else that would go needs --replace.
 /// @param ours  of the new exports, as in export.json
 void refuse_lost_exports(const ExportJob& job, const Earlier& earlier, const Json& ours) {
   if (job.run.options.replaces) return;
-  const std::set<std::string> written = files_to_write(job);
-  std::vector<std::string> all, gone;
-  for (const auto& [name, hash] : earlier.their_files) {
-    if (!record::is_below(job.run.folder, name) || !record::has_hash(job.run.folder / name, hash))
-      continue;
-    all.push_back(name);
-    if (!written.contains(name)) gone.push_back(name);
-  }
-  const auto refuse = [&](const std::string& what, const std::vector<std::string>& files) {
+  // Files are read only where there is something to refuse.
+  const auto refuse = [&](const std::string& what, const record::FileHashes& lost) {
+    const std::vector<std::string> files = record::unchanged_files(job.run.folder, lost);
+    if (files.empty()) return;
     throw UsageError(job.run.options.out.empty() ? "" : "--out",
                      fmt::format("{} has {}; it would replace {}", job.run.folder.string(), what,
-                                 lost_files_text(files)),
+                                 record::files_text(files)),
                      "add --replace, or choose another folder with --out");
   };
-  if (all.empty()) return;
+  const record::FileHashes& all = earlier.their_files;
   const bool is_same_simulation = earlier.simulation == simulation_of(job.run);
-  if (!is_same_simulation && !is_same_file(earlier.scene_file, job.run.scene_file))
+  if (!is_same_simulation && !record::is_same_path(earlier.scene_file, job.run.scene_file))
     refuse("exports of another scene, " + earlier.scene_file, all);
   for (const Json& before : earlier.replaced)
     for (const Json& now : ours)
@@ -190,7 +173,11 @@ void refuse_lost_exports(const ExportJob& job, const Earlier& earlier, const Jso
         all);
   for (const Json& before : earlier.replaced)
     if (has_other_moments(before, job)) refuse("this export at other frames or times", all);
-  if (!gone.empty()) refuse("this export at other frames or times", gone);
+  record::FileHashes gone = all;
+  std::erase_if(gone, [written = files_to_write(job)](const auto& file) {
+    return written.contains(file.first);
+  });
+  refuse("this export at other frames or times", gone);
 }
 
 /// Goes to a time; a stage also has where things are at the frames on the way from the moment

@@ -110,6 +110,7 @@ void Ledger::note_exports() {
 
 std::vector<exports::Exporter::Work> Ledger::read_exports(const timeline::Timeline& timeline) {
   const int frame = timeline.here().frame;
+  if (!exporter_.is_due(frame) && !exporter_.has_stage()) return {};
   const int number = scene::number_of(job_.scene, frame);
   std::vector<exports::Exporter::Work> work;
   if (exporter_.is_due(frame))
@@ -171,7 +172,7 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
 
 void Ledger::write_movie(const std::string& view, std::vector<std::filesystem::path>& movies) {
   const output::MovieStyle& style = job_.options.movie;
-  const record::ViewFrames frames = frames_of(view);
+  const record::ViewFrames frames = record::frames_of(record_, view);
   if (frames.count() <= 1) return;
   const int first = frames.first - (record_.slate ? 1 : 0);
   const std::filesystem::path file = output::movie_path(job_.folder, view, style.format);
@@ -226,13 +227,6 @@ void Ledger::fail(const std::string& error) {
   } catch (const IoError&) {
     // The first error is the one to report; the disk may be full for this file too.
   }
-}
-
-record::ViewFrames Ledger::frames_of(const std::string& view) const {
-  if (record_.frames.empty()) return {};
-  const std::optional<record::ViewFrames>& part = record_.view_records.at(view).frames;
-  return part.value_or(
-      record::ViewFrames{record_.frames.front().frame, record_.frames.back().frame});
 }
 
 /// True where the frames of this command are some that the run had before.

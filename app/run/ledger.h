@@ -39,8 +39,6 @@ class Ledger {
   void add_to(const EarlierRun& earlier);
   /// Notes the earlier views of a run that is resumed.
   void keep_views(const EarlierRun& earlier) { run::keep_views(job_, earlier, record_); }
-  /// That a drawn view has pictures of so far.
-  record::ViewFrames frames_of(const std::string& view) const;
   /// True where the run has the pictures of a frame already, unchanged, and no exports are due.
   bool is_made(int frame) const;
   /// Takes what a run that is resumed has made until a moment. @throws IoError for a broken list

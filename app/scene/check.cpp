@@ -649,6 +649,27 @@ Found collider_problem(const Scene& scene, const Collider& collider) {
   });
 }
 
+/// What moves a collider so that snow feels its surface come are its keyframes and its velocity.
+Found collider_curve_problem(const Scene& scene, const Curve& curve, const std::string& at) {
+  for (const Collider& collider : scene.colliders) {
+    const std::string table = "collider." + collider.name + ".";
+    if (curve.parameter.starts_with(table + "shape."))
+      return Problem{at,
+                     curve.parameter +
+                         " would jump from frame to frame: snow would not feel its "
+                         "surface come",
+                     "give " + table + "keyframes, which move its surface with it"};
+    if (collider.body.moves() &&
+        (curve.parameter == table + "velocity" || curve.parameter == table + "angular_velocity"))
+      return Problem{at,
+                     collider.name +
+                         " moves by itself: a curve of its velocity would take away in "
+                         "each frame what it has gained",
+                     "remove density from it, or the curve"};
+  }
+  return {};
+}
+
 /// Parameters with curves are numbers or vectors of the simulation that may change while it runs.
 Found parameter_problem(const Scene& scene, const Curve& curve, const FlatParam* param) {
   const std::string at = "curve." + curve.name + ".parameter";
@@ -668,24 +689,7 @@ Found parameter_problem(const Scene& scene, const Curve& curve, const FlatParam*
   if (!param->is_live)
     return Problem{at, curve.parameter + " cannot change while a simulation runs",
                    "neve params says \"live\" where it can"};
-  for (const Collider& collider : scene.colliders) {
-    const std::string table = "collider." + collider.name + ".";
-    if (!curve.parameter.starts_with(table)) continue;
-    const std::string keyframes = "give " + table + "keyframes, which move its surface with it";
-    if (curve.parameter.starts_with(table + "shape."))
-      return Problem{at,
-                     curve.parameter +
-                         " would jump from frame to frame: snow would not feel its "
-                         "surface come",
-                     keyframes};
-    if (collider.body.moves() &&
-        (curve.parameter == table + "velocity" || curve.parameter == table + "angular_velocity"))
-      return Problem{at,
-                     collider.name +
-                         " moves by itself: a curve of its velocity would take away in "
-                         "each frame what it has gained",
-                     "remove density from it, or the curve"};
-  }
+  if (Found found = collider_curve_problem(scene, curve, at)) return found;
   if (param->type == "number" || param->type == "vector") return {};
   return Problem{at, curve.parameter + " is a " + param->type, "numbers and vectors have curves"};
 }

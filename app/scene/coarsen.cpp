@@ -60,17 +60,18 @@ void scale_settings(Scene& scene, double factor) {
       points->thinning = tidy(points->thinning * factor * factor * factor);
   sim::SolverSettings& s = scene.solver;
   const bool is_ratio_per_step = s.flip_reference_dt == 0;
-  for (double* grows : {&s.cell_size, &s.dt, &s.max_dt}) *grows = tidy(*grows * factor);
-  if (is_ratio_per_step) s.flip_ratio = tidy(std::pow(s.flip_ratio, factor));
+  s.cell_size = tidy(s.cell_size * factor);
+  // Of the solver's own values, and of the curves that they follow.
+  const auto scale = [&](const std::string& address, double& value) {
+    if (address == "solver.dt" || address == "solver.max_dt") value = tidy(value * factor);
+    if (address == "solver.flip_ratio" && is_ratio_per_step) value = tidy(std::pow(value, factor));
+  };
+  scale("solver.dt", s.dt);
+  scale("solver.max_dt", s.max_dt);
+  scale("solver.flip_ratio", s.flip_ratio);
   for (Curve& curve : scene.curves)
-    for (CurveKeyframe& keyframe : curve.keyframes) {
-      if (!keyframe.value) continue;
-      double& value = *keyframe.value;
-      if (curve.parameter == "solver.dt" || curve.parameter == "solver.max_dt")
-        value = tidy(value * factor);
-      if (curve.parameter == "solver.flip_ratio" && is_ratio_per_step)
-        value = tidy(std::pow(value, factor));
-    }
+    for (CurveKeyframe& keyframe : curve.keyframes)
+      if (keyframe.value) scale(curve.parameter, *keyframe.value);
 }
 
 void refuse_empty_bodies(const Scene& scene, double factor) {

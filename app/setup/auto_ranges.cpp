@@ -209,25 +209,31 @@ double sliding_speed(const scene::Scene& scene) {
   return g * steepest * scene::duration(scene);
 }
 
-double fastest_collider(const scene::Scene& scene) {
-  double speed = 0;
+/// m/s, of what sets snow in motion, wherever it is: planes that it slides down, colliders.
+struct Drive {
+  double sliding = 0, pushing = 0;
+};
+
+Drive drive_of(const scene::Scene& scene) {
+  Drive drive{sliding_speed(scene), 0};
   for (const sim::shapes::Collider& collider : scene.colliders)
-    speed = std::max(speed, setup::collider_speed(scene, collider));
-  return speed;
+    drive.pushing = std::max(drive.pushing, setup::collider_speed(scene, collider));
+  return drive;
 }
 
 /// m/s, of a piece as a whole.
-double speed_of(const scene::Scene& scene, const SnowPiece& piece) {
-  return std::max(impact_speed(scene, piece), piece.velocity.norm() + sliding_speed(scene));
+double speed_of(const scene::Scene& scene, const SnowPiece& piece, const Drive& drive) {
+  return std::max(
+      {impact_speed(scene, piece), piece.velocity.norm() + drive.sliding, drive.pushing});
 }
 
-/// m/s, of the fastest of its snow: the top falls further than the middle.
-double fastest_of(const scene::Scene& scene, const SnowPiece& piece) {
+/// m/s, of the top of a piece, which falls further than its middle.
+double speed_of_top(const scene::Scene& scene, const SnowPiece& piece) {
   const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
   const Vec3d half = 0.5 * (box.max - box.min), down = down_in(scene);
   const double impact = impact_speed(scene, piece),
                above = half.dot(Vec3d(down.cwiseAbs())) * scene.solver.gravity.norm();
-  return std::max(std::sqrt(impact * impact + 2 * above), speed_of(scene, piece));
+  return std::sqrt(impact * impact + 2 * above);
 }
 
 }  // namespace
@@ -245,29 +251,28 @@ double collider_speed(const scene::Scene& scene, const sim::shapes::Collider& co
 }
 
 double largest_speed(const scene::Scene& scene) {
-  double speed = fastest_collider(scene);
+  const Drive drive = drive_of(scene);
+  double speed = drive.pushing;
   for (const SnowPiece& piece : snow_places(scene))
-    speed = std::max(speed, fastest_of(scene, piece));
+    speed = std::max({speed, speed_of(scene, piece, drive), speed_of_top(scene, piece)});
   return speed;
 }
 
 double energy_of_impact(const scene::Scene& scene) {
+  const Drive drive = drive_of(scene);
   double energy = 0;
-  const double pushed = fastest_collider(scene);
   for (const SnowPiece& piece : snow_pieces(scene)) {
-    const double speed = std::max(speed_of(scene, piece), pushed);
+    const double speed = speed_of(scene, piece, drive);
     energy += 0.5 * piece.mass * speed * speed;
   }
   return energy;
 }
 
 double force_of_impact(const scene::Scene& scene) {
+  const Drive drive = drive_of(scene);
   double force = 0;
-  const double pushed = fastest_collider(scene);
-  for (const SnowPiece& piece : snow_pieces(scene)) {
-    const double speed = std::max(speed_of(scene, piece), pushed);
-    force += piece.mass * (scene.solver.gravity.norm() + speed * scene.fps);
-  }
+  for (const SnowPiece& piece : snow_pieces(scene))
+    force += piece.mass * (scene.solver.gravity.norm() + speed_of(scene, piece, drive) * scene.fps);
   return force;
 }
 

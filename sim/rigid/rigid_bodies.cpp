@@ -426,11 +426,7 @@ RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
                          far.norm(),
                          is_convex(c.shape),
                          {},
-                         {},
-                         Vec3d::Zero(),
-                         0,
-                         Vec3d::Zero(),
-                         Vec3d::Zero()});
+                         {}});
     } catch (const ShapeError& error) {
       throw ShapeError("collider " + c.name + ": " + error.what());
     } catch (const std::invalid_argument& error) {
@@ -520,17 +516,14 @@ Turn free_turn(const Mat3d& rotation, const Mat3d& axes, const Vec3d& momentum,
 
 void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& collider) const {
   const Body& body = bodies_[k];
-  Mat3d turned = rotation_from_vector(dt * body.after.spin) * body.after.rotation;
-  Vec3d spin = body.after.spin;
-  if (Held::turns_freely(collider.body)) {
-    const Turn turn =
-        free_turn(body.after.rotation, body.axes, inertia(k) * spin, body.mass.inertia, dt);
-    turned = turn.rotation;
-    spin = turn.spin;
-  }
-  spin += body.later_spin;
+  const Motion& after = body.after;
+  const Turn turn =
+      Held::turns_freely(collider.body)
+          ? free_turn(after.rotation, body.axes, inertia(k) * after.spin, body.mass.inertia, dt)
+          : Turn{rotation_from_vector(dt * after.spin) * after.rotation, after.spin};
+  const Vec3d spin = turn.spin + body.later_spin;
   // Products of many turns stay a turn.
-  const Eigen::Quaterniond attitude = Eigen::Quaterniond(turned).normalized();
+  const Eigen::Quaterniond attitude = Eigen::Quaterniond(turn.rotation).normalized();
   const Mat3d rotation = attitude.toRotationMatrix();
   const Vec3d arm = rotation * body.axes * body.mass.centre;
   const Vec3d point = body.after.centre + dt * body.after.velocity - arm;

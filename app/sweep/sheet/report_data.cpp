@@ -196,24 +196,13 @@ Json axes_of(const store::Manifest& manifest) {
   return axes;
 }
 
-/// 1 + the number of points with a greater mean.
-std::vector<int> ranks_of_means(const std::vector<store::Summary>& summaries) {
-  std::vector<int> ranks;
-  for (const store::Summary& point : summaries)
-    ranks.push_back(1 + static_cast<int>(std::count_if(
-                            summaries.begin(), summaries.end(), [&](const store::Summary& other) {
-                              return other.count > 0 && other.mean > point.mean;
-                            })));
-  return ranks;
-}
-
 /// A metric at each point, with its noise or interval: what the page compares, it does not compute.
 /// Where noise is not known there are no groups, and ranks are those of the means alone.
 Json noise_of(const std::string& metric, store::Verdict verdict,
               const std::vector<store::Summary>& summaries) {
   const bool is_known = verdict != store::Verdict::unknown;
   const std::vector<int> ranks =
-      is_known ? store::shared_ranks(summaries) : ranks_of_means(summaries);
+      is_known ? store::shared_ranks(summaries) : store::ranks_of_means(summaries);
   const std::vector<double> shared = store::shared_means(summaries, ranks);
   const std::vector<std::vector<int>> groups =
       is_known ? store::close_groups(summaries) : std::vector<std::vector<int>>(summaries.size());

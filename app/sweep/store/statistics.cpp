@@ -194,15 +194,32 @@ Verdict change(const std::vector<std::pair<Summary, Summary>>& steps) {
   return verdict_of(between / count, freedom > 0 ? within / freedom : 0, count, freedom, least);
 }
 
-std::vector<int> shared_ranks(const std::vector<Summary>& points) {
+namespace {
+
+/// 1 + the number of points that are above one; 0 where no run tells.
+template <class Above>
+std::vector<int> ranks_by(const std::vector<Summary>& points, const Above& is_above) {
   std::vector<int> ranks;
   for (const Summary& point : points) {
     int rank = point.count > 0 ? 1 : 0;
     for (const Summary& other : points)
-      if (point.count > 0 && other.mean > point.mean && differ(other, point)) ++rank;
+      if (point.count > 0 && other.count > 0 && is_above(other, point)) ++rank;
     ranks.push_back(rank);
   }
   return ranks;
+}
+
+}  // namespace
+
+std::vector<int> shared_ranks(const std::vector<Summary>& points) {
+  return ranks_by(points, [](const Summary& other, const Summary& point) {
+    return other.mean > point.mean && differ(other, point);
+  });
+}
+
+std::vector<int> ranks_of_means(const std::vector<Summary>& points) {
+  return ranks_by(
+      points, [](const Summary& other, const Summary& point) { return other.mean > point.mean; });
 }
 
 std::vector<std::vector<int>> close_groups(const std::vector<Summary>& points) {

@@ -53,6 +53,9 @@ Verdict change(const std::vector<std::pair<Summary, Summary>>& steps);
 /// with the greatest share rank 1. 0 of points without values.
 std::vector<int> shared_ranks(const std::vector<Summary>& points);
 
+/// The same by the means alone, where noise is not known.
+std::vector<int> ranks_of_means(const std::vector<Summary>& points);
+
 /// The groups that each point belongs to, from 0, the group of the greatest: two points share a
 /// group exactly where they are too close to call. Points without values belong to none.
 /// Source: H.-P. Piepho 2004, An algorithm for a letter-based representation of all-pairwise
