@@ -40,24 +40,26 @@ std::string summary_title(const Quantity& q) {
 }
 
 struct Extremes {
-  double least = 0, greatest = 0;
+  double least = NAN, greatest = NAN;  ///< not-a-number: there is nothing to measure
   std::size_t outside_expected = 0;
 };
 
 /// Extremes over all nodes except light ones.
 Extremes extremes(const Listing& listing, const Quantity& q) {
   Extremes e;
-  bool is_first = true;
   for (std::size_t row = 0; row < q.rows(); ++row) {
     if (!listing.is_negligible.empty() && listing.is_negligible[row]) continue;
     e.outside_expected += q.is_outside_expected(row);
     const double found = q.magnitude(row);
     if (!std::isfinite(found)) continue;
-    e.least = is_first ? found : std::min(e.least, found);
-    e.greatest = is_first ? found : std::max(e.greatest, found);
-    is_first = false;
+    e.least = std::fmin(e.least, found);
+    e.greatest = std::fmax(e.greatest, found);
   }
   return e;
+}
+
+std::string found_text(const Quantity& q, double value) {
+  return std::isnan(value) ? "-" : value_text(q, value);
 }
 
 /// Padded on the right to a width, at least one space.
@@ -82,8 +84,8 @@ std::vector<std::string> summary_lines(const Listing& listing) {
     if (is_index(q) && q.components > 1) continue;  // the length of i, j, k means nothing
     const Extremes e = extremes(listing, q);
     lines.push_back(
-        column_text(summary_title(q), 22) + column_text(value_text(q, e.least), 12) +
-        column_text(value_text(q, e.greatest), 12) +
+        column_text(summary_title(q), 22) + column_text(found_text(q, e.least), 12) +
+        column_text(found_text(q, e.greatest), 12) +
         column_text(q.expected || e.outside_expected > 0 ? std::to_string(e.outside_expected) : "-",
                     9) +
         expected_text(q));

@@ -172,7 +172,7 @@ scene::View with_ranges_of_frame(scene::View view, const FieldSamples& fields) {
       if (!range) range = scene::Range{value, value};
       range = scene::Range{std::min(range->min, value), std::max(range->max, value)};
     }
-    return range && range->max > range->min ? range : std::nullopt;
+    return range;
   };
   const auto scalars = fields.scalars.find(view.slice.scalar);
   if (scalars != fields.scalars.end())

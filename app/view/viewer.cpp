@@ -37,7 +37,7 @@ Viewer::Viewer(session::Workbench& bench, frontend::Frontend& front, render::Scr
   state_.copy = [this](const std::string& text) { front_.set_clipboard(text); };
   if (front_.takes_files())
     state_.download = [this](const std::filesystem::path& file) { download(file); };
-  panels::announce_view(state_);
+  announce_view();
   if (options.is_running) bench_.session().run();
 }
 
@@ -94,9 +94,9 @@ void Viewer::take_live_frame() {
       trace.quantity = live->probe->is_node ? "v_old" : "v";
     for (const session::ProbeRow& row : live->probe->rows) {
       if (row.name != trace.quantity) continue;
-      while (!trace.points.empty() && trace.points.back().first >= live->snapshot.time)
+      while (!trace.points.empty() && trace.points.back().first >= live->probe->time)
         trace.points.pop_back();
-      trace.points.emplace_back(live->snapshot.time, row.magnitude);
+      trace.points.emplace_back(live->probe->time, row.magnitude);
     }
   }
   follow();
@@ -169,6 +169,7 @@ void Viewer::draw() {
   // Panels are laid out and used first: their changes are in this picture already.
   screen_.begin(size.width, size.height, font_size(), static_cast<float>(passed));
   draw_panels();
+  announce_view();
   if (!(camera_before == state_.orbit)) {
     moved_at_ = Clock::now();
     settle_ = 3;
@@ -177,6 +178,7 @@ void Viewer::draw() {
     paint_picture();
     screen_.end(renderer_, state_.viewport);
   }
+  keep_recording();
   if (state_.wants_picture && has_picture_to_save()) save_picture();
   // Scripts name the frames that a user sees.
   const session::LiveFrame& live = *state_.live;
@@ -191,6 +193,13 @@ void Viewer::draw() {
 
 int Viewer::font_size() const {
   return panels::font_size(front_.size().scale);
+}
+
+/// Tells the session what to compute, whatever changed the view or its settings.
+void Viewer::announce_view() {
+  if (announced_ == std::pair(bench_.document().scene(), state_.view)) return;
+  announced_ = {bench_.document().scene(), state_.view};
+  bench_.session().set_views({panels::current_view(state_)});
 }
 
 /// Lays out the columns; a narrow window has one column for both.

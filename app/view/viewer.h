@@ -1,6 +1,7 @@
 #pragma once
 /// The loop of `neve view`: input, panels, pictures.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -28,8 +29,8 @@ struct ViewerOptions {
 
 /// Key of the contents of the picture, independent of the camera.
 struct StateKey {
-  const scene::Scene* scene = nullptr;  ///< as it is edited
-  std::uint64_t number = 0;             ///< of the LiveFrame
+  std::shared_ptr<const scene::Scene> scene;  ///< as it is edited
+  std::uint64_t number = 0;                   ///< of the LiveFrame
   bool shows_incident = false;
   std::string view;
   bool operator==(const StateKey&) const = default;
@@ -43,6 +44,17 @@ struct PictureKey {
   double fov = 0;
   bool is_camera_of_scene = false;
   bool operator==(const PictureKey&) const = default;
+};
+
+/// What a recorded picture depends on.
+struct RecordedKey {
+  std::uint64_t start = 0, state_hash = 0;
+  int frame = 0;
+  std::shared_ptr<const scene::Scene> scene;  ///< as it is edited
+  std::string view;
+  bool shows_incident = false;
+  std::optional<std::array<double, 7>> camera;  ///< of the viewport; none: the scene's own
+  bool operator==(const RecordedKey&) const = default;
 };
 
 class Viewer {
@@ -67,7 +79,7 @@ class Viewer {
   void paint_new_picture();
   void follow_camera();
   scene::View shown_view() const;
-  render::Frame picture_frame(scene::View view);
+  render::Frame picture_frame(const scene::View& view);
   void keep_points(render::Points points);
   int font_size() const;    ///< px
   int line_height() const;  ///< px, of the time line
@@ -79,7 +91,9 @@ class Viewer {
   output::Picture picture_to_keep(const std::filesystem::path& file);
   void save_picture();
   void download(const std::filesystem::path& file);
-  void record_frame();
+  void keep_recording();
+  RecordedKey recorded_key() const;
+  void announce_view();
   double seconds_passed();
   StateKey state_key() const;
   PictureKey picture_key() const;
@@ -111,7 +125,8 @@ class Viewer {
   Clock::time_point drawn_at_ = Clock::now(), file_looked_at_{};
   bool has_input_ = false;                            ///< since the last picture
   bool is_going_to_frame_ = false, goes_on_ = false;  ///< for a picture that is to be saved
-  int recorded_frame_ = -1;
+  std::optional<RecordedKey> recorded_;               ///< the last picture of the recording
+  std::pair<std::shared_ptr<const scene::Scene>, std::string> announced_;  ///< to the session
 };
 
 }  // namespace neve::app::view

@@ -4,9 +4,22 @@
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/record/run_json.h"
+#include "app/support/errors.h"
 #include "app/view/viewer.h"
 
 namespace neve::app::view {
+
+namespace {
+
+/// Its pictures would be replaced by those of another run.
+void require_no_run(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::exists(folder / "run.json", error))
+    throw UsageError(folder.string(), folder.string() + " is the folder of a run",
+                     "record into another: neve view --out DIR");
+}
+
+}  // namespace
 
 /// Pictures can be made again where they belong to a frame: one that is asked for between two is
 /// that of the next.
@@ -37,7 +50,9 @@ output::Picture Viewer::picture_to_keep(const std::filesystem::path& file) {
   record::PictureRecord record = bench_.picture_record(live, view);
   record.state_hash = record::hash_text(live.state_hash);
   painted_.reset();  // another picture takes the place of the one on the screen
-  return {file, renderer_.draw(picture_frame(std::move(view))), record::to_png_text(record)};
+  render::Image image = renderer_.draw(picture_frame(view));
+  screen_.select_panels();  // the picture's words have another context: keys would go there
+  return {file, std::move(image), record::to_png_text(record)};
 }
 
 void Viewer::save_picture() {
@@ -58,7 +73,8 @@ void Viewer::save_picture() {
     output::write_file(file, render::encode_png(picture.image, picture.text));
     bench_.say(session::Message::Kind::note,
                "saved " + file.string() + "; neve render " + file.string() + " makes it again" +
-                   (was_between ? "; it shows frame " + std::to_string(live.frame) +
+                   (was_between ? "; it shows frame " +
+                                      std::to_string(scene::number_of(*live.scene, live.frame)) +
                                       ", the next one: only whole frames can be made again"
                                 : ""));
     if (state_.is_picture_downloaded) download(file);
@@ -79,20 +95,44 @@ void Viewer::download(const std::filesystem::path& file) {
   }
 }
 
-/// Every frame once.
-void Viewer::record_frame() {
+RecordedKey Viewer::recorded_key() const {
   const session::LiveFrame& live = *state_.live;
-  if (!live.is_frame_end || live.frame == recorded_frame_) return;
-  recorded_frame_ = live.frame;
+  RecordedKey key{live.start,  live.state_hash,       live.frame,  bench_.document().scene(),
+                  state_.view, state_.shows_incident, std::nullopt};
+  const sim::Vec3d eye = state_.orbit.eye(), target = state_.orbit.target();
+  if (!state_.is_camera_of_scene)
+    key.camera = {eye.x(),    eye.y(),    eye.z(),           target.x(),
+                  target.y(), target.z(), state_.orbit.fov()};
+  return key;
+}
+
+/// Every frame once, and again where something else of it is shown before the next.
+void Viewer::keep_recording() {
+  if (!state_.is_recording) {
+    lock_.reset();
+    recorded_.reset();
+    return;
+  }
+  const session::LiveFrame& live = *state_.live;
+  const bool is_painted = painted_ && painted_number_ == live.number;
+  if (!is_painted || !live.is_frame_end || live.stage) return;
+  const RecordedKey key = recorded_key();
+  if (recorded_ == key) return;
+  const bool is_another =
+      !recorded_ || recorded_->frame != key.frame || recorded_->view != key.view;
+  recorded_ = key;
   try {
     const std::string& view = panels::current_view(state_).name;
     // Frames have the names that neve render gives them.
-    if (!lock_) lock_.emplace(bench_.folder(), "neve view");
+    if (!lock_) {
+      require_no_run(bench_.folder());
+      lock_.emplace(bench_.folder(), "neve view");
+    }
     output::make_folder(bench_.folder() / view);
     if (state_.recorded == 0) output::remove_abandoned(bench_.folder() / view);
     writer_.write(picture_to_keep(
         output::frame_path(bench_.folder(), view, scene::number_of(*live.scene, live.frame))));
-    ++state_.recorded;
+    if (is_another) ++state_.recorded;
   } catch (const std::exception& error) {
     bench_.say_not_saved(std::string("recording stopped: ") + error.what());
     state_.is_recording = false;

@@ -42,7 +42,7 @@ bool has_all(const picture::Snapshot& snapshot, const scene::View& view) {
 }  // namespace
 
 StateKey Viewer::state_key() const {
-  return {bench_.document().scene().get(), state_.live->number, state_.shows_incident, state_.view};
+  return {bench_.document().scene(), state_.live->number, state_.shows_incident, state_.view};
 }
 
 PictureKey Viewer::picture_key() const {
@@ -131,7 +131,8 @@ void Viewer::paint_new_picture() {
   scene::View view = shown_view();
   view.size = size;
   view.camera = state_.orbit.settings();
-  render::Frame frame = picture_frame(std::move(view));
+  view.background = scene::Background::gradient;  // there is nothing behind the picture
+  render::Frame frame = picture_frame(view);
   frame.font_size = std::max(8, static_cast<int>(std::lround(scale * font_size())));
   // Snow may be near: the scene's own camera keeps it out of the corner.
   frame.has_caption_plate = !state_.is_camera_of_scene;
@@ -142,10 +143,6 @@ void Viewer::paint_new_picture() {
   scale_ = scale;
   painted_number_ = state_.live->number;
   painted_ = std::move(key);
-  if (state_.is_recording)
-    record_frame();
-  else
-    lock_.reset();
 }
 
 /// The current view; inside a step its arrows show the result of the stage.
@@ -175,13 +172,12 @@ void Viewer::keep_points(render::Points points) {
   points_of_ = state_key();
 }
 
-render::Frame Viewer::picture_frame(scene::View view) {
+render::Frame Viewer::picture_frame(const scene::View& view) {
   const session::LiveFrame& live = *state_.live;
   const scene::Scene scene = bench_.display_scene(live);
-  view.background = scene::Background::gradient;
   const picture::FrameBuilder builder(
       scene, *live.seeded,
-      {setup::Quality::preview, bench_.overrides(), bench_.document().coarsening()});
+      {setup::Quality::preview, bench_.overrides(live), bench_.document().coarsening()});
   std::optional<render::Points> points;
   if (points_of_ == state_key()) points = std::move(points_);
   points_of_.reset();

@@ -105,8 +105,7 @@ void draw_legend(const Legend& legend, const LegendText& text, const ImFont& fon
   list.AddRect(ImVec2(left, top), ImVec2(right, bottom), IM_COL32(0, 0, 0, 110));
   const double range = static_cast<double>(legend.max) - static_cast<double>(legend.min);
   for (const Tick& tick : text.ticks) {
-    const double part =
-        text.ticks.size() == 1 ? 0.5 : (tick.value - static_cast<double>(legend.min)) / range;
+    const double part = range > 0 ? (tick.value - static_cast<double>(legend.min)) / range : 0.5;
     const float y = bottom - static_cast<float>(part) * (bottom - top);
     list.AddLine(ImVec2(right, y), ImVec2(right + 0.6f * gap, y), soft_text, std::max(1.0f, unit));
     draw_text(font, ImVec2(right + gap, y - 0.5f * font.FontSize), soft_text, tick.label);

@@ -366,6 +366,12 @@ TEST(Ranges, MayBeThoseOfTheFrameAndTheLegendSaysSo) {
   EXPECT_EQ(of_frame.slice.scalar_range->min, 0.5);
   EXPECT_EQ(of_frame.slice.scalar_range->max, 7);
   EXPECT_EQ(app::picture::legends_of({}, of_frame).front().title, "speed, this frame");
+  // Equal values are a range, too.
+  app::picture::FieldSamples equal = four_nodes();
+  for (float& value : equal.scalars[app::scene::ScalarField::speed]) value = 2.5f;
+  const app::scene::View of_equal = app::picture::with_ranges_of_frame(view, equal);
+  EXPECT_EQ(of_equal.slice.scalar_range->min, 2.5);
+  EXPECT_EQ(of_equal.slice.scalar_range->max, 2.5);
   const FieldMoment moment = moment_of(R"(
 [[view]]
 name = "arrows"

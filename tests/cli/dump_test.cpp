@@ -48,6 +48,21 @@ TEST_F(Dump, AHealthyStepIsAsExpected) {
 }
 
 /// A ball that has just hit a ball: two light nodes beside the pressed snow were red.
+TEST_F(Dump, OfNothingThereIsNoLeastValue) {
+  folder.write("scene.toml", R"(frames = 4
+[solver]
+cell_size = 0.04
+[[emitter]]
+name = "later"
+start = 0.1
+rate = 1000
+shape = { sphere = { center = [0, 0.5, 0], radius = 0.08 } }
+)");
+  const app::Json dump = json({"--at", "0"});
+  EXPECT_TRUE(quantity(dump, "m")["least"].is_null()) << dump;
+  EXPECT_TRUE(quantity(dump, "m")["greatest"].is_null());
+}
+
 TEST_F(Dump, LightNodesBesidePressedSnowAreAsExpected) {
   const auto result = neve({"dump", NEVE_SOURCE_DIR "/scenes/snowball_on_sphere.toml", "--coarsen",
                             "2", "--at", "0.084", "--stage", "grid_velocities", "--json"});

@@ -206,6 +206,28 @@ TEST(Legend, AnyRangeIsDrawn) {
   }
 }
 
+/// The line at a number, of a legend that has room for one number only.
+TEST(Legend, ASingleNumberStandsAtItsValue) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  // White bars: the line and the number are all that is soft.
+  const auto number_at = [&](float min, float max) {
+    Frame frame = small_frame(320, 130);
+    for (const char* title : {"speed", "density"})
+      frame.legends.push_back({.title = title, .unit = "", .min = min, .max = max});
+    const Image with = renderer.draw(frame);
+    for (Legend& legend : frame.legends) {
+      legend.min = 0.4f;  // the number 0.5 in the middle
+      legend.max = 0.6f;
+    }
+    const Image middle = renderer.draw(frame);
+    return changed(with, middle);
+  };
+  // At a third of the bar, not in the middle.
+  EXPECT_GT(number_at(0.3f, 0.9f).count, 20);
+  EXPECT_EQ(number_at(0.4f, 0.6f).count, 0);
+}
+
 TEST(Legend, SeveralLegendsAreStacked) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);

@@ -206,7 +206,7 @@ TEST(Session, SessionSaysWhyARunBrokeAndIsGoodForAnother) {
   ASSERT_TRUE(live->diagnosis);
   EXPECT_FALSE(live->diagnosis->evidence.empty());
   session.run();  // a broken state takes no more steps
-  session.reset(scene_of(tiny_scene));
+  session.reset(scene_of(tiny_scene), 1);
   wait_for(session, [](const view::session::LiveFrame& frame) {
     return !frame.divergence && frame.steps == 0;
   });
@@ -218,10 +218,12 @@ TEST(Session, SessionReportsRefusalsAndContinues) {
   view::session::Session session(scene_of(tiny_scene), {}, {});
   scene::Scene huge = *scene_of(tiny_scene);
   huge.limits.particles = 10;
-  session.reset(std::make_shared<const scene::Scene>(huge));
+  session.reset(std::make_shared<const scene::Scene>(huge), 1);
   const auto live =
       wait_for(session, [](const view::session::LiveFrame& frame) { return frame.errors == 1; });
   EXPECT_TRUE(contains(live->error, "particles")) << live->error;
+  EXPECT_EQ(live->newest_start, 1u);
+  EXPECT_EQ(live->start, 0u);
   session.next_frame();
   EXPECT_EQ(rest_at(session, 1)->frame, 1);
 }
@@ -237,6 +239,64 @@ TEST(Session, SessionRecordsEveryFrameOnce) {
     return live.frame == 4;
   });
   EXPECT_EQ(seen, (std::vector<int>{1, 2, 3, 4}));
+}
+
+TEST(Session, AnotherViewIsAnsweredThoughTheFrameWaitsForItsPicture) {
+  view::session::Session session(scene_of(tiny_scene), {}, {});
+  session.set_views({scene::find_view({}, "particles")});
+  session.set_recording(true);
+  session.run();
+  const auto waits_at = [&](int frame) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (session.latest()->frame < frame && std::chrono::steady_clock::now() < end) {
+      if (session.latest()->frame < frame) session.taken(session.latest()->number);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return session.latest();
+  };
+  ASSERT_FALSE(waits_at(2)->snapshot.fields.lattice);
+  // Nobody takes this frame: it lacks what the view shows.
+  session.set_views({scene::find_view({}, "slice")});
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!session.latest()->snapshot.fields.lattice && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  EXPECT_TRUE(session.latest()->snapshot.fields.lattice);
+  EXPECT_EQ(session.latest()->frame, 2) << "the recording waits";
+}
+
+TEST(Session, AReadingSaysWhenItWasMade) {
+  view::session::Session session(scene_of(tiny_scene), {}, {});
+  session.set_probe(dump::Probe(std::size_t{3}));
+  session.run();
+  // Four readings a second: most frames show an earlier one.
+  wait_for(session, [&](const view::session::LiveFrame& live) {
+    if (live.probe) {
+      EXPECT_LE(live.probe->time, live.snapshot.time);
+    }
+    return live.frame == 4 && !live.is_running;
+  });
+  const auto rest = wait_for(session, [](const view::session::LiveFrame& live) {
+    return live.probe && live.probe->time == live.snapshot.time;
+  });
+  const auto row = rest->snapshot.particles.index_of(3);
+  EXPECT_EQ(rest->probe->place, rest->snapshot.particles.x[*row]);
+  session.set_probe(dump::Probe(std::size_t{4}));
+  const auto other = wait_for(session, [](const view::session::LiveFrame& live) {
+    return live.probed == dump::Probe(std::size_t{4});
+  });
+  ASSERT_TRUE(other->probe);
+  EXPECT_EQ(std::get<std::size_t>(other->probe->target), 4u);
+}
+
+TEST(Session, ParticlesOfABrokenRunAreRead) {
+  view::session::Session session(scene_of(exploding_scene), {}, {});
+  session.run();
+  wait_for(session,
+           [](const view::session::LiveFrame& live) { return live.divergence.has_value(); });
+  session.set_probe(dump::Probe(std::size_t{5}));
+  const auto live = wait_for(
+      session, [](const view::session::LiveFrame& frame) { return frame.probe.has_value(); });
+  EXPECT_EQ(std::get<std::size_t>(live->probe->target), 5u);
 }
 
 }  // namespace

@@ -357,6 +357,66 @@ TEST(Workbench, AFailedReloadSaysWhereAndLeavesTheFileChanged) {
   EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::note);
 }
 
+/// A box of three particles from a file, which may go away.
+constexpr const char* from_points = R"(
+frames = 4
+[solver]
+cell_size = 0.1
+[[body]]
+name = "grains"
+shape = { points = { file = "grains.ply", spacing = 0.05 } }
+velocity = [0, -3, 0]
+[[view]]
+name = "particles"
+)";
+constexpr const char* grains =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nend_header\n0 1 0\n0.05 1 0\n0.1 1 0\n";
+
+TEST(Workbench, AResetThatFailsLeavesTheRecordOfTheRunThatIsShown) {
+  const TemporaryFolder folder;
+  folder.write("grains.ply", grains);
+  view::session::Workbench bench = bench_for(folder, from_points);
+  view::session::Session& session = bench.session();
+  session.next_frame();
+  const auto before = rest_at(session, 1);
+  bench.set("body.grains.velocity", "[0, 9, 0]");
+  EXPECT_EQ(bench.waiting_for_reset(), std::vector<std::string>{"body.grains.velocity"});
+  std::filesystem::remove(folder / "grains.ply");
+  bench.reset();
+  const auto after =
+      wait_for(session, [](const view::session::LiveFrame& live) { return live.errors == 1; });
+  EXPECT_EQ(after->state_hash, before->state_hash);
+  folder.write("grains.ply", grains);
+  EXPECT_EQ(bench.waiting_for_reset(), std::vector<std::string>{"body.grains.velocity"});
+  EXPECT_TRUE(bench.overrides(*after).empty());
+  const record::PictureRecord record = bench.picture_record(*after, after->scene->views.front());
+  EXPECT_EQ(hash_of_replay(record), after->state_hash);
+  // The next one succeeds, and is what is recorded then.
+  bench.reset();
+  const auto next =
+      wait_for(session, [](const view::session::LiveFrame& live) { return live.start == 2; });
+  EXPECT_TRUE(bench.waiting_for_reset().empty());
+  EXPECT_EQ(bench.overrides(*next), std::vector<std::string>{"body.grains.velocity=[0, 9, 0]"});
+  EXPECT_TRUE(bench.overrides(*after).empty()) << "a picture of the earlier run has its own";
+}
+
+TEST(Workbench, ACopyOfTheSceneReplacesNoFileButAnEarlierCopy) {
+  const TemporaryFolder folder;
+  view::session::WorkbenchOptions options;
+  options.folder = folder.path();
+  view::session::Workbench bench(
+      view::session::open_document(folder.write("scene.toml", tiny_scene), {}, 1).document, options,
+      {});
+  bench.set("material.snow.hardening", "17");
+  EXPECT_EQ(bench.save_copy(), folder / "scene_2.toml");
+  EXPECT_EQ(read_text(folder / "scene.toml"), tiny_scene);
+  EXPECT_TRUE(contains(read_text(folder / "scene_2.toml"), "hardening = 17"));
+  bench.set("material.snow.hardening", "18");
+  EXPECT_EQ(bench.save_copy(), folder / "scene_2.toml");
+  EXPECT_TRUE(contains(read_text(folder / "scene_2.toml"), "hardening = 18"));
+}
+
 TEST(Workbench, WorkbenchReportsRefusedValues) {
   Working work;
   work.bench.edit(

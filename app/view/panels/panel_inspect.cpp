@@ -259,7 +259,8 @@ void draw_probe(ViewerState& state) {
   const std::string title =
       (probe.is_node ? "node" : "particle " + std::to_string(std::get<std::size_t>(probe.target))) +
       " at " + rough_text(probe.place.x()) + ", " + rough_text(probe.place.y()) + ", " +
-      rough_text(probe.place.z()) + " m" + (probe.after.empty() ? "" : ", after " + probe.after);
+      rough_text(probe.place.z()) + " m" + (probe.after.empty() ? "" : ", after " + probe.after) +
+      (probe.time == live.snapshot.time ? "" : ", at " + fixed_text(probe.time, 3) + " s");
   wrapped_text(title);
   draw_trace(state);
   if (!begin_quantities("probe")) return;

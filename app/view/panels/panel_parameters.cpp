@@ -37,7 +37,6 @@ void take_edits(ViewerState& state, const KnobPanel& panel) {
     else
       state.bench.edit(edit);
   }
-  if (!panel.edits().empty()) announce_view(state);
 }
 
 /// The scene with the numbers that its file has and --set takes: under --coarsen those that the
@@ -137,7 +136,7 @@ void draw_view_buttons(ViewerState& state, const std::vector<scene::View>& views
     const float width =
         ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + ImGui::CalcTextSize(name.c_str()).x;
     if (k > 0 && ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= end) ImGui::SameLine();
-    if (ImGui::RadioButton(name.c_str(), name == state.view)) choose_view(state, name);
+    if (ImGui::RadioButton(name.c_str(), name == state.view)) state.view = name;
     note_view(views[k], k);
   }
 }
@@ -152,7 +151,7 @@ void draw_view_list(ViewerState& state, const std::vector<scene::View>& views) {
       note_view(views[k], k);
     }
     ImGui::EndCombo();
-    if (!chosen.empty()) choose_view(state, chosen);
+    if (!chosen.empty()) state.view = chosen;
   }
   note_label("views");
 }

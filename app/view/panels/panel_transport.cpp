@@ -52,8 +52,8 @@ void draw_download_items(ViewerState& state) {
   ImGui::Separator();
   if (item("Download the picture")) state.wants_picture = state.is_picture_downloaded = true;
   if (item("Download the scene with the changes")) {
-    const std::filesystem::path file = state.bench.folder() / "scene.toml";
-    if (state.bench.save_scene(file)) state.download(file);
+    if (const std::filesystem::path file = state.bench.save_copy(); !file.empty())
+      state.download(file);
   }
   if (item("Download a file ...")) open_file_list(state);
   ImGui::Separator();
@@ -73,8 +73,7 @@ void draw_out_menu(ViewerState& state) {
     state.bench.session().set_recording(state.is_recording);
   }
   ImGui::Separator();
-  if (item("Scene with the changes", "ctrl+S"))
-    state.bench.save_scene(state.bench.folder() / "scene.toml");
+  if (item("Scene with the changes", "ctrl+S")) state.bench.save_copy();
   if (state.bench.may_save_over_file() && item("Scene with the changes, over its file"))
     state.bench.save_scene(state.bench.document().file());
   if (state.download) draw_download_items(state);

@@ -74,15 +74,6 @@ scene::View view_to_keep(const ViewerState& state) {
   return view;
 }
 
-void choose_view(ViewerState& state, const std::string& name) {
-  state.view = name;
-  announce_view(state);
-}
-
-void announce_view(ViewerState& state) {
-  state.bench.session().set_views({current_view(state)});
-}
-
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe) {
   state.probe = probe;
   state.trace = {state.trace.quantity, {}, probe};

@@ -124,10 +124,6 @@ inline constexpr std::size_t view = 0, inspect = 1, plots = 2, messages = 3;
 const scene::View& current_view(const ViewerState& state);
 /// The same with the camera of the scene until that is moved: for pictures that stay.
 scene::View view_to_keep(const ViewerState& state);
-/// The picture of another view from now on.
-void choose_view(ViewerState& state, const std::string& name);
-/// Asks the session for the data that the current view shows.
-void announce_view(ViewerState& state);
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe);
 
 void toggle_run(ViewerState& state);

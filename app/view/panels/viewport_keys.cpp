@@ -19,7 +19,7 @@ void use_keys(ViewerState& state) {
   if (io.KeyCtrl) {
     if (pressed('Z')) io.KeyShift ? state.bench.redo() : state.bench.undo();
     if (pressed('Y')) state.bench.redo();
-    if (pressed('S')) state.bench.save_scene(state.bench.folder() / "scene.toml");
+    if (pressed('S')) state.bench.save_copy();
     return;
   }
   if (pressed(' ')) toggle_run(state);
@@ -40,7 +40,7 @@ void use_keys(ViewerState& state) {
     }
   const std::vector<scene::View>& views = state.bench.document().scene()->views;
   for (std::size_t k = 0; k < std::min<std::size_t>(9, views.size()); ++k)
-    if (pressed('1' + static_cast<int>(k))) choose_view(state, views[k].name);
+    if (pressed('1' + static_cast<int>(k))) state.view = views[k].name;
   if (pressed('/') && io.KeyShift) state.is_help_open = !state.is_help_open;
   if (pressed('?') || pressed(frontend::key::f1)) state.is_help_open = !state.is_help_open;
   if (pressed(frontend::key::escape)) {

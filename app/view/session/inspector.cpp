@@ -34,10 +34,11 @@ void Inspector::inspect(const timeline::Timeline& timeline, bool is_running, Liv
   const bool is_probe =
       (probe_ || histogram_) && (!is_running || now - probed_at_ > probe_interval);
   live.probed = probe_;
-  if (!live.divergence && (stage || is_probe)) {
+  const bool is_stage = stage && !live.divergence;
+  if (is_stage || is_probe) {
     const dump::StepInspection inside =
         dump::inspect_step(*live.scene, timeline.simulation(), seconds_left(timeline));
-    if (stage) {
+    if (is_stage) {
       live.stage = summarize_stage(inside, *stage);
       live.snapshot.advance = report_of(inside);
       live.snapshot.stage_change = change_of_stage(inside, *stage);

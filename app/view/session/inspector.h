@@ -17,6 +17,7 @@ class Inspector {
 
   void set_probe(std::optional<dump::Probe> probe) {
     probe_ = std::move(probe);
+    reading_.reset();
     probed_at_ = {};
   }
   const std::optional<dump::Probe>& probe() const { return probe_; }

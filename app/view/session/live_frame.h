@@ -65,6 +65,7 @@ struct ProbeReading {
   sim::Vec3d place{0, 0, 0};  ///< m
   bool is_node = false;
   std::string after;  ///< the stage that was done last, or ""
+  double time = 0;    ///< s, when it was made: a run is probed less often than it is shown
   std::vector<ProbeRow> rows;
 };
 
@@ -84,6 +85,8 @@ struct HistogramReading {
 
 struct LiveFrame {
   std::uint64_t number = 0;                   ///< number of published frames
+  std::uint64_t start = 0;                    ///< that its run began with; 0: the first one
+  std::uint64_t newest_start = 0;             ///< that was tried, `start` too if it succeeded
   std::shared_ptr<const scene::Scene> scene;  ///< that is simulated, colliders where they are
   picture::Snapshot snapshot;
   std::vector<picture::PlotSample> history;  ///< one per frame; snapshot.history shows these

@@ -28,6 +28,10 @@ class Mailbox {
   void end() {
     change([&] { is_ending_ = has_requests_ = true; });
   }
+  /// The newest frame cannot be drawn, as it lacks what is wanted now: the next is welcome.
+  void want() {
+    change([&] { is_wanted_ = true; });
+  }
   /// The picture of this frame is done: the next is welcome.
   void take(std::uint64_t number) {
     change([&] {

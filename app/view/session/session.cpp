@@ -96,9 +96,11 @@ void Session::leave_stage() {
   mailbox_.ask([this] { inspector_.stage.reset(); });
 }
 
-void Session::reset(std::shared_ptr<const scene::Scene> scene) {
-  mailbox_.ask([this, scene = std::move(scene)] {
+void Session::reset(std::shared_ptr<const scene::Scene> scene, std::uint64_t start_number) {
+  mailbox_.ask([this, start_number, scene = std::move(scene)] {
+    told_.newest_start = start_number;
     start(scene, {});
+    told_.start = start_number;
     goal_ = Goal::none;
   });
 }
@@ -171,7 +173,11 @@ void Session::continue_anyway(std::shared_ptr<const scene::Scene> scene) {
 }
 
 void Session::set_views(std::vector<scene::View> views) {
-  mailbox_.ask([this, views = std::move(views)] { views_ = views; });
+  // The frame that waits for its picture may lack their fields, and then it would never be drawn.
+  mailbox_.ask([this, views = std::move(views)] {
+    views_ = views;
+    mailbox_.want();
+  });
 }
 
 void Session::set_probe(std::optional<dump::Probe> probe) {

@@ -56,7 +56,8 @@ class Session {
   void leave_stage();
 
   /// Starts again. On an error the old run continues.
-  void reset(std::shared_ptr<const scene::Scene> scene);
+  /// @param start_number  of this start; frames say which they come from
+  void reset(std::shared_ptr<const scene::Scene> scene, std::uint64_t start_number);
   /// Goes on with the live changes that make this scene of the one that runs. They are listed in
   /// all snapshots that follow.
   void apply(std::shared_ptr<const scene::Scene> scene);

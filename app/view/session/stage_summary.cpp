@@ -109,7 +109,9 @@ std::optional<ProbeReading> read_probe(const dump::StepInspection& inside,
   else
     row = inside.step.after.index_of(std::get<std::size_t>(target));
   if (!row) return std::nullopt;
-  ProbeReading reading{target, listing.place[*row], is_node, after ? name(*after) : "", {}};
+  ProbeReading reading{
+      target, listing.place[*row], is_node, after ? name(*after) : "", inside.simulation.time(),
+      {}};
   for (const dump::Quantity& quantity : listing.quantities) {
     const auto width = static_cast<std::size_t>(quantity.components);
     ProbeRow out{quantity.name,

@@ -48,13 +48,13 @@ void Study::start(const fs::path& folder, record::RunRecord run, timeline::Momen
                   const std::vector<std::string>& longer_steps) {
   if (is_running()) throw UsageError("", "a sweep is in progress", "wait for it, or stop it");
   if (request.axes.empty()) throw UsageError("", "no parameter is chosen", "find one to vary");
-  const fs::path here = new_folder(folder, moment.frame);
+  const int start = moment.scene ? scene::number_of(*moment.scene, 0) : 0;
+  const fs::path here = new_folder(folder, start + moment.frame);
   sweep::plan::SweepOptions options;
   options.file = (here / "start").string();
   options.from = moment.frame / fps;
   options.axes = axes_of(request);
   if (request.has_longer_steps) options.overrides = longer_steps;
-  const int start = moment.scene ? scene::number_of(*moment.scene, 0) : 0;
   options.frames = setup::FrameRange{setup::FrameRange::from_start, start + request.last_frame};
   options.out = (here / "study.cdb").string();
   // A line of tiles would be as wide as the picture, and they small.

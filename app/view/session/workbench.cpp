@@ -28,6 +28,8 @@ namespace neve::app::view::session {
 
 namespace {
 
+using Edits = std::vector<scene::Override>;
+
 constexpr std::size_t max_messages = 100;
 
 std::string text_of(const std::exception& error) {
@@ -95,7 +97,7 @@ Opened open_document(const std::string& file, const std::vector<std::string>& ov
 Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
     : document_(std::move(document)),
       options_(std::move(options)),
-      running_(options_.session.past ? document_.edits() : std::vector<scene::Override>{}),
+      starts_{{0, document_, {}, options_.session.past ? document_.edits() : Edits{}}},
       file_time_(time_of(document_.file())),
       study_(options_.program.empty() ? this_program() : options_.program),
       session_(std::make_unique<Session>(document_.scene(), session_options(), std::move(wake))) {}
@@ -106,10 +108,24 @@ SessionOptions Workbench::session_options() const {
   return options;
 }
 
-std::vector<std::string> Workbench::overrides() const {
+const Workbench::Start& Workbench::start_of(const LiveFrame& live) const {
+  const auto found = std::find_if(starts_.begin(), starts_.end(),
+                                  [&](const Start& start) { return start.number == live.start; });
+  return found == starts_.end() ? starts_.front() : *found;
+}
+
+/// The one that is to come, or else the one that is: those that failed left the run as it was.
+const Workbench::Start& Workbench::newest_start() const {
+  const std::shared_ptr<const LiveFrame> live = session_->latest();
+  return starts_.back().number > live->newest_start ? starts_.back() : start_of(*live);
+}
+
+std::vector<std::string> Workbench::overrides(const LiveFrame& live) const {
+  const Start& start = start_of(live);
   std::vector<std::string> all = options_.overrides;
-  all.insert(all.end(), document_.set_by_coarsening().begin(), document_.set_by_coarsening().end());
-  for (const scene::Override& edit : at_start_)
+  const std::vector<std::string>& coarsened = start.document.set_by_coarsening();
+  all.insert(all.end(), coarsened.begin(), coarsened.end());
+  for (const scene::Override& edit : start.at_start)
     if (effect_of(edit.address) != Effect::display) all.push_back(edit.address + "=" + edit.value);
   return all;
 }
@@ -243,7 +259,7 @@ void Workbench::take_over(const std::vector<scene::Override>& before) {
     if (const scene::Curve* curve = setup::curve_of(*document_.scene(), address))
       say(Message::Kind::note, address + " follows its curve " + curve->name +
                                    ", which gives it its value again in each frame");
-    put(running_, address, document_.edits());
+    put(newest_start().running, address, document_.edits());
     is_live = true;
   }
   if (needs_restart && frame && frame->steps == 0 && !frame->is_older && frame->head == 0) {
@@ -255,7 +271,8 @@ void Workbench::take_over(const std::vector<scene::Override>& before) {
 
 void Workbench::apply_running() {
   try {
-    session_->apply(document_.scene_with(running_));
+    const Start& start = newest_start();
+    session_->apply(start.document.scene_with(start.running));
   } catch (const std::exception& error) {
     say(Message::Kind::warning, "waits for Reset, together with its object: " + text_of(error));
   }
@@ -263,7 +280,7 @@ void Workbench::apply_running() {
 
 /// True for a value inside of an object that the run does not have, or has in another form.
 bool Workbench::waits_with_its_object(const std::string& address) const {
-  return lacks_its_object(running_, address);
+  return lacks_its_object(newest_start().running, address);
 }
 
 /// The same of a scene with these edits.
@@ -277,22 +294,27 @@ bool Workbench::lacks_its_object(const std::vector<scene::Override>& edits,
 
 std::vector<std::string> Workbench::waiting_for_reset() const {
   std::vector<std::string> waiting;
-  for (const std::string& address : Document::difference(running_, document_.edits()))
+  for (const std::string& address : Document::difference(newest_start().running, document_.edits()))
     if (effect_of(address) != Effect::display && !waits_with_its_object(address))
       waiting.push_back(address);
   return waiting;
 }
 
 void Workbench::reset() {
-  running_ = at_start_ = document_.edits();
-  session_->reset(document_.scene());
+  // A frame that is still shown may be of an older one.
+  constexpr std::size_t most = 16;
+  const std::uint64_t shown = session_->latest()->start, next = starts_.back().number + 1;
+  if (starts_.size() >= most)
+    std::erase_if(starts_, [&](const Start& start) { return start.number < shown; });
+  starts_.push_back({next, document_, document_.edits(), document_.edits()});
+  session_->reset(document_.scene(), next);
 }
 
 /// Takes the live changes that waited because the run had diverged too.
 void Workbench::continue_from_here() {
   session_->continue_from_here();
   for (const std::string& address : waiting_for_reset())
-    if (effect_of(address) == Effect::live) put(running_, address, document_.edits());
+    if (effect_of(address) == Effect::live) put(newest_start().running, address, document_.edits());
   apply_running();
 }
 
@@ -300,8 +322,9 @@ void Workbench::continue_anyway() {
   const std::string address = "solver.on_divergence";
   try {
     document_.set(address, "\"ignore\"");
-    put(running_, address, document_.edits());
-    session_->continue_anyway(document_.scene_with(running_));
+    Start& start = newest_start();
+    put(start.running, address, document_.edits());
+    session_->continue_anyway(start.document.scene_with(start.running));
   } catch (const std::exception& error) {
     say(Message::Kind::error, text_of(error));
   }
@@ -311,8 +334,12 @@ scene::Scene Workbench::display_scene(const LiveFrame& live) const {
   scene::Scene scene = *live.scene;
   const scene::Scene& mine = *document_.scene();
   scene.title = mine.title;
+  scene.camera = mine.camera;
   scene.light = mine.light;
-  scene.background = scene::Background::gradient;
+  scene.size = mine.size;
+  scene.background = mine.background;
+  scene.shot = mine.shot;
+  scene.burn_in = mine.burn_in;
   for (scene::Collider& collider : scene.colliders)
     for (const scene::Collider& other : mine.colliders)
       if (other.name == collider.name) collider.style = other.style;
@@ -346,6 +373,19 @@ std::string Workbench::reload_error() const {
 
 void Workbench::keep_file() {
   file_time_ = time_of(document_.file());
+}
+
+std::filesystem::path Workbench::save_copy() {
+  std::error_code error;
+  const auto name = [this](int k) {
+    return options_.folder / (k == 1 ? "scene.toml" : "scene_" + std::to_string(k) + ".toml");
+  };
+  // One that was there before may be anyone's, and the scene itself.
+  for (int k = 1; copy_.empty() || (is_copy_new_ && std::filesystem::exists(copy_, error)); ++k)
+    copy_ = name(k);
+  if (!save_scene(copy_)) return {};
+  is_copy_new_ = false;
+  return copy_;
 }
 
 bool Workbench::save_scene(const std::filesystem::path& file) {
@@ -386,7 +426,8 @@ std::string Workbench::added_while_running() const {
 
 /// Addresses changed after the first step.
 std::vector<std::string> Workbench::changed_while_running() const {
-  std::vector<std::string> changed = Document::difference(at_start_, running_);
+  const Start& start = newest_start();
+  std::vector<std::string> changed = Document::difference(start.at_start, start.running);
   const std::shared_ptr<const LiveFrame> live = session_->latest();
   const auto was_before_the_first_step = [&](const std::string& address) {
     bool is_told = false, is_later = false;
@@ -458,8 +499,9 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
     for (const StudyAxis& axis : request.axes) chosen.push_back(axis.address);
     study_.start(options_.folder, std::move(run), std::move(moment), live->scene->fps, request,
                  forecast::longer_steps(*live->scene, chosen));
-    say(Message::Kind::note, "a sweep from frame " + std::to_string(frame) + " goes to " +
-                                 study_.progress().folder.string() + "; " +
+    say(Message::Kind::note, "a sweep from frame " +
+                                 std::to_string(scene::number_of(*live->scene, frame)) +
+                                 " goes to " + study_.progress().folder.string() + "; " +
                                  study_.progress().command + " makes it again");
     return {};
   } catch (const UsageError& error) {
@@ -476,16 +518,17 @@ std::string Workbench::command() const {
 
 record::PictureRecord Workbench::picture_record(const LiveFrame& live,
                                                 const scene::View& view) const {
-  std::vector<scene::Override> edits = at_start_;
+  const Start& start = start_of(live);
+  std::vector<scene::Override> edits = start.at_start;
   for (const scene::Override& edit : document_.edits())
-    if (effect_of(edit.address) == Effect::display && !lacks_its_object(at_start_, edit.address))
+    if (effect_of(edit.address) == Effect::display && !lacks_its_object(edits, edit.address))
       put(edits, edit.address, document_.edits());
-  scene::Scene scene = *document_.scene_with(edits);
+  scene::Scene scene = *start.document.scene_with(edits);
   scene.views = {view};
   scene.mosaics.clear();
   record::PictureRecord record;
   record.scene = scene::write_scene(scene);
-  record.overrides = overrides();
+  record.overrides = overrides(live);
   record.coarsening = document_.coarsening();
   record.seed = scene.seed;
   record.version = version;

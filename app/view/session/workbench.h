@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/record/picture_record.h"
@@ -46,8 +47,9 @@ class Workbench {
   Session& session() { return *session_; }
   const std::filesystem::path& folder() const { return options_.folder; }
   setup::Quality quality() const { return options_.quality; }
-  /// That the run started with: of the command line and the document. Captions list them.
-  std::vector<std::string> overrides() const;
+  /// That the run of a frame started with: of the command line and the document. Captions list
+  /// them.
+  std::vector<std::string> overrides(const LiveFrame& live) const;
 
   /// Does it at once if that is possible; a change that needs a restart waits for reset(), but at
   /// the very beginning of a run, where nothing is lost. Errors become messages.
@@ -71,8 +73,8 @@ class Workbench {
   /// Continues a run that broke a rule past it: a change like any other, solver.on_divergence.
   void continue_anyway();
 
-  /// The scene as a picture shows it: the one that runs, with the views and the light of the
-  /// document.
+  /// The scene as a picture shows it: the one that runs, with all of the document that concerns
+  /// pictures alone.
   scene::Scene display_scene(const LiveFrame& live) const;
 
   /// True if the file on disk differs from the one read or saved last.
@@ -87,6 +89,9 @@ class Workbench {
 
   // Exports. Each leaves a message with the file it wrote or the error, and says false after one.
   bool save_scene(const std::filesystem::path& file);
+  /// Into the folder, in the place of no file but an earlier copy of this session. @return its
+  /// name; "" after an error
+  std::filesystem::path save_copy();
   bool may_save_over_file() const { return !options_.is_remote; }
   std::filesystem::path sweep_around(const std::string& address);
   /// Values around that of a parameter, as -p takes them; "" if none can be chosen.
@@ -109,7 +114,18 @@ class Workbench {
   std::uint64_t errors_said() const { return errors_said_; }
 
  private:
+  /// What a run began with, and what it has learned since.
+  struct Start {
+    std::uint64_t number;  ///< as frames name it
+    Document document;     ///< its text: another one may have been read since
+    /// The edits that the simulation knows: at its start, and with the live ones since.
+    std::vector<scene::Override> at_start, running;
+  };
+
   SessionOptions session_options() const;
+  const Start& start_of(const LiveFrame& live) const;
+  const Start& newest_start() const;
+  Start& newest_start() { return const_cast<Start&>(std::as_const(*this).newest_start()); }
   void require_allowed(const std::string& address, const std::string& value) const;
   void take_over(const std::vector<scene::Override>& before);
   std::vector<std::string> changed_while_running() const;
@@ -123,11 +139,12 @@ class Workbench {
 
   Document document_;
   WorkbenchOptions options_;
-  /// The edits that the running simulation knows: all of its start, live ones since.
-  std::vector<scene::Override> running_, at_start_;
+  std::vector<Start> starts_;  ///< with those that failed since the run that is shown
   std::deque<Message> messages_;
   std::uint64_t errors_said_ = 0;
   std::string not_saved_;
+  std::filesystem::path copy_;  ///< of the scene, see save_copy()
+  bool is_copy_new_ = true;     ///< it is not written yet
   std::filesystem::file_time_type file_time_{};
   std::filesystem::file_time_type failed_time_{};  ///< of the file that reload_error_ is about
   std::string reload_error_;

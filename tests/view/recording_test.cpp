@@ -1,0 +1,128 @@
+/// Pictures that stay, of `neve view`: what they show, what they say, and what they replace.
+
+#include <algorithm>
+
+#include "app/output/atomic_file.h"
+#include "app/record/picture_record.h"
+#include "render/image/image.h"
+#include "tests/view/by_script.h"
+
+namespace neve::test {
+namespace {
+
+/// The tiny scene, for long, with a view that needs the grid.
+std::string two_views(int frames) {
+  std::string text = tiny_scene;
+  text.replace(text.find("frames = 4"), 10, "frames = " + std::to_string(frames));
+  return text + "[[view]]\nname = \"cut\"\nlayers = [\"heatmap\", \"arrows\", \"caption\"]\n";
+}
+
+constexpr const char* record_on =
+    R"({"click": "Save ..."}, {"wait": 3}, {"click": "Record every frame"}, {"wait": 10},
+       {"key": "escape"}, {"wait": 3})";
+
+TEST_F(ViewByScript, AnotherViewIsShownWhileTheRunGoes) {
+  folder.write("scene.toml", two_views(40));
+  const auto result = view(R"([{"wait_for": "simulation frame 3"}, {"key": "2"},
+    {"wait_for": "simulation frame 40", "within": 60}, {"wait": 5},
+    {"screenshot": "cut.png", "crop": "picture"}])",
+                           {"--run"});
+  SKIP_WITHOUT_GL(result);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+}
+
+TEST_F(ViewByScript, ARecordingContinuesWithAnotherView) {
+  folder.write("scene.toml", two_views(12));
+  const auto result =
+      view("[" + std::string(record_on) + R"(, {"key": "space"}, {"wait_for": "simulation frame 3"},
+    {"key": "2"}, {"wait_for": "simulation frame 12", "within": 60},
+    {"wait_for": "simulation paused"}, {"wait": 5}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "particles" / "0000.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "cut" / "0012.png"));
+}
+
+TEST_F(ViewByScript, WhatIsTakenBackIsShown) {
+  folder.write("scene.toml", two_views(4));
+  const auto result = view(R"([{"wait": 5}, {"key": "2"}, {"wait": 10},
+    {"screenshot": "before.png", "crop": "picture"},
+    {"click": "find a parameter"}, {"type": "view.cut.slice.scalar"}, {"wait": 3},
+    {"click": "view.cut.slice.scalar"}, {"wait": 3}, {"click": "density"}, {"wait": 10},
+    {"screenshot": "changed.png", "crop": "picture"},
+    {"key": "escape"}, {"key": "tab"}, {"wait": 3}, {"key": "tab"}, {"wait": 5},
+    {"key": "z", "ctrl": true}, {"wait": 20},
+    {"screenshot": "after.png", "crop": "picture"}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto pixels = [&](const char* name) {
+    return render::decode_png(app::output::read_file(folder / "out" / name)).pixels;
+  };
+  EXPECT_NE(pixels("before.png"), pixels("changed.png"));
+  EXPECT_EQ(pixels("before.png"), pixels("after.png"));
+}
+
+/// The line of a scene that places its camera.
+std::string eye_of(const std::string& scene) {
+  const auto at = scene.find("eye");
+  return at == std::string::npos ? "" : scene.substr(at, scene.find('\n', at) - at);
+}
+
+TEST_F(ViewByScript, AFrameIsRecordedAgainWhereTheCameraMovesBeforeTheNext) {
+  const auto result = view("[{\"wait\": 5}, " + std::string(record_on) + R"(,
+    {"drag": [[600, 300], [760, 330]], "steps": 5}, {"wait": 10},
+    {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait_for": "simulation paused"},
+    {"wait": 5}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto eye = [&](const char* name) {
+    return eye_of(
+        app::record::read_picture_record((folder / "out/particles" / name).string()).scene);
+  };
+  EXPECT_EQ(eye("0000.png"), eye("0001.png"));
+}
+
+TEST_F(ViewByScript, ARecordingReplacesNoPicturesOfARun) {
+  ASSERT_EQ(
+      neve({"render", "scene.toml", "--frames", "0-2", "--no-movie", "--out", "out"}).exit_code, 0);
+  const std::vector<std::uint8_t> before =
+      app::output::read_file(folder / "out/particles/0001.png");
+  const auto result = view("[{\"wait\": 5}, " + std::string(record_on) + R"(,
+    {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait": 10}])",
+                           {"--set", "material.snow.hardening=3"});
+  SKIP_WITHOUT_GL(result);
+  EXPECT_EQ(result.exit_code, app::exit_io) << result.errors;
+  EXPECT_TRUE(contains(result.errors, "is the folder of a run")) << result.errors;
+  EXPECT_EQ(app::output::read_file(folder / "out/particles/0001.png"), before);
+  EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
+}
+
+TEST_F(ViewByScript, ASavedPictureIsTheOneThatItsRecordMakes) {
+  folder.write("scene.toml", std::string(tiny_scene) + R"(background = "transparent"
+[burn_in]
+top_left = "AAA"
+)");
+  const auto result = view(R"([{"wait": 5}, {"key": "."}, {"wait_for": "simulation frame 1"},
+    {"wait_for": "simulation paused"},
+    {"click": "find a parameter"}, {"type": "burn_in.top_left"}, {"wait": 3},
+    {"click": "burn_in.top_left"}, {"wait": 2}, {"key": "a", "ctrl": true},
+    {"type": "BBBBBBBBBB"}, {"key": "enter"}, {"wait": 10}, {"key": "escape"}, {"wait": 3},
+    {"key": "p"}, {"wait": 10}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const std::vector<std::string> saved = files("particles_0001_step", ".png");
+  ASSERT_EQ(saved.size(), 1u);
+  const std::string file = "out/" + saved[0];
+  EXPECT_TRUE(
+      contains(app::record::read_picture_record((folder / file).string()).scene, "BBBBBBBBBB"));
+  ASSERT_EQ(neve({"render", file, "--out", "again", "--no-movie"}).exit_code, 0);
+  const render::Image one = render::decode_png(app::output::read_file(folder / file));
+  const render::Image two =
+      render::decode_png(app::output::read_file(folder / "again/particles/0001.png"));
+  EXPECT_EQ(one.channels, 4);
+  EXPECT_EQ(one.channels, two.channels);
+  EXPECT_EQ(one.pixels, two.pixels);
+}
+
+}  // namespace
+}  // namespace neve::test
