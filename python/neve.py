@@ -78,8 +78,8 @@ def call(*arguments, results=(0,)):
                     error.get("hint", ""))
 
 
-def _literal(value):
-    """A value as --set takes it."""
+def _literal(value, is_inside=False):
+    """A value as --set takes it; inside of lists and tables words need quotes."""
     if value is None:
         return "none"
     if isinstance(value, bool):
@@ -87,7 +87,11 @@ def _literal(value):
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, (list, tuple, np.ndarray)):
-        return "[" + ", ".join(_literal(v) for v in value) + "]"
+        return "[" + ", ".join(_literal(v, True) for v in value) + "]"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_literal(v, True)}" for key, v in value.items()) + " }"
+    if isinstance(value, str) and is_inside:
+        return json.dumps(value, ensure_ascii=False)
     return repr(value) if isinstance(value, (int, float)) else str(value)
 
 

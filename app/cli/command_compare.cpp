@@ -69,16 +69,21 @@ struct KnownState {
   double time = 0;  ///< s
 };
 
-/// By the number of the frame.
-std::map<int, KnownState> read_states(const fs::path& folder) {
+struct KnownStates {
+  int first_number = 0;          ///< of the start
+  std::map<int, KnownState> at;  ///< by frame, counted from the start
+};
+
+KnownStates read_states(const fs::path& folder) {
   const fs::path file = output::run_json_path(folder);
   const std::vector<std::uint8_t> bytes = output::read_json_bytes(file);
-  std::map<int, KnownState> states;
+  KnownStates states;
   try {
     const Json run = parse_json(bytes);
+    states.first_number = whole_number<int>(run.value("first_number", Json(0)));
     for (const Json& frame : run.at("frames"))
-      states[whole_number<int>(frame.at("frame"))] = {frame.at("state_hash").get<std::string>(),
-                                                      frame.at("time").get<double>()};
+      states.at[whole_number<int>(frame.at("frame")) - states.first_number] = {
+          frame.at("state_hash").get<std::string>(), frame.at("time").get<double>()};
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -89,35 +94,40 @@ std::map<int, KnownState> read_states(const fs::path& folder) {
 }
 
 int compare_runs(const CompareOptions& options) {
-  const auto a = read_states(options.a), b = read_states(options.b);
-  int compared = 0, first_different = -1;
-  for (const auto& [frame, state] : a) {
-    const auto other = b.find(frame);
-    if (other == b.end()) continue;
+  const KnownStates a = read_states(options.a), b = read_states(options.b);
+  int compared = 0;
+  std::optional<int> first_different;
+  for (const auto& [frame, state] : a.at) {
+    const auto other = b.at.find(frame);
+    if (other == b.at.end()) continue;
     const double apart = std::abs(other->second.time - state.time);
     if (apart > 1e-9 * std::max(1.0, std::abs(state.time)))
       throw UsageError(
           "",
-          fmt::format("frame {} of {} is at {} s and that of {} at {} s", frame, options.a,
-                      rough_text(state.time), options.b, rough_text(other->second.time)),
-          "compare runs with the same fps and first_frame");
+          fmt::format("frame {} of {} is at {} s and frame {} of {} at {} s",
+                      a.first_number + frame, options.a, rough_text(state.time),
+                      b.first_number + frame, options.b, rough_text(other->second.time)),
+          "compare runs with the same fps");
     ++compared;
-    if (first_different < 0 && other->second.hash != state.hash) first_different = frame;
+    if (!first_different && other->second.hash != state.hash) first_different = frame;
   }
-  const bool is_same = first_different < 0 && compared > 0 && a.size() == b.size() &&
-                       compared == static_cast<int>(a.size());
+  const bool is_same = !first_different && compared > 0 && a.at.size() == b.at.size() &&
+                       compared == static_cast<int>(a.at.size());
   if (options.is_json) {
     std::cout << to_text({{"same", is_same},
                           {"frames_compared", compared},
-                          {"frames_a", a.size()},
-                          {"frames_b", b.size()},
+                          {"frames_a", a.at.size()},
+                          {"frames_b", b.at.size()},
                           {"first_different_frame",
-                           first_different < 0 ? Json() : Json(first_different)}})
+                           first_different ? Json(a.first_number + *first_different) : Json()}})
               << "\n";
-  } else if (first_different >= 0) {
-    std::cout << "the states differ from frame " << first_different << "\n";
+  } else if (first_different) {
+    std::cout << "the states differ from frame " << a.first_number + *first_different;
+    if (a.first_number != b.first_number)
+      std::cout << " of A, " << b.first_number + *first_different << " of B";
+    std::cout << "\n";
   } else if (!is_same) {
-    std::cout << "the runs have different frames: " << a.size() << " and " << b.size() << ", "
+    std::cout << "the runs have different frames: " << a.at.size() << " and " << b.at.size() << ", "
               << compared << " in common with the same states\n";
   } else {
     std::cout << "the same states in " << compared << " frames\n";

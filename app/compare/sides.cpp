@@ -39,6 +39,11 @@ std::string range_text(const Side& side, const setup::FrameRange& counted) {
                              : fmt::format("frames {} to {}", frames.first, frames.last);
 }
 
+/// s, from the start of the run.
+double time_of(const Side& side, int frame) {
+  return frame / side.job.scene.fps;
+}
+
 /// The first values, a line each, and how many more there are.
 std::string values_text(const std::vector<std::string>& texts) {
   std::vector<std::string> lines = picture::override_lines(texts);
@@ -87,8 +92,13 @@ setup::FrameRange common_frames(const PairOptions& options, const Pair& pair) {
       fmt::format("{} has {} and {} has {}", pair.a.job.scene_file, range_text(pair.a, a),
                   pair.b.job.scene_file, range_text(pair.b, b));
   if (both.first > both.last)
-    throw UsageError("", found + ": they have no frame in common",
-                     "compare runs, or pictures of one moment");
+    throw UsageError(
+        "",
+        found +
+            fmt::format(": they have no frame in common, at {} to {} s and at {} to {} s",
+                        rough_text(time_of(pair.a, a.first)), rough_text(time_of(pair.a, a.last)),
+                        rough_text(time_of(pair.b, b.first)), rough_text(time_of(pair.b, b.last))),
+        "compare runs, or pictures of one moment");
   if (!options.frames) return both;
   const setup::FrameRange wanted = setup::frames_of(pair.a.job.scene, *options.frames);
   if (wanted.first < both.first || wanted.last > both.last)

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "app/health/findings.h"
+#include "app/setup/curves.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
@@ -39,11 +41,57 @@ struct Box {
   }
 };
 
+/// What gravity does to whatever falls freely; a curve gives it another value in each frame.
+class Fall {
+ public:
+  explicit Fall(const scene::Scene& scene) : frame_(never_met) {
+    parts_.push_back({scene.solver.gravity});
+    if (!setup::curve_of(scene, "solver.gravity")) return;
+    frame_ = 1 / scene.fps;
+    parts_.clear();
+    Vec3d velocity = Vec3d::Zero(), way = Vec3d::Zero();
+    for (int k = 1; k <= std::max(1, scene::last_frame(scene)); ++k) {
+      parts_.push_back({setup::with_curves(scene, k).solver.gravity, velocity, way});
+      velocity = velocity_at(k * frame_);
+      way = way_at(k * frame_);
+    }
+  }
+
+  bool acts() const {
+    return std::ranges::any_of(parts_, [](const Part& p) { return p.gravity.norm() > 0; });
+  }
+  /// m/s and m since the start.
+  Vec3d velocity_at(double time) const {
+    const auto [part, t] = at(time);
+    return part.velocity + t * part.gravity;
+  }
+  Vec3d way_at(double time) const {
+    const auto [part, t] = at(time);
+    return part.way + t * part.velocity + 0.5 * t * t * part.gravity;
+  }
+
+ private:
+  struct Part {
+    Vec3d gravity;
+    Vec3d velocity = Vec3d::Zero(), way = Vec3d::Zero();  ///< when it begins
+  };
+  /// The part that a time lies in, and the time in it.
+  std::pair<const Part&, double> at(double time) const {
+    const double last = static_cast<double>(parts_.size() - 1);
+    const double k = std::clamp(std::floor(time / frame_), 0.0, last);
+    return {parts_[static_cast<std::size_t>(k)], k > 0 ? time - k * frame_ : time};
+  }
+
+  double frame_;  ///< s
+  std::vector<Part> parts_;
+};
+
 /// A body in free flight until it meets a collider; there it stays.
 class Flight {
  public:
-  Flight(const scene::Scene& scene, const setup::SeededScene& seeded, std::size_t index)
-      : body_(&scene.bodies[index]), gravity_(scene.solver.gravity) {
+  Flight(const scene::Scene& scene, const setup::SeededScene& seeded, const Fall& fall,
+         std::size_t index)
+      : body_(&scene.bodies[index]), fall_(&fall) {
     const std::size_t first = seeded.body_begin(index), end = seeded.body_end[index];
     const std::size_t stride = (end - first) / max_sampled + 1;
     for (std::size_t p = first; p < end; p += stride) start_.push_back(seeded.particles.x[p]);
@@ -58,10 +106,10 @@ class Flight {
   /// m, between the particles that are looked at.
   double spacing() const { return spacing_; }
   bool moves() const {
-    return gravity_.norm() > 0 || body_->velocity.norm() > 0 || body_->angular_velocity.norm() > 0;
+    return fall_->acts() || body_->velocity.norm() > 0 || body_->angular_velocity.norm() > 0;
   }
   /// m/s, at the end of a flight.
-  double speed_at(double time) const { return (body_->velocity + time * gravity_).norm(); }
+  double speed_at(double time) const { return (body_->velocity + fall_->velocity_at(time)).norm(); }
   /// m
   double size() const { return (box_.max - box_.min).norm(); }
 
@@ -73,7 +121,7 @@ class Flight {
     const sim::Mat3d turn =
         spin.norm() > 0 ? Eigen::AngleAxisd(spin.norm() * t, spin.normalized()).toRotationMatrix()
                         : sim::Mat3d::Identity();
-    const Vec3d moved = center_ + t * body_->velocity + 0.5 * t * t * gravity_;
+    const Vec3d moved = center_ + t * body_->velocity + fall_->way_at(t);
     std::vector<Vec3d> places;
     places.reserve(start_.size());
     for (const Vec3d& x : start_) {
@@ -85,7 +133,8 @@ class Flight {
 
  private:
   const sim::seeding::Body* body_;
-  Vec3d gravity_, center_;
+  const Fall* fall_;
+  Vec3d center_;
   double spacing_ = 0;
   std::vector<Vec3d> start_;
   Box box_;
@@ -126,8 +175,12 @@ double distance_between(const std::vector<Vec3d>& a, const Box& box_a, const std
 /// Times at which bodies are looked at: none crosses another between two.
 std::vector<double> times_of(const std::vector<Flight>& flights, double end) {
   double looks = min_looks;
-  for (const Flight& flight : flights)
-    looks = std::max(looks, 3 * flight.speed_at(end) * end / std::max(1e-6, flight.size()));
+  for (const Flight& flight : flights) {
+    double fastest = 0;
+    for (int k = 0; k <= min_looks; ++k)
+      fastest = std::max(fastest, flight.speed_at(end * k / min_looks));
+    looks = std::max(looks, 3 * fastest * end / std::max(1e-6, flight.size()));
+  }
   const int count = static_cast<int>(std::min<double>(looks, max_looks));
   std::vector<double> times;
   for (int k = 0; k <= count; ++k) times.push_back(end * k / count);
@@ -241,8 +294,10 @@ void check_meetings(const scene::Scene& scene, const setup::SeededScene& seeded,
   if (end <= 0 || !scene.emitters.empty()) return;
   // Each is compared with each.
   if (scene.bodies.size() + scene.colliders.size() > max_compared) return;
+  const Fall fall(scene);
   std::vector<Flight> flights;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) flights.emplace_back(scene, seeded, k);
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    flights.emplace_back(scene, seeded, fall, k);
   const std::vector<double> times = times_of(flights, end);
   std::vector<Nearest> nearest(flights.size());
   std::vector<bool> flies(flights.size(), false);

@@ -75,8 +75,8 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   const int last = frames ? frames->last : scene::last_frame(forked);
   if (last < first)
     throw UsageError("--from",
-                     fmt::format("{} s is at or after frame {}, the last one",
-                                 rough_text(job.fork->time), scene::number_of(job.scene, last)),
+                     fmt::format("{} s is at or after frame {}, the last one", job.fork->time,
+                                 scene::number_of(job.scene, last)),
                      "expected an earlier time, or a later frame with --frames" +
                          timeline::advice_on_frame(job.fork->time, last, job.scene));
   job.frames = {frames ? std::max(frames->first, first) : first, last};

@@ -281,6 +281,25 @@ TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
   EXPECT_EQ(json_of("out/scene/run.json")["warnings"].size(), 1u);
 }
 
+TEST_F(Check, SnowThatFallsFollowsTheCurveOfGravity) {
+  // 0.32 m above the floor for 0.5 s: gravity takes it there in 0.26 s, that of the first frame
+  // alone 0.2 m far.
+  const auto meets_nothing = [&](const char* keyframes) {
+    folder.write("scene.toml", scene("", floor_plane, 12) +
+                                   "[[curve]]\nname = \"g\"\nparameter = \"solver.gravity\"\n"
+                                   "interpolation = \"step\"\nkeyframes = [" +
+                                   keyframes + "]\n");
+    const auto done = neve({"check", "scene.toml", "--set", "body.ball.velocity=[0, 0, 0]", "--set",
+                            "body.ball.shape.sphere.center=[0, 0.4, 0]"});
+    EXPECT_TRUE(contains(done.output, "particles")) << done.errors;
+    return contains(done.output, "ball meets nothing");
+  };
+  EXPECT_FALSE(
+      meets_nothing("{ time = 0, vector = [0, 0, 0] }, { time = 0.1, vector = [0, -9.81, 0] }"));
+  EXPECT_TRUE(
+      meets_nothing("{ time = 0, vector = [0, -9.81, 0] }, { time = 0.03, vector = [0, 0, 0] }"));
+}
+
 TEST_F(Check, CheckFindsGravityThatIsNotDown) {
   EXPECT_EQ(findings(scene("gravity = [0, 0, -9.81]", floor_plane)).at(0),
             "warning solver.gravity");

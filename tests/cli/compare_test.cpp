@@ -224,6 +224,19 @@ TEST_F(Compare, RunsOfOtherLengthAreComparedAsFarAsBothGo) {
       << late.errors;
 }
 
+TEST_F(Compare, FramesOfOneMomentAreComparedWhateverTheirNumber) {
+  ASSERT_NO_FATAL_FAILURE(render("a"));
+  ASSERT_NO_FATAL_FAILURE(render("b", {"--set", "first_frame=1001"}));
+  const auto same = compare("a", "b", {});
+  EXPECT_EQ(same.exit_code, 0) << same.output;
+  EXPECT_TRUE(contains(same.output, "the same states in")) << same.output;
+  ASSERT_NO_FATAL_FAILURE(
+      render("c", {"--set", "first_frame=1001", "--set", "material.snow.hardening=3"}));
+  const auto other = compare("a", "c", {});
+  EXPECT_EQ(other.exit_code, app::exit_check_failed) << other.output;
+  EXPECT_TRUE(contains(other.output, " of A, 10")) << other.output;
+}
+
 TEST_F(Compare, RunsThatCannotBeComparedAreRefusedWithTheReason) {
   ASSERT_NO_FATAL_FAILURE(render("a"));
   ASSERT_NO_FATAL_FAILURE(render("slow", {"--set", "fps=12"}));
@@ -243,7 +256,8 @@ TEST_F(Compare, RunsThatCannotBeComparedAreRefusedWithTheReason) {
   refused("a", "fine", {"--out", "x.png", "--mode", "displacement"},
           "no particle of A is the same piece of snow");
   refused("a", "seeded", {"--out", "x.png", "--mode", "displacement"}, "seed is 1 in A and 2 in B");
-  refused("late", "early", {"--out", "x.png"}, "they have no frame in common");
+  refused("late", "early", {"--out", "x.png"},
+          "they have no frame in common, at 0.167 to 0.167 s and at 0.0417 to 0.0417 s");
   refused("a", "a/particles", {"--out", "x.png"}, "is not the folder of a run");
   refused("a", "a", {"--out", "a"}, "a is the folder of a run");
   refused("a", "a", {"--mode", "wipe"}, "needs pictures");

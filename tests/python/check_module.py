@@ -30,6 +30,13 @@ can = moved.body("can")
 assert can["position"].shape == (3, 3) and list(can["position"][0]) == [0.5, 0.5, 0]
 assert can["velocity"][2, 1] < -0.5 and can["centre_of_mass"][2, 0] > 0.55, can
 
+# Words, lists and tables in lists are values, too.
+looked = neve.render("scene.toml", out="out/looked", frames=(0, 0), flags=["--no-movie"], set={
+    "view.particles.layers": ["ground", "particles"],
+    "camera.keyframes": [{"time": 0, "eye": [0, 1, 3], "target": [0, 0, 0]},
+                         {"time": 0.1, "eye": [1, 1, 3], "target": [0, 0, 0]}]})
+assert "keyframes" in looked.json["scene"] and looked.status == "ok"
+
 # States: of a run, and exports in every format that the module reads, are the same.
 names = ["id", "x", "v", "m", "J_P", "F_E"]
 state = run.state(3, attributes=names)
