@@ -127,6 +127,15 @@ Hypothesis initial_state(const Case& c) {
       "start with F_E = I and J_P = 1", ""};
 }
 
+/// No matter how stiff it is.
+Hypothesis begins_dense(const Case& c) {
+  const auto birth = dense_birth(c.scene);
+  if (!birth || !c.is_crushed() || c.d.material != static_cast<int>(birth->material))
+    return std::nullopt;
+  return Diagnosis{Cause::initial_state, evidence_text(*birth), advice_text(*birth),
+                   birth->address};
+}
+
 Hypothesis units(const Case& c) {
   const double g = c.scene.solver.gravity.norm(), largest = setup::largest_extent(c.scene);
   if (g <= cause(Law::gravity) && largest <= cause(Law::extent)) return std::nullopt;
@@ -481,7 +490,7 @@ Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence,
                    double coarsening) {
   const Case c(scene, divergence, coarsening);
   for (const auto hypothesis :
-       {bypass, initial_state, units, raised_limits, too_long_at_rest, collider_speed,
+       {bypass, begins_dense, initial_state, units, raised_limits, too_long_at_rest, collider_speed,
         colliders_closing, incompressible, hardened_beyond_fixed_step, shock, too_soft, hardening,
         hardened_within_a_step, far_flight, raised_acoustic_limit, doubts_of_the_law, rounding,
         thin})

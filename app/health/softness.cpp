@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/setup/auto_ranges.h"
+#include "app/setup/seed_scene.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/health/diagnostics.h"
@@ -49,6 +50,36 @@ double densest_snow(const scene::Scene& scene) {
 
 }  // namespace
 
+std::optional<DenseBirth> dense_birth(const scene::Scene& scene) {
+  std::optional<DenseBirth> densest;
+  const auto look_at = [&](const char* kind, const auto& list) {
+    for (const auto& one : list) {
+      const std::size_t number = setup::material_index(scene, one.material);
+      const sim::Material& m = scene.materials[number];
+      const double density = m.density / one.J_P;
+      if (!sim::laws::of(m).is_snow || !(one.J_P < 1) || !(density > sim::ice_density)) continue;
+      if (densest && density <= densest->density) continue;
+      densest = {std::string(kind) + "." + one.name + ".J_P", one.J_P, density,
+                 std::ceil(1e3 * m.density / sim::ice_density) / 1e3, number};
+    }
+  };
+  look_at("body", scene.bodies);
+  look_at("emitter", scene.emitters);
+  return densest;
+}
+
+std::string evidence_text(const DenseBirth& birth) {
+  return fmt::format("{} = {} packs snow to {} kg/m3 before it moves, denser than ice ({} kg/m3)",
+                     birth.address, rough_text(birth.J_P), rough_text(birth.density),
+                     rough_text(sim::ice_density));
+}
+
+std::string advice_text(const DenseBirth& birth) {
+  return birth.J_P_of_ice < 1 ? fmt::format("{} = 1, snow that is not packed, or {} at least",
+                                            birth.address, rough_text(birth.J_P_of_ice))
+                              : birth.address + " = 1, snow that is not packed";
+}
+
 double load_speed(const scene::Scene& scene) {
   double speed = setup::impact_speed(scene);
   for (const scene::Collider& collider : scene.colliders)
@@ -66,6 +97,8 @@ std::optional<std::string> softness_warning(const scene::Scene& scene,
   if (!is_packed && J_P * sim::ice_density > densest_snow(scene)) return std::nullopt;
   const double dense = is_packed ? 0 : simulation.summary().denser_than_ice;
   if (!is_packed && dense < notable) return std::nullopt;
+  if (const auto birth = dense_birth(scene))
+    return evidence_text(*birth) + "; try " + advice_text(*birth);
   const auto is_softer = [](const sim::Material& a, const sim::Material& b) {
     return a.youngs_modulus < b.youngs_modulus;
   };

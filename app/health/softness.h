@@ -23,6 +23,23 @@ double stiffness_that_holds(const sim::Material& material, const sim::SolverSett
 /// m/s, of the fastest body that hits something, or collider.
 double load_speed(const scene::Scene& scene);
 
+/// A body or an emitter whose snow begins packed denser than ice.
+struct DenseBirth {
+  std::string address;  ///< of its J_P: "emitter.jet.J_P"
+  double J_P = 1;
+  double density = 0;        ///< kg/m3, at the start
+  double J_P_of_ice = 1;     ///< with which it would be as dense as ice
+  std::size_t material = 0;  ///< its number in the scene
+};
+/// The densest. Packed denser than ice from the start, snow says nothing of its stiffness.
+/// Check: Softness.SnowThatBeginsDenserThanIceIsNotCalledSoft
+std::optional<DenseBirth> dense_birth(const scene::Scene& scene);
+
+/// "emitter.jet.J_P = 0.15 makes snow of 2670 kg/m3, ..."
+std::string evidence_text(const DenseBirth& birth);
+/// "emitter.jet.J_P = 1 ..."
+std::string advice_text(const DenseBirth& birth);
+
 /// For a run whose snow was packed to the limit and yielded on, or is denser than ice. Empty if
 /// none was, and if the run diverged: its diagnosis says more.
 std::optional<std::string> softness_warning(const scene::Scene& scene,

@@ -130,5 +130,46 @@ TEST(Softness, SnowDenserThanIceIsSaid) {
   EXPECT_TRUE(warnings(0.437).empty());
 }
 
+/// A jet, or a ball, of snow that is packed before it moves.
+TEST(Softness, SnowThatBeginsDenserThanIceIsNotCalledSoft) {
+  const auto scene_with = [](const char* kind, double J_P) {
+    return scene::read_scene_text(fmt::format(R"(
+[solver]
+cell_size = 0.04
+[[{}]]
+name = "jet"
+shape = {{ sphere = {{ center = [0, 0.5, 0], radius = 0.08 }} }}
+velocity = [0, -2, 0]
+J_P = {}
+[[collider]]
+shape = {{ plane = {{ point = [0, 0, 0], normal = [0, 1, 0] }} }}
+)",
+                                              kind, J_P),
+                                  "jet.toml");
+  };
+  for (const std::string kind : {"emitter", "body"}) {
+    const scene::Scene dense = scene_with(kind.c_str(), 0.25);
+    sim::Simulation simulation =
+        setup::make_simulation(dense, setup::seed_scene(dense).particles, 2);
+    simulation.advance_to(0.01);
+    const auto said = health::softness_warning(dense, simulation);
+    ASSERT_TRUE(said);
+    EXPECT_EQ(*said, kind +
+                         ".jet.J_P = 0.25 packs snow to 1.6e+03 kg/m3 before it moves, denser than "
+                         "ice (917 kg/m3); try " +
+                         kind + ".jet.J_P = 1, snow that is not packed, or 0.437 at least");
+    const scene::Scene denser = scene_with(kind.c_str(), 0.1);
+    const sim::Simulation stopped = run_impact(denser);
+    ASSERT_TRUE(stopped.divergence());
+    const health::Diagnosis diagnosis = health::diagnose(denser, *stopped.divergence());
+    EXPECT_EQ(diagnosis.cause, health::Cause::initial_state) << diagnosis.evidence;
+    EXPECT_EQ(diagnosis.address, kind + ".jet.J_P");
+    EXPECT_NE(diagnosis.evidence.find("packs snow to 4e+03 kg/m3 before it moves"),
+              std::string::npos)
+        << diagnosis.evidence;
+    EXPECT_FALSE(health::dense_birth(scene_with(kind.c_str(), 0.5)));
+  }
+}
+
 }  // namespace
 }  // namespace neve::app
