@@ -103,6 +103,13 @@ std::string encode_csv(const ExportMoment& moment) {
   for (const Column& column : table.columns)
     for (int c = 0; c < column.components; ++c)
       text += (text.empty() ? "" : ",") + component_name(column, c);
+  // As a column: a comment is a line too much for most readers of such files.
+  std::string axes;
+  if (moment.spec.up == scene::UpAxis::z || moment.spec.scale != 1) {
+    text += moment.spec.up == scene::UpAxis::z ? ",up_z_units_per_metre" : ",up_y_units_per_metre";
+    append_text(moment.spec.scale, axes);
+    axes += ',';
+  }
   text += "\n";
   for (std::size_t row = 0; row < table.rows; ++row) {
     for (const Column& column : table.columns)
@@ -110,6 +117,7 @@ std::string encode_csv(const ExportMoment& moment) {
         append_text(number, text);
         text += ',';
       });
+    text += axes;
     text.back() = '\n';
   }
   return text;
@@ -120,7 +128,7 @@ std::string encode_obj(const ExportMoment& moment) {
   const MeshRows& mesh = *table.mesh;
   std::string text = "# neve " + std::string(version) + ", time ";
   append_text(moment.state.time, text);
-  text += " s, units per metre ";
+  text += " s\n# up " + std::string(scene::name(moment.spec.up)) + ", units per metre ";
   append_text(moment.spec.scale, text);
   const auto add_line = [&](const char* word, const auto* numbers) {
     text += word;

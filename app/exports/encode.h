@@ -23,7 +23,8 @@ struct ExportMoment {
 /// Format.
 std::string encode_ply(const ExportMoment& moment);
 
-/// A line of names, then a line per particle; every number reads as the same bits.
+/// A line of names, then a line per particle; every number reads as the same bits. Where it is
+/// turned or scaled, the last column has the units per metre, and its name the axis that is up.
 std::string encode_csv(const ExportMoment& moment);
 
 /// A zip archive of arrays, uncompressed: one per attribute, and time, frame, fps, scale, up.

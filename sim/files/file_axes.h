@@ -1,6 +1,10 @@
 #pragma once
 /// Axes and units of a file that neve wrote with --up or --scale.
 
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "sim/types/math.h"
 
 namespace neve::sim::files {
@@ -22,5 +26,28 @@ struct FileAxes {
     return both;
   }
 };
+
+/// Looks for the axes in the comments of a text, of PLY and OBJ: "neve 0.2.0", then "up z, units
+/// per metre 100". Comments of other programs mean nothing here.
+class AxesComment {
+ public:
+  /// @param where  of the comment, for messages
+  /// @return whether it says the axes @throws ShapeError where neve wrote it and it cannot be read
+  bool read(std::string_view comment, const std::string& where);
+  /// Metres, y up, unless a comment says other ones.
+  const FileAxes& axes() const { return axes_; }
+
+ private:
+  bool is_of_neve_ = false;
+  FileAxes axes_;
+};
+
+/// Column of a CSV, the same number in each row: readers of such files know no comments.
+inline constexpr std::string_view y_up_column = "up_y_units_per_metre",
+                                  z_up_column = "up_z_units_per_metre";
+
+/// Nothing for a column of another name. @throws ShapeError for a value that is no scale
+std::optional<FileAxes> axes_of_column(std::string_view name, double value,
+                                       const std::string& where);
 
 }  // namespace neve::sim::files

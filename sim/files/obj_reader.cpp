@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "sim/files/file_axes.h"
 #include "sim/files/input_file.h"
 
 // An own reader rather than tinyobjloader (2.0rc10 tried): that reads "v 1 abc" as (1, 0, 0), lets
@@ -35,6 +36,9 @@ class Words {
     rest_.remove_prefix(length);
     return word;
   }
+
+  /// What follows on this line.
+  std::string_view rest_of_line() const { return rest_.substr(0, rest_.find('\n')); }
 
   void next_line() {
     for (;;) {
@@ -85,9 +89,12 @@ class Parser {
       const std::string_view keyword = words_.next();
       if (keyword == "v") read_vertex();
       if (keyword == "f") read_polygon();
+      if (keyword == "#") axes_.read(words_.rest_of_line(), here());
       words_.next_line();
     }
     check_indices();
+    if (!axes_.axes().are_ours())
+      for (Vec3d& x : mesh_.vertices) x = axes_.axes().metres(x);
     return std::move(mesh_);
   }
 
@@ -147,6 +154,7 @@ class Parser {
   Words words_;
   const std::string& name_;
   PolygonMesh mesh_;
+  AxesComment axes_;
 };
 
 }  // namespace

@@ -28,7 +28,8 @@ struct PolygonMesh {
 };
 
 /// Reads `v` and `f` (index forms v, v/vt, v//vn, v/vt/vn, negative ones count back from the last
-/// vertex), lines continued by a backslash; everything else is ignored. Independent of the locale.
+/// vertex), lines continued by a backslash; everything else is ignored. A file that neve wrote with
+/// z up or in other units is turned and scaled back. Independent of the locale.
 /// @param name of the text in messages: name:line: ...
 /// @throws ShapeError for malformed numbers, bad indices, polygons of less than three corners and
 ///         files without any

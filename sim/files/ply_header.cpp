@@ -44,7 +44,7 @@ class PlyHeaderReader {
     std::string_view line = lines_.next();
     const std::string_view keyword = next_ply_word(line);
     if (keyword == "end_header") return false;
-    if (keyword == "comment") read_comment(line);
+    if (keyword == "comment" && axes_.read(line, here())) header_.axes = axes_.axes();
     if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return true;
     if (keyword == "format")
       read_format(line);
@@ -55,24 +55,6 @@ class PlyHeaderReader {
     else if (!header_.elements.empty())
       refuse_input(here(), quoted_input(keyword) + " is not a keyword of a PLY header");
     return true;
-  }
-
-  /// "comment neve 0.2.0", then "comment up z, units per metre 100". Comments of other programs
-  /// mean nothing here.
-  void read_comment(std::string_view line) {
-    const std::string_view first = next_ply_word(line);
-    is_of_neve_ = is_of_neve_ || first == "neve";
-    if (!is_of_neve_ || first != "up") return;
-    const std::string_view up = next_ply_word(line);
-    constexpr std::string_view before = "units per metre ";
-    line = trimmed(line);
-    const std::optional<double> scale =
-        line.starts_with(before) ? number_in(trimmed(line.substr(before.size()))) : std::nullopt;
-    if ((up != "y," && up != "z,") || !scale || !(*scale >= 1e-6 && *scale <= 1e6))
-      refuse_input(here(),
-                   "the comment on the axes of a file of neve cannot be read; expected "
-                   "comment up y, units per metre 1, or none");
-    header_.axes = {up == "z,", *scale};
   }
 
   void read_format(std::string_view line) {
@@ -127,7 +109,7 @@ class PlyHeaderReader {
   TableLines& lines_;
   const std::string& name_;
   PlyHeader header_;
-  bool is_of_neve_ = false;
+  AxesComment axes_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // call-back, knows no line numbers, and finding the columns and reading numbers would remain.
 #include <algorithm>
 
+#include "sim/files/file_axes.h"
 #include "sim/files/input_file.h"
 #include "sim/files/point_table.h"
 
@@ -84,6 +85,7 @@ class PointCsv {
       const std::string_view line = lines_.next();
       if (says_nothing(line)) continue;
       read_row(line, points, row);
+      use_axes(row, points);
       points.add(row, [&] { return here(); });
     }
     return points.take(name_);
@@ -91,7 +93,9 @@ class PointCsv {
 
   std::vector<std::string> further() {
     read_header();
-    return unknown_columns(columns_);
+    std::vector<std::string> names = unknown_columns(columns_);
+    std::erase_if(names, [](const std::string& name) { return says_axes(name); });
+    return names;
   }
 
  private:
@@ -118,7 +122,20 @@ class PointCsv {
     if (number_in(fields_.front()))
       refuse_input(here(), "the first line has numbers; expected names of columns, as in x,y,z");
     columns_.assign(fields_.begin(), fields_.end());
+    const auto found = std::find_if(columns_.begin(), columns_.end(), says_axes);
+    if (found != columns_.end()) axes_column_ = static_cast<std::size_t>(found - columns_.begin());
     return PointTable(columns_, here());
+  }
+
+  static bool says_axes(std::string_view name) {
+    return name == y_up_column || name == z_up_column;
+  }
+
+  /// Those of its own row: rows of several files that were put together are each turned as it says.
+  void use_axes(const std::vector<double>& row, PointTable& points) const {
+    if (!axes_column_) return;
+    if (const auto axes = axes_of_column(columns_[*axes_column_], row[*axes_column_], here()))
+      points.use(*axes);
   }
 
   void split_header(std::string_view header) {
@@ -136,7 +153,7 @@ class PointCsv {
       refuse_input(here(), std::to_string(fields_.size()) + " fields; the header has " +
                                std::to_string(columns_.size()));
     for (std::size_t k = 0; k < fields_.size(); ++k) {
-      if (!points.uses(k)) continue;
+      if (!points.uses(k) && k != axes_column_) continue;
       std::optional<double> value = number_in(fields_[k]);
       if (!value && separator_ != ',') value = number_with_comma(fields_[k]);
       if (!value)
@@ -150,6 +167,7 @@ class PointCsv {
   const std::string& name_;
   char separator_ = ',';
   std::vector<std::string> columns_;
+  std::optional<std::size_t> axes_column_;
   std::vector<std::string_view> fields_;  ///< of the present line
 };
 

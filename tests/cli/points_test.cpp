@@ -229,23 +229,28 @@ TEST_F(PointFiles, AnExportedStateContinuesAsIfNothingHadHappened) {
 /// Bodies lay on their side, a hundred times as large.
 TEST_F(PointFiles, AStateInOtherAxesAndUnitsContinuesAsItWas) {
   folder.write("moving.toml", moving_scene);
-  for (const auto& [out, flags] : {std::pair<std::string, std::vector<std::string>>{"plain", {}},
-                                   {"turned", {"--up", "z"}},
-                                   {"scaled", {"--up", "z", "--scale", "100"}}}) {
-    std::vector<std::string> words{"export",       "moving.toml", "--format", "ply",
+  struct Way {
+    std::string out, format;
+    std::vector<std::string> flags;
+  };
+  for (const auto& [out, format, flags] :
+       {Way{"plain", "ply", {}}, Way{"turned", "ply", {"--up", "z"}},
+        Way{"turned_text", "csv", {"--up", "z"}},
+        Way{"scaled", "ply", {"--up", "z", "--scale", "100"}}}) {
+    std::vector<std::string> words{"export",       "moving.toml", "--format", format,
                                    "--attributes", state,         "--frames", "3-3",
                                    "--out",        out,           "-q"};
     words.insert(words.end(), flags.begin(), flags.end());
     ASSERT_EQ(neve(words).exit_code, 0);
-    folder.write(out + ".toml", continued(out + "/ply/0003.ply"));
+    folder.write(out + ".toml", continued(out + "/" + format + "/0003." + format));
     ASSERT_EQ(neve({"export", out + ".toml", "--format", "csv", "--attributes", state, "--frames",
                     "0-1", "--out", out + "_again", "-q"})
                   .exit_code,
               0);
   }
-  for (const char* frame : {"0000.csv", "0001.csv"})
-    EXPECT_EQ(read_text(folder / "turned_again/csv" / frame),
-              read_text(folder / "plain_again/csv" / frame));
+  for (const char* turned : {"turned_again/csv", "turned_text_again/csv"})
+    for (const char* frame : {"0000.csv", "0001.csv"})
+      EXPECT_EQ(read_text(folder / turned / frame), read_text(folder / "plain_again/csv" / frame));
   // A hundred times a number and a hundredth of it may differ in the last digit.
   const auto numbers = [&](const std::string& file) {
     std::string text = read_text(folder / file);

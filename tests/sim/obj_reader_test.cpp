@@ -101,6 +101,23 @@ TEST(ObjReader, FilesThatCannotBeReadAreErrors) {
   EXPECT_THROW(sim::files::read_mesh(large), ShapeError);
 }
 
+TEST(ObjReader, AnObjThatNeveHasTurnedAndScaledIsTurnedAndScaledBack) {
+  const auto vertex = [](const std::string& comments) {
+    return sim::files::parse_obj(
+               comments + "v 100 -300 200\nv 0 0 0\nv 100 0 0\nf 1 2 3\n# made up\n", "m")
+        .vertices.front();
+  };
+  EXPECT_EQ(vertex("# neve 0.2.0, time 0 s\n# up z, units per metre 100\n"), Vec3d(1, 2, 3));
+  EXPECT_EQ(vertex("# neve 0.2.0, time 0 s\r\n# up y, units per metre 100\r\n"), Vec3d(1, -3, 2));
+  for (const char* other : {"# up z, units per metre 100\n", "# Blender, up z\n# up z\n",
+                            "# neve 0.2.0, time 0 s, units per metre 100\n", "# neve 0.2.0\n"})
+    EXPECT_EQ(vertex(other), Vec3d(100, -300, 200)) << other;
+  expect_message(
+      "# neve 0.2.0\n# up z, units per metre 0\n" + std::string(tetrahedron),
+      "m.obj:2: the comment on the axes of a file of neve cannot be read; expected up y, "
+      "units per metre 1, or none");
+}
+
 /// Breaks a text in a few places.
 std::string mutated(std::string text, std::uint64_t& state) {
   const auto draw = [&](std::size_t below) {

@@ -149,10 +149,28 @@ TEST(PointReader, PointReaderTurnsAndScalesBackWhatNeveHasTurnedAndScaled) {
     EXPECT_EQ(sim::files::parse_points(read(comments), "p").x[0], Vec3d(100, -300, 200));
   for (const char* axes : {"up x, units per metre 1", "up z, units per metre 0",
                            "up z, units per metre", "up z", "up z, units per metre nan"})
-    EXPECT_EQ(
-        point_error(read(neve + "comment " + axes + "\n")),
-        "p:5: the comment on the axes of a file of neve cannot be read; expected comment up y, "
-        "units per metre 1, or none");
+    EXPECT_EQ(point_error(read(neve + "comment " + axes + "\n")),
+              "p:5: the comment on the axes of a file of neve cannot be read; expected up y, "
+              "units per metre 1, or none");
+}
+
+TEST(PointReader, ACsvThatNeveHasTurnedAndScaledIsTurnedAndScaledBack) {
+  const auto read = [](const std::string& text) { return sim::files::parse_points(text, "p"); };
+  const sim::files::PointCloud cloud = read(
+      "x,y,z,vx,vy,vz,m,up_z_units_per_metre\n100,-300,200,400,-600,500,7,100\n1,-3,2,0,0,0,7,1\n");
+  EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
+  EXPECT_EQ(cloud.v[0], Vec3d(4, 5, 6));
+  EXPECT_EQ(cloud.m[0], 7);
+  EXPECT_EQ(cloud.x[1], Vec3d(1, 2, 3));
+  EXPECT_EQ(read("x,y,z,up_y_units_per_metre\n100,-300,200,100\n").x[0], Vec3d(1, -3, 2));
+  EXPECT_EQ(read("x,y,z,up\n100,-300,200,100\n").x[0], Vec3d(100, -300, 200));
+  // No attribute that an export would carry along, beside its own.
+  EXPECT_EQ(sim::files::further_csv_columns("x,y,z,wet,up_z_units_per_metre\n", "p"),
+            std::vector<std::string>{"wet"});
+  for (const char* value : {"0", "-1", "1e7", "nan"})
+    EXPECT_EQ(point_error(std::string("x,y,z,up_z_units_per_metre\n0,0,0,") + value + "\n"),
+              "p:2: the column up_z_units_per_metre of a file of neve cannot be read; expected 1 "
+              "where a unit is a metre");
 }
 
 TEST(PointReader, PointReaderReadsBinaryPlyOfBothByteOrders) {
