@@ -100,6 +100,7 @@ constexpr BenchPart bench_parts[] = {
 void describe_part(options::Command& visit, bench::BenchOptions& o, const BenchPart& part) {
   const std::string name = part.name;
   visit.about("bench " + name, part.help);
+  visit.other_place = "set TMPDIR to a folder that may be written";
   visit("--rounds", o.rounds, options::number<int>("N", 1, 1000, "a whole number from 1 to 1000"),
         "Repetitions of each measurement; the table shows median, min and max");
   options::describe_threads(visit, o.threads);

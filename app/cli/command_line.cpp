@@ -17,6 +17,7 @@
 #include "app/options/parse.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
+#include "app/support/other_place.h"
 #include "app/support/printable_stream.h"
 #include "app/support/version.h"
 #include "app/sweep/sheet/star.h"
@@ -208,6 +209,7 @@ int run_command_line(const Words& words) {
   const Words leftovers = options::parse(called->command, rest);
   if (!leftovers.empty()) refuse_leftover(*called, leftovers.front());
   called->command.check_all();
+  set_other_place(called->command.other_place);
   warn_of_surroundings(called->command, error_output(words));
   return called->run();
 }

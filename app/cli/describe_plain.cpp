@@ -22,6 +22,7 @@ options::Option& describe_argument(Command& visit, const char* name, std::string
 
 void describe_new(Command& visit, PlainOptions& o) {
   visit.about("new", "Write a first scene in which every line is explained");
+  visit.other_place = "choose another folder, as in neve new FOLDER/NAME";
   describe_argument(
       visit, "NAME", o.name,
       "Name of the scene, as in my_scene or FOLDER/my_scene; an existing file is not overwritten. "
@@ -32,6 +33,7 @@ void describe_new(Command& visit, PlainOptions& o) {
 
 void describe_info(Command& visit, PlainOptions& o) {
   visit.about("info", "Print the scene and parameters of a picture, or the state of a run");
+  visit.other_place = "";
   describe_argument(visit, "FILE", o.name, "A PNG or EXR, run.json, or the folder of a run")
       .required();
   visit("--json", o.is_json, json_help);
@@ -42,6 +44,7 @@ void describe_verify(Command& visit, PlainOptions& o) {
       "verify",
       "Check that every file of a run or a sweep exists and is unchanged, its kept states and "
       "checkpoints too");
+  visit.other_place = "";
   describe_argument(visit, "DIR", o.name, "Output folder of a run or a sweep").required();
   visit("--json", o.is_json, json_help);
   visit("--quiet,-q", o.is_quiet, "Print only flaws");
@@ -51,17 +54,20 @@ void describe_doctor(Command& visit, PlainOptions& o) {
   visit.about("doctor",
               "Test the OpenGL backends of this machine, say why others do not work, and run the "
               "self-tests of the physics");
+  visit.other_place = "";
   visit("--json", o.is_json, json_help);
 }
 
 void describe_schema(Command& visit, PlainOptions& o) {
   visit.about("schema",
               "Print the JSON Schema of scenes or sweeps, for editors and other programs");
+  visit.other_place = "";
   describe_argument(visit, "KIND", o.name, "scene (default) or sweep");
 }
 
 void describe_manual(Command& visit, PlainOptions& o) {
   visit.about("manual", "Write man pages, and completions for bash, zsh and fish, into a folder");
+  visit.other_place = "choose another folder, as in neve manual DIR";
   describe_argument(visit, "DIR", o.name, "Folder in which man1, bash, zsh and fish are made")
       .required();
 }
@@ -69,11 +75,13 @@ void describe_manual(Command& visit, PlainOptions& o) {
 void describe_version(Command& visit, PlainOptions& o) {
   visit.about("version",
               "Print the version, and the build: commit, type, compiler, instruction set");
+  visit.other_place = "";
   visit("--json", o.is_json, json_help);
 }
 
 void describe_help(Command& visit, PlainOptions& o) {
   visit.about("help", "Print this help, or the help of a command");
+  visit.other_place = "";
   visit("COMMAND", o.names, options::text(""),
         "A command and its subcommand, as in neve help sweep run");
   visit("--json", o.is_json, "Print every option as JSON");
@@ -81,6 +89,7 @@ void describe_help(Command& visit, PlainOptions& o) {
 
 void describe_params(Command& visit, ParamsOptions& o) {
   visit.about("params", "List or search parameters: address, unit, range, default");
+  visit.other_place = "";
   visit("WORD", o.filter, options::text(""),
         "List only parameters whose address or description has this word, or that an everyday word "
         "means, as in camera, \"time step\", sticky");

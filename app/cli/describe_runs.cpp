@@ -132,6 +132,7 @@ void describe_check(Command& visit, CheckCommand& command) {
   visit.about("check",
               "Forecast the cost of a scene and the limits of its steps, and warn of likely "
               "mistakes; takes a few steps and runs a coarse copy");
+  visit.other_place = "name another file with --open-edges";
   describe_scene(visit, o, run::origin_help);
   visit("--predict", command.predicts,
         "Run coarse copies to the end, and say what the scene itself will do at its last frame: "
@@ -148,6 +149,7 @@ void describe_dump(Command& visit, dump::DumpOptions& o) {
   visit.about("dump",
               "Print numbers inside a step: fields of nodes and particles at a time, after a "
               "stage, with their expected ranges");
+  visit.other_place = "name another file with --out";
   describe_scene(visit, o.run, run::origin_help);
   visit("--at", o.at, options::times(),
         "Times in seconds, as in 0.1,0.2, in one simulation; neve shows the step that contains "
@@ -235,6 +237,7 @@ void describe_compare(Command& visit, CompareOptions& o) {
   visit.about("compare",
               "Compare two pictures, or the states of two runs frame by frame; with --out as "
               "pictures, movies and curves");
+  visit.other_place = "name another place with --out";
   visit("A", o.a, options::text(""),
         "A PNG, or the folder of a run; for one run of a sweep: DIR/runs/0000")
       .required();

@@ -19,6 +19,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/support/other_place.h"
+
 namespace neve::app::options {
 
 /// A value as text: how it is read, and written so that it is read as the same.
@@ -74,6 +76,8 @@ struct Option {
 struct Command {
   std::string name, help;  ///< "sweep run"
   std::vector<Option> options;
+  /// Advice where a file cannot be written, see or_other_place().
+  std::string other_place = usual_other_place;
   std::vector<std::function<void()>> checks;  ///< called when all words have been read
   /// What to write instead of a word that no option takes, or that a flag without a value was given
   /// as one; "": nothing is known.

@@ -16,6 +16,7 @@
 
 #include "app/output/descriptor.h"
 #include "app/output/temporary.h"
+#include "app/support/other_place.h"
 
 namespace neve::app::output {
 
@@ -53,18 +54,16 @@ void refuse_special(const std::filesystem::path& path) {
   const char* kind = special_kind(path);
   if (!kind) return;
   throw IoError(path.string() + ": is a " + kind + ", where a file is to be written", path.string(),
-                "move it away, or choose another folder with --out");
+                or_other_place("move it away"));
 }
 
 }  // namespace
 
 [[noreturn]] void fail_writing(const std::filesystem::path& path, const std::string& sentence,
                                int reason) {
-  const char* hint = reason == ENOSPC || reason == EDQUOT || reason == EFBIG
-                         ? "free disk space, or choose another folder with --out or NEVE_OUT"
-                         : "choose another folder with --out or NEVE_OUT";
+  const bool is_full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
   throw IoError(path.string() + ": " + sentence + ": " + std::strerror(reason), path.string(),
-                hint);
+                or_other_place(is_full ? "free disk space" : ""));
 }
 
 int write_all(int fd, std::span<const std::uint8_t> bytes) {
@@ -174,7 +173,7 @@ void make_own_folder(const std::filesystem::path& path) {
   std::error_code error;
   if (is_symlink(symlink_status(path, error)))
     throw IoError(path.string() + ": is a link, where a folder is to be made", path.string(),
-                  "move it away, or choose another folder with --out");
+                  or_other_place("move it away"));
   make_folder(path);
 }
 

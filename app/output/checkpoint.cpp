@@ -16,6 +16,7 @@
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/support/errors.h"
+#include "app/support/other_place.h"
 #include "app/support/room.h"
 #include "app/support/text.h"
 
@@ -127,7 +128,7 @@ void tidy_checkpoint_folder(const fs::path& folder) {
   if (!fs::exists(fs::symlink_status(path, error))) return;
   if (fs::is_directory(fs::symlink_status(path, error))) return remove_abandoned(path);
   throw IoError(path.string() + ": cannot write checkpoints here: not a folder", path.string(),
-                "rename it, choose another folder with --out, or --checkpoint-every 0");
+                or_other_place("rename it, use --checkpoint-every 0"));
 }
 
 std::vector<std::uint8_t> encode_checkpoint(const Checkpoint& checkpoint) {

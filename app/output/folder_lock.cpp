@@ -18,6 +18,7 @@
 #include "app/output/temporary.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
+#include "app/support/other_place.h"
 
 namespace neve::app::output {
 
@@ -30,8 +31,8 @@ constexpr std::size_t longest_holder = 400;
 [[noreturn]] void fail_locking(const fs::path& file, int reason) {
   throw IoError(file.string() + ": cannot lock the folder: " + std::strerror(reason), file.string(),
                 reason == ENOLCK || reason == ENOSYS || reason == EOPNOTSUPP
-                    ? "its file system has no locks; choose a folder on another one with --out"
-                    : "choose another folder with --out");
+                    ? or_other_place("use a file system that has locks")
+                    : or_other_place());
 }
 
 std::string now_text() {
@@ -63,7 +64,7 @@ Descriptor open_lock(const fs::path& file) {
   if (!S_ISREG(status.st_mode)) fail_locking(file, EINVAL);
   if (status.st_nlink > 1 || !is_ours(lock.get()))
     throw IoError(file.string() + ": is a file of another program, and has the name of our lock",
-                  file.string(), "move it away, or choose another folder with --out");
+                  file.string(), or_other_place("move it away"));
   return lock;
 }
 
@@ -113,7 +114,7 @@ FolderLock::FolderLock(const fs::path& folder, const std::string& holder, Kind k
   std::optional<FolderLock> lock = try_lock(folder, holder, kind);
   if (!lock)
     throw IoError(folder.string() + ": is in use by " + holder_of(folder), folder.string(),
-                  "wait for it, or choose another folder with --out");
+                  or_other_place("wait for it"));
   file_ = std::move(lock->file_);
 }
 

@@ -166,6 +166,23 @@ void check_flags(const std::string& line, const std::string& place, Entry& root,
   }
 }
 
+/// Advice where a file cannot be written: --out only where the command has it, NEVE_OUT only where
+/// outputs go there.
+TEST(Options, OfAdviceOnAnotherPlaceExist) {
+  for_each_command(app::cli::program(), [&](const Words& path) {
+    const app::options::Command command = fresh(path).command;
+    std::istringstream words(command.other_place);
+    for (std::string word; words >> word;) {
+      if (word.starts_with("--")) {
+        EXPECT_TRUE(command.find(word)) << command.name << ": " << command.other_place;
+      }
+      if (word == "NEVE_OUT") {
+        EXPECT_TRUE(contains(command.find("--out")->help, "instead of out/")) << command.name;
+      }
+    }
+  });
+}
+
 TEST(Options, OfTheDocumentsExist) {
   namespace fs = std::filesystem;
   std::vector<fs::path> pages{fs::path(NEVE_SOURCE_DIR) / "README.md"};

@@ -143,6 +143,30 @@ TEST_F(Surroundings, AFolderThatCannotBeWrittenNamesTheWayToAnother) {
   }
 }
 
+/// Not to an option that the command does not have.
+TEST_F(Surroundings, AFolderThatCannotBeWrittenNamesTheWayThatTheCommandHas) {
+  ASSERT_EQ(shell("\"$0\" render scene.toml --out a --frames 0-1 --no-movie --quiet").exit_code, 0);
+  for (const auto& [command, advice] :
+       {std::pair{"\"$0\" new /proc/mine", "; choose another folder, as in neve new FOLDER/NAME"},
+        std::pair{"\"$0\" manual /proc/x", "; choose another folder, as in neve manual DIR"},
+        std::pair{"\"$0\" compare a a --out /proc/x", "; name another place with --out"},
+        std::pair{"\"$0\" dump scene.toml --out /proc/x/f.vtp",
+                  "; name another file with --out"}}) {
+    const auto answer = shell(command);
+    EXPECT_EQ(answer.exit_code, 6) << command;
+    EXPECT_TRUE(answer.errors.ends_with(std::string(advice) + "\n")) << answer.errors;
+  }
+  ASSERT_EQ(shell("\"$0\" sweep scene.toml -p seed=1,2 --frames 0-1 --out s.cdb --quiet").exit_code,
+            0);
+  std::filesystem::remove(folder / "s.cdb/data.csv");
+  std::filesystem::create_directory(folder / "s.cdb/data.csv");
+  const auto collected = shell("\"$0\" sweep collect s.cdb --quiet");
+  EXPECT_EQ(collected.exit_code, 6);
+  EXPECT_TRUE(contains(collected.errors,
+                       "; move it away, or copy the sweep to a folder that may be written"))
+      << collected.errors;
+}
+
 TEST_F(Surroundings, AnEmptyNameIsNotTheExample) {
   const auto answer = shell("\"$0\" render \"$UNSET\" --dry-run");
   EXPECT_EQ(answer.exit_code, 2) << answer.output;

@@ -282,6 +282,7 @@ void describe(options::Command& visit, SweepOptions& o) {
 
 void describe(options::Command& visit, SweepRunOptions& o) {
   visit.about("sweep run", "Make one run of an existing sweep; --emit and --engine slurm use this");
+  visit.other_place = copied_sweep;
   visit("--index", o.index, options::number<int>("N", 0, 1e9, "the number of a run, from 0"),
         "Number of the run");
   visit("--beginning", o.beginning, options::text("N", "2"),
@@ -302,6 +303,7 @@ void describe(options::Command& visit, SweepRunOptions& o) {
 
 void describe(options::Command& visit, CollectOptions& o) {
   visit.about("sweep collect", "Make table, sheets and report from the finished runs of a sweep");
+  visit.other_place = copied_sweep;
   options::describe_movie(visit, o.movie);
   visit("--review", o.has_review, review_help);
   describe_folder(visit, o);

@@ -12,6 +12,7 @@
 #include "app/support/json.h"
 #include "app/support/progress.h"
 #include "app/sweep/plan/selection.h"
+#include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/sheet/collect.h"
 #include "app/sweep/store/stars.h"
 
@@ -50,6 +51,7 @@ void describe(options::Command& visit, StarOptions& o) {
   visit.about("sweep star",
               "Give runs of a sweep a star and a note, which stay with it: on tiles, in the table, "
               "the report and starred.png; without RUNS, list them");
+  visit.other_place = plan::copied_sweep;
   visit("DIR", o.folder, options::text(""), "Output folder of a sweep").required();
   visit("RUNS", o.runs, options::text("RUNS", "3,7-9"),
         "Numbers of tiles, as the sheet and the report have them");

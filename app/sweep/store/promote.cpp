@@ -63,6 +63,7 @@ fs::path path_of(const PromoteOptions& options, const Manifest& manifest) {
 void describe(options::Command& visit, PromoteOptions& o) {
   visit.about("sweep promote",
               "Write the scene of a tile in its own resolution, with the comments of its file");
+  visit.other_place = "name another file with --out";
   visit("DIR", o.folder, options::text(""), "Output folder of a sweep").required();
   visit("RUN", o.run, options::number<int>("N", 0, 1e9, "the number of a run, from 0"),
         "Number of the tile, as the sheet and the report have it")
