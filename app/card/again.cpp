@@ -1,6 +1,8 @@
 #include "app/card/again.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
@@ -43,6 +45,19 @@ Source source_of(const Json& json, const timeline::Origin& origin,
   return source;
 }
 
+/// Nothing where there is no such text, or no PNG that can be read.
+std::optional<std::string> text_in(const std::filesystem::path& picture, const char* name) {
+  try {
+    const render::PngText texts = render::read_png_text(output::read_file(picture));
+    const auto found = texts.find(name);
+    return found == texts.end() ? std::nullopt : std::optional(found->second);
+  } catch (const render::ImageError&) {
+    return std::nullopt;
+  } catch (const IoError&) {
+    return std::nullopt;
+  }
+}
+
 /// Names of scenes may have blanks and signs.
 std::string plain(std::string name) {
   for (char& c : name)
@@ -76,6 +91,16 @@ render::PngText texts_of(const std::vector<Source>& sources) {
   render::PngText text = record::to_png_text(record);
   text[key] = to_text(cards, -1);
   return text;
+}
+
+bool is_card(const std::filesystem::path& picture) {
+  return text_in(picture, key).has_value();
+}
+
+bool shows_cards(const std::filesystem::path& picture, const render::PngText& texts) {
+  return std::ranges::all_of(std::array{key, "neve:files"}, [&](const char* name) {
+    return text_in(picture, name) == texts.at(name);
+  });
 }
 
 std::vector<Source> cards_in(const timeline::Origin& origin,

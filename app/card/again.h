@@ -1,6 +1,7 @@
 #pragma once
 /// Cards as texts of their picture, and cards that are made again from one.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,13 @@ namespace neve::app::card {
 
 /// As of a picture of the first scene, with the scenes of all cards.
 render::PngText texts_of(const std::vector<Source>& sources);
+
+/// Whether a file is a picture made by neve card.
+bool is_card(const std::filesystem::path& picture);
+
+/// Whether a picture shows the same cards: made again they are the same.
+/// @param texts  of theirs, see texts_of()
+bool shows_cards(const std::filesystem::path& picture, const render::PngText& texts);
 
 /// The cards of a picture; none where it shows no cards.
 /// @param origin     of the picture

@@ -35,6 +35,9 @@ void describe(options::Command& visit, CardOptions& o) {
   visit("--out", o.out, options::text("PNG", "card.png", check_picture),
         "Write to this file instead of out/<title>/card.png; the numbers go beside it, in a file "
         "of its name that ends in .json");
+  visit("--replace", o.replaces,
+        "Replace an earlier card in out/<title> that is of other scenes or settings; without it "
+        "neve says what would go and stops");
   options::describe_threads(visit, o.threads);
   options::describe_backend(visit, o.backend);
   run::describe_agreement(visit, o.is_agreed);

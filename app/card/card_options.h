@@ -16,6 +16,7 @@ struct CardOptions {
   std::vector<std::string> overrides;
   std::vector<std::string> materials;  ///< by name; empty: all that bodies and emitters have
   std::string out;                     ///< a PNG; empty: out/<title>/card.png
+  bool replaces = false;               ///< an earlier card that is another one
   int threads = 0;                     ///< 0: one per core
   std::string backend = "auto";
   bool is_json = false;

@@ -52,6 +52,41 @@ Json json_of(const std::vector<Card>& cards) {
   return json;
 }
 
+/// Whether a file has the numbers of cards.
+bool has_numbers(const fs::path& file) {
+  try {
+    const Json json = parse_json(output::read_file(file));
+    return json.is_object() && json.contains("version") && json.contains("cards");
+  } catch (const nlohmann::json::exception&) {
+    return false;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+/// A card that is made again loses nothing, and a picture of --out was named by a person.
+/// @param texts  of the picture to come
+void refuse_loss(const CardOptions& options, const fs::path& picture, const fs::path& numbers,
+                 const render::PngText& texts) {
+  std::error_code error;
+  const bool is_named = !options.out.empty();
+  std::vector<std::string> lost;
+  const auto look_at = [&](const fs::path& file, bool is_ours) {
+    if (!fs::exists(file, error)) return;
+    if (!is_ours)
+      throw UsageError("", file.string() + " was not made by neve card; this one would replace it",
+                       "move it away, or name another file with --out");
+    lost.push_back(file.string());
+  };
+  if (!is_named) look_at(picture, is_card(picture));
+  look_at(numbers, has_numbers(numbers));
+  if (options.replaces || is_named || lost.empty() || shows_cards(picture, texts)) return;
+  throw UsageError("",
+                   "there is a card of other scenes or settings; this one would replace " +
+                       joined(lost, " and "),
+                   "add --replace, or name another file with --out");
+}
+
 }  // namespace
 
 int run(const CardOptions& options) {
@@ -61,6 +96,8 @@ int run(const CardOptions& options) {
   const fs::path picture = options.out.empty() ? out_folder() / folder_name(sources) / "card.png"
                                                : fs::path(options.out);
   const fs::path numbers = fs::path(picture).replace_extension(".json");
+  const render::PngText texts = texts_of(sources);
+  refuse_loss(options, picture, numbers, texts);
   catch_interrupts();
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
   // A missing backend is found before the experiments.
@@ -74,11 +111,12 @@ int run(const CardOptions& options) {
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, {}, &pool);
   const Json json = json_of(cards);
-  const std::vector<std::uint8_t> png =
-      render::encode_png(draw_cards(cards, renderer), texts_of(sources));
+  const std::vector<std::uint8_t> png = render::encode_png(draw_cards(cards, renderer), texts);
   if (picture.has_parent_path()) output::make_folder(picture.parent_path());
-  output::write_among_others(picture, png);
-  output::write_file(numbers, to_text(json) + "\n");
+  const std::string text = to_text(json) + "\n";
+  output::write_together(
+      {{numbers, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}},
+       {picture, png}});
   if (options.is_json) {
     std::cout << to_text(json) << "\n";
   } else if (options.verbosity != Verbosity::quiet) {

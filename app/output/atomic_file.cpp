@@ -116,6 +116,34 @@ void write_among_others(const std::filesystem::path& path, std::string_view text
   write_file(path, text);
 }
 
+void write_together(const std::vector<FileToWrite>& files) {
+  for (const FileToWrite& file : files) {
+    refuse_special(file.path);
+    remove_abandoned(file.path.parent_path());
+  }
+  std::vector<std::filesystem::path> temporaries;
+  const auto remove_temporaries = [&] {
+    for (const std::filesystem::path& temporary : temporaries) ::unlink(temporary.c_str());
+  };
+  try {
+    for (const FileToWrite& file : files) {
+      temporaries.push_back(temporary_name(file.path));
+      Descriptor to(open_temporary(temporaries.back()));
+      if (to.get() < 0) fail_writing(file.path, "cannot create", errno);
+      int reason = write_all(to.get(), file.bytes);
+      const int close_reason = to.close();
+      if (reason == 0) reason = close_reason;
+      if (reason != 0)
+        fail_writing(file.path, "cannot write " + std::to_string(file.bytes.size()) + " bytes",
+                     reason);
+    }
+    for (std::size_t k = 0; k < files.size(); ++k) rename_or_fail(temporaries[k], files[k].path);
+  } catch (...) {
+    remove_temporaries();
+    throw;
+  }
+}
+
 void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path) {
   try {
     refuse_special(path);

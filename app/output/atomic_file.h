@@ -28,6 +28,14 @@ void write_file(const std::filesystem::path& path, std::string_view text,
 void write_among_others(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_among_others(const std::filesystem::path& path, std::string_view text);
 
+struct FileToWrite {
+  std::filesystem::path path;
+  std::span<const std::uint8_t> bytes;
+};
+/// The same of files that belong together: all are whole before the first has its name, so that a
+/// full disk leaves none of them, or the earlier ones. @throws IoError
+void write_together(const std::vector<FileToWrite>& files);
+
 /// Sets up a temporary file before it replaces another one. @return 0 or errno
 using Prepare = std::function<int(int fd)>;
 

@@ -73,6 +73,32 @@ TEST(AtomicFile, AtomicFileOnAFullDiskKeepsTheOldFileAndSaysWhy) {
   EXPECT_EQ(file_count(folder.path()), 1u);
 }
 
+TEST(AtomicFile, FilesThatBelongTogetherAreAllWrittenOrNone) {
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> small(10, 'a'), large(100, 'b');
+  const auto write = [&](const char* second) {
+    app::output::write_together({{folder / "a.json", small}, {folder / second, large}});
+  };
+  const auto fails = [&](const char* second) {
+    try {
+      write(second);
+    } catch (const app::IoError&) {
+      return 0;
+    }
+    return 1;
+  };
+  EXPECT_EQ(run_with_file_limit(50, [&] { return fails("b.png"); }), 0);
+  EXPECT_EQ(file_count(folder.path()), 0u);
+  std::filesystem::create_directory(folder / "folder.png");
+  EXPECT_EQ(fails("folder.png"), 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.json"));
+  write("b.png");
+  EXPECT_EQ(read_text(folder / "a.json"), std::string(10, 'a'));
+  EXPECT_EQ(read_text(folder / "b.png"), std::string(100, 'b'));
+  EXPECT_EQ(run_with_file_limit(50, [&] { return fails("b.png"); }), 0);
+  EXPECT_EQ(read_text(folder / "b.png"), std::string(100, 'b'));
+}
+
 TEST(AtomicFile, AtomicFileFailsInFoldersThatCannotHoldIt) {
   const TemporaryFolder folder;
   folder.write("file", "x");

@@ -40,6 +40,49 @@ TEST_F(CardCommand, WritesAPictureAndNumbers) {
   EXPECT_NE(info.output.find("model = \\\"cam_clay\\\""), std::string::npos) << info.output;
 }
 
+TEST_F(CardCommand, AnotherCardIsReplacedOnlyWhenAskedFor) {
+  const auto card = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"card", "--preset", "quick", "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words);
+  };
+  ASSERT_EQ(card({}).exit_code, 0);
+  const std::string first = read_text(folder / "out/quick/card.png");
+  const std::string numbers = read_text(folder / "out/quick/card.json");
+  const auto other = card({"--set", "material.snow.hardening=6"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_EQ(other.errors,
+            "neve: error: there is a card of other scenes or settings; this one would replace "
+            "out/quick/card.png and out/quick/card.json; add --replace, or name another file with "
+            "--out\n");
+  EXPECT_EQ(read_text(folder / "out/quick/card.png"), first);
+  EXPECT_EQ(read_text(folder / "out/quick/card.json"), numbers);
+  // Made again it loses nothing.
+  EXPECT_EQ(card({}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / "out/quick/card.png"), first);
+  ASSERT_EQ(card({"--set", "material.snow.hardening=6", "--replace"}).exit_code, 0);
+  EXPECT_NE(read_text(folder / "out/quick/card.png"), first);
+  // Nobody has named the file of numbers.
+  folder.write("notes.json", "{}\n");
+  const auto beside = card({"--out", "notes.png"});
+  EXPECT_EQ(beside.exit_code, 2);
+  EXPECT_TRUE(contains(beside.errors, "notes.json was not made by neve card; ")) << beside.errors;
+  folder.write("out/quick/card.png", "mine");
+  EXPECT_EQ(card({"--replace"}).exit_code, 2);
+  EXPECT_EQ(read_text(folder / "out/quick/card.png"), "mine");
+}
+
+TEST_F(CardCommand, LeavesNoPictureWithoutItsNumbers) {
+  // The numbers fit, the picture does not.
+  const auto full = app::output::run_process(
+      "/bin/bash",
+      {"-c", "ulimit -f 200; exec '" NEVE_BINARY "' card --preset quick --out b/card.png -q"},
+      folder.path());
+  EXPECT_EQ(full.exit_code, 6) << full.errors;
+  EXPECT_TRUE(contains(full.errors, "b/card.png: cannot write")) << full.errors;
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "b"));
+}
+
 TEST_F(CardCommand, AnswersMistakesBeforeItBegins) {
   expect_refused({"--preset", "wett"}, "did you mean wet?");
   expect_refused({"--preset", "wet", "--out", "card"}, "expected a file that ends in .png");
