@@ -10,6 +10,7 @@
 #include "app/output/atomic_file.h"
 #include "app/picture/collider_looks.h"
 #include "app/predict/predict.h"
+#include "app/record/picture_record.h"
 #include "app/run/render_job.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/override.h"
@@ -18,6 +19,7 @@
 #include "app/support/interrupt.h"
 #include "app/support/json.h"
 #include "app/support/text.h"
+#include "app/support/version.h"
 #include "render/gl/context.h"
 #include "render/image/image.h"
 #include "render/renderer.h"
@@ -182,7 +184,13 @@ void write_open_edges(const run::RenderOptions& options, const scene::Scene& sce
   }
   const auto context = render::gl::open_context(options.backend);
   render::Renderer renderer(*context, options.shader_dir, nullptr);
-  output::write_file(options.open_edges, render::encode_png(renderer.draw(*frame)));
+  record::SheetRecord record;
+  record.what = "the open meshes of a scene";
+  record.version = version;
+  record.scenes = {{"scene", scene::write_scene(scene)}};
+  record.again = "neve check SCENE --open-edges FILE.png";
+  output::write_file(options.open_edges,
+                     render::encode_png(renderer.draw(*frame), record::to_png_text(record)));
 }
 
 predict::Prediction predicted(const run::RenderJob& job, const health::Check& check,

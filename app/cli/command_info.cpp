@@ -63,6 +63,28 @@ void print_picture(const record::PictureRecord& record, const std::string& pictu
   std::cout << printable_text(out.str());
 }
 
+/// The file may be from anyone.
+void print_sheet(const record::SheetRecord& sheet, const std::string& path, bool is_json) {
+  if (is_json) {
+    Json json{{"sheet", sheet.what}, {"version", sheet.version}, {"lines", sheet.lines}};
+    if (!sheet.again.empty()) json["again"] = sheet.again;
+    for (const record::SheetRecord::Scene& scene : sheet.scenes)
+      json["scenes"].push_back({{"name", scene.name}, {"scene", scene.text}});
+    std::cout << to_text(json) << "\n";
+    return;
+  }
+  const std::string again = sheet.again.empty()
+                                ? "neve sweep collect " + shell_path(sweep_of(path).string()) +
+                                      " draws it from the pictures of the runs"
+                                : sheet.again;
+  std::string text = "neve        " + sheet.version + "\n" +
+                     (sheet.again.empty() ? "sheet       " : "picture     ") + sheet.what + "\n" +
+                     joined(sheet.lines, "\n") + "\n" + "again       " + again + "\n";
+  for (const record::SheetRecord::Scene& scene : sheet.scenes)
+    text += "\n# " + scene.name + "\n" + scene.text;
+  std::cout << printable_text(text);
+}
+
 Json read_run(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = output::read_json_bytes(file);
   try {
@@ -169,16 +191,7 @@ int run_info(const PlainOptions& options) {
   }
   require_picture(path, "neve info");
   if (const auto sheet = record::read_sheet_record(path)) {
-    if (options.is_json)
-      std::cout << to_text({{"sheet", sheet->what},
-                            {"version", sheet->version},
-                            {"lines", sheet->lines}})
-                << "\n";
-    else
-      std::cout << printable_text(
-          "neve        " + sheet->version + "\n" + "sheet       " + sheet->what + "\n" +
-          joined(sheet->lines, "\n") + "\n" + "again       neve sweep collect " +
-          shell_path(sweep_of(path).string()) + " draws it from the pictures of the runs\n");
+    print_sheet(*sheet, path, options.is_json);
     return exit_ok;
   }
   const record::PictureRecord record = record::read_picture_record(path);

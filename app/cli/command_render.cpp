@@ -34,6 +34,7 @@
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
+#include "app/support/version.h"
 #include "app/timeline/origin.h"
 #include "render/gl/context.h"
 #include "render/overlay/font_cover.h"
@@ -140,7 +141,16 @@ int compare_with_reference(const run::RenderOptions& options, const run::RenderJ
     return exit_ok;
   }
   const std::filesystem::path file = job.folder / "difference.png";
-  output::write_file(file, render::encode_png(render::difference_image(picture, reference)));
+  record::SheetRecord record;
+  record.what = "the difference of a picture and its reference";
+  record.version = version;
+  record.add("reference", options.reference);
+  record.add("frame", std::to_string(scene::number_of(job.scene, job.frames.last)));
+  for (const std::string& change : job.overrides) record.add("override", change);
+  record.scenes = {{"scene", scene::write_scene(job.scene)}};
+  record.again = "neve render with --reference draws it where the pictures differ";
+  output::write_file(file, render::encode_png(render::difference_image(picture, reference),
+                                              record::to_png_text(record)));
   throw Error(exit_check_failed,
               fmt::format("the picture differs from {}: {}; see {}", options.reference, found,
                           file.string()),

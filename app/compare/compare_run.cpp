@@ -1,13 +1,19 @@
 #include "app/compare/compare_run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "app/compare/pair_pictures.h"
 #include "app/compare/target.h"
 #include "app/output/read_picture.h"
 #include "app/record/picture_record.h"
+#include "app/scene/live_change.h"
+#include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
+#include "app/support/text.h"
+#include "app/support/version.h"
 #include "render/gl/context.h"
 
 namespace neve::app::compare {
@@ -45,6 +51,42 @@ setup::FrameRange drawn_frames(const Pair& pair, const Target& target) {
   if (target.kind() == TargetKind::picture && !target.has(Mode::metrics))
     frames.first = frames.last;
   return frames;
+}
+
+/// The options of a picture, as they are written.
+std::string option_words(const PairOptions& options, Mode mode) {
+  if (mode == Mode::metrics) return {};
+  std::string words;
+  if (!options.view.empty()) words += " --view " + options.view;
+  if (options.size)
+    words += fmt::format(" --size {}x{}", options.size->width, options.size->height);
+  if (mode == Mode::wipe) words += fmt::format(" --wipe {}", options.wipe);
+  if (mode == Mode::displacement && options.range)
+    words += fmt::format(" --range {}", *options.range);
+  return words;
+}
+
+/// What made the picture of a mode.
+render::PngText text_of(const PairOptions& options, Mode mode, std::optional<int> frame,
+                        const Pair* pair) {
+  record::SheetRecord record;
+  record.what =
+      std::string("a comparison of two ") + (pair ? "runs" : "pictures") + ", " + name(mode);
+  record.version = version;
+  const auto add_side = [&](const char* name, const std::string& path, const Side* side) {
+    record.add(name, path + (side && !side->values.empty() ? "   " + side->values : ""));
+    if (!side) return;
+    for (const scene::LiveChange& change : side->job.changes)
+      record.add(std::string("changed ") + name, scene::text_of(change));
+    record.scenes.push_back({name, scene::write_scene(side->job.scene)});
+  };
+  add_side("A", options.a, pair ? &pair->a : nullptr);
+  add_side("B", options.b, pair ? &pair->b : nullptr);
+  if (frame) record.add("frame", std::to_string(*frame));
+  record.again = "neve compare " + shell_path(options.a) + " " + shell_path(options.b) +
+                 " --mode " + name(mode) + (frame ? fmt::format(" --frames {0}-{0}", *frame) : "") +
+                 option_words(options, mode) + " --out FILE.png";
+  return record::to_png_text(record);
 }
 
 class PairRun {
@@ -116,8 +158,12 @@ class PairRun {
       painter.take(a, b, target_.modes(), result_.moments.back());
       for (const Mode mode : target_.modes())
         if (mode != Mode::metrics)
-          target_.add(mode, result_.moments.back().frame, painter.draw(mode));
+          add_picture(mode, result_.moments.back().frame, painter.draw(mode));
     }
+  }
+
+  void add_picture(Mode mode, int frame, const render::Image& image) {
+    target_.add(mode, frame, image, text_of(options_, mode, frame, &pair_));
   }
 
   /// @return false where it was interrupted
@@ -141,7 +187,8 @@ class PairRun {
     // Interrupted before the first moment, there is nothing to draw.
     if (renderer && !result_.moments.empty())
       picture = draw_series(result_.moments, named(pair_.a), named(pair_.b), *renderer);
-    target_.add_metrics(series_csv(result_.moments), picture);
+    target_.add_metrics(series_csv(result_.moments), picture,
+                        text_of(options_, Mode::metrics, std::nullopt, &pair_));
   }
 
   const PairOptions& options_;
@@ -194,7 +241,8 @@ PairResult compare_plain_pictures(const PairOptions& options) {
   target.add(
       mode, 0,
       with_strip(images, {StripWords{"A   " + options.a, ""}, StripWords{"B   " + options.b, ""}},
-                 "", renderer));
+                 "", renderer),
+      text_of(options, mode, std::nullopt, nullptr));
   PairResult result;
   result.files = target.files();
   return result;

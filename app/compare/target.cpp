@@ -171,13 +171,13 @@ void Target::begin(const setup::FrameRange& frames) {
     if (mode != Mode::metrics) output::make_own_folder(folder_of(mode));
 }
 
-void Target::add(Mode mode, int frame, const render::Image& image) {
+void Target::add(Mode mode, int frame, const render::Image& image, const render::PngText& text) {
   if (!first_) first_ = frame;
   last_ = frame;
   fs::path file = out_;
   if (kind_ == TargetKind::folder) file = output::frame_path(out_, name(mode), frame);
   if (kind_ == TargetKind::movie) file = output::frame_path(scratch_, ".", frame);
-  const output::WrittenFile written = output::write_hashed(file, render::encode_png(image));
+  const output::WrittenFile written = output::write_hashed(file, render::encode_png(image, text));
   if (kind_ != TargetKind::movie) files_.push_back(written);
 }
 
@@ -208,14 +208,15 @@ std::vector<std::string> Target::add_movies(double fps) {
   return warnings;
 }
 
-void Target::add_metrics(const std::string& csv, const std::optional<render::Image>& picture) {
+void Target::add_metrics(const std::string& csv, const std::optional<render::Image>& picture,
+                         const render::PngText& text) {
   if (kind_ == TargetKind::table || kind_ == TargetKind::folder) {
     const fs::path file = kind_ == TargetKind::table ? out_ : out_ / "metrics.csv";
     files_.push_back(output::write_hashed(file, csv));
   }
   if (!picture || kind_ == TargetKind::table) return;
   const fs::path file = kind_ == TargetKind::picture ? out_ : out_ / "metrics.png";
-  files_.push_back(output::write_hashed(file, render::encode_png(*picture)));
+  files_.push_back(output::write_hashed(file, render::encode_png(*picture, text)));
 }
 
 void Target::finish() {

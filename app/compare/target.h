@@ -40,10 +40,12 @@ class Target {
   /// @param frames  numbers of the pictures to come
   /// @throws UsageError where some are of other runs or will not be made again, without --replace
   void begin(const setup::FrameRange& frames);
-  void add(Mode mode, int frame, const render::Image& image);
+  /// @param text  what made it
+  void add(Mode mode, int frame, const render::Image& image, const render::PngText& text);
   /// Movies of all modes. @return warnings @throws IoError where a movie alone cannot be made
   std::vector<std::string> add_movies(double fps);
-  void add_metrics(const std::string& csv, const std::optional<render::Image>& picture);
+  void add_metrics(const std::string& csv, const std::optional<render::Image>& picture,
+                   const render::PngText& text);
   /// Lists the files in compare.json, with their hashes; only in a folder.
   void finish();
 

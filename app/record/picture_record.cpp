@@ -184,17 +184,35 @@ std::optional<SheetRecord> sheet_in(const render::PngText& text, const std::stri
   const Json json = reader.json(sheet_key);
   if (!json.is_object() || !json.value("what", Json()).is_string())
     reader.fail("its text neve:sheet does not say what it is");
-  SheetRecord record{json["what"].get<std::string>(), {}, reader.text("neve:version")};
+  SheetRecord record;
+  record.what = json["what"].get<std::string>();
+  record.version = reader.text("neve:version");
   for (const Json& line : json.value("lines", Json::array()))
     if (line.is_string()) record.lines.push_back(line.get<std::string>());
+  if (const Json again = json.value("again", Json()); again.is_string())
+    record.again = again.get<std::string>();
+  for (const Json& scene : json.value("scenes", Json::array())) {
+    if (!scene.is_object() || !scene.value("name", Json()).is_string() ||
+        !scene.value("scene", Json()).is_string())
+      reader.fail("its text neve:sheet has a scene without a name or a text");
+    record.scenes.push_back({scene["name"].get<std::string>(), scene["scene"].get<std::string>()});
+  }
   return record;
 }
 
 }  // namespace
 
 render::PngText to_png_text(const SheetRecord& record) {
-  return {{sheet_key, to_text({{"what", record.what}, {"lines", record.lines}}, -1)},
-          {"neve:version", record.version}};
+  Json json{{"what", record.what}, {"lines", record.lines}};
+  if (!record.again.empty()) json["again"] = record.again;
+  for (const SheetRecord::Scene& scene : record.scenes)
+    json["scenes"].push_back({{"name", scene.name}, {"scene", scene.text}});
+  return {{sheet_key, to_text(json, -1)}, {"neve:version", record.version}};
+}
+
+void SheetRecord::add(std::string name, const std::string& text) {
+  name.resize(12, ' ');
+  if (!text.empty()) lines.push_back(name + text);
 }
 
 std::optional<SheetRecord> read_sheet_record(const std::filesystem::path& file) {
@@ -210,7 +228,9 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
     throw Error(
         exit_invalid_scene,
         file + ": error: is " + sheet->what +
-            ", not one picture of a run; name a picture of one of its runs, as in runs/0000",
+            (sheet->again.empty()
+                 ? ", not one picture of a run; name a picture of one of its runs, as in runs/0000"
+                 : ", not a picture of a run; name one that neve render wrote"),
         file, "neve info says more of it");
   const TextReader reader(file, text);
   PictureRecord record;

@@ -43,11 +43,20 @@ struct PictureRecord {
   std::vector<std::string> cards;            ///< titles of a picture made by neve card
 };
 
-/// Of a picture that is put together from pictures of several runs.
+/// Of a picture that is no picture of one run: a sheet of several, a comparison, a slate.
 struct SheetRecord {
+  struct Scene {
+    std::string name, text;  ///< "A", resolved TOML
+  };
   std::string what;                ///< "a contact sheet of 12 runs"
   std::vector<std::string> lines;  ///< "scene       drop.toml": of what, as `neve info` prints it
   std::string version;
+  std::vector<Scene>
+      scenes;         ///< that it shows; none in sheets, whose runs have pictures with theirs
+  std::string again;  ///< what makes it again; "" in sheets, which know no folder
+
+  /// A line of a short name and a text; none for an empty text.
+  void add(std::string name, const std::string& text);
 };
 
 render::PngText to_png_text(const SheetRecord& record);

@@ -176,9 +176,26 @@ std::vector<output::Picture> Drawing::draw_slates(const record::RunRecord& recor
     const render::Image like = output::read_picture(output::frame_path(job_.folder, view, first));
     slates.push_back({output::frame_path(job_.folder, view, first - 1),
                       draw_slate(job_.scene, {first - 1, view, builder_.slate()}, like, renderer_),
-                      {}});
+                      slate_text(view, first - 1)});
   }
   return slates;
+}
+
+/// No record of a picture: there is no frame that makes it again.
+render::PngText Drawing::slate_text(const std::string& view, int number) const {
+  record::SheetRecord slate;
+  slate.what = "a slate";
+  slate.version = record_.version;
+  slate.add("build", record_.build);
+  slate.add("view", view);
+  slate.add("number", std::to_string(number));
+  slate.add("quality", record_.quality);
+  for (const std::string& change : record_.overrides) slate.add("override", change);
+  for (const scene::LiveChange& change : record_.changes)
+    slate.add("changed", scene::text_of(change));
+  slate.scenes = {{"scene", record_.scene}};
+  slate.again = "neve render draws it before the first picture of the view";
+  return record::to_png_text(slate);
 }
 
 record::PictureRecord Drawing::record_of(const std::string& view) const {

@@ -60,6 +60,7 @@ class Drawing {
   output::WriteTask draw_channels(const picture::MotionSource& source, const render::Frame& frame,
                                   const std::vector<render::Frame>& moments);
   record::PictureRecord record_of(const std::string& view) const;
+  render::PngText slate_text(const std::string& view, int number) const;
   output::Picture picture_of(const std::string& view, render::Image image) const;
 
   const RenderJob& job_;

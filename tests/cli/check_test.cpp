@@ -86,6 +86,7 @@ TEST_F(Check, MeshesThatAreNotPlainAreSaidByCheckAndByTheRun) {
   const std::string open = cube_text(0);
   expect(said(open.substr(0, open.rfind("f "))), "filled by winding numbers, with 4 open edges");
   EXPECT_EQ(neve({"check", "mesh.toml", "--open-edges", "holes.png"}).exit_code, 0);
+  EXPECT_TRUE(contains(neve({"info", "holes.png"}).output, "the open meshes of a scene\n"));
   const render::Image holes = render::decode_png(app::output::read_file(folder / "holes.png"));
   int red = 0;
   for (std::size_t i = 0; i + 2 < holes.pixels.size(); i += 3)

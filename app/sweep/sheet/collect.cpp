@@ -129,10 +129,7 @@ render::PngText origin_of(const store::Manifest& manifest, const std::string& ki
   const auto number = [](std::size_t count) { return std::to_string(count); };
   record.what = "a " + kind + " of " + number(manifest.runs.size()) +
                 (manifest.runs.size() == 1 ? " run" : " runs");
-  const auto add = [&](std::string name, const std::string& text) {
-    name.resize(12, ' ');
-    if (!text.empty()) record.lines.push_back(name + text);
-  };
+  const auto add = [&](const char* name, const std::string& text) { record.add(name, text); };
   const auto file_name = [](const std::string& file) { return fs::path(file).filename().string(); };
   add("title", manifest.title);
   add("scene", file_name(manifest.scene_file));
