@@ -1,5 +1,7 @@
 #include "app/run/render_run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "app/health/incident.h"
@@ -358,9 +360,28 @@ bool RenderRun::go_to_frame(int frame) {
   return advanced.is_reached;
 }
 
+/// A picture that is made again as it was says which state it shows.
+void RenderRun::compare_with_picture(int frame, std::uint64_t state_hash) {
+  const std::optional<record::PictureRecord>& picture = job_.picture;
+  if (!picture || picture->state_hash.empty() ||
+      scene::number_of(job_.scene, frame) != picture->frame ||
+      job_.overrides.size() != picture->overrides.size() ||
+      job_.coarsening != picture->coarsening ||
+      picture->state_hash == record::hash_text(state_hash))
+    return;
+  std::string warning = fmt::format(
+      "{} shows state {}, and its scene reached state {}: it was made by another version of neve, "
+      "from other files, or changed since",
+      job_.scene_file, picture->state_hash, record::hash_text(state_hash));
+  progress_.warning(warning);
+  told_before_.push_back(std::move(warning));
+  note_warnings();
+}
+
 void RenderRun::draw_frame(int frame) {
   const auto start = Clock::now();
   const std::uint64_t state_hash = timeline_.simulation().state_hash();
+  compare_with_picture(frame, state_hash);
   const picture::Snapshot snapshot = drawing_.read(timeline_, state_hash);
   const sim::AdvanceReport advance = timeline_.here().advance;
   sim::Summary summary = timeline_.summary();

@@ -76,6 +76,7 @@ class RenderRun {
   Advanced simulate_to(int frame);
   /// Lets the next frame be simulated while this one is drawn, where there are cores for both.
   void begin_next(int frame);
+  void compare_with_picture(int frame, std::uint64_t state_hash);
   void draw_frame(int frame);
   bool checkpoint_is_due(int frame) const;
   void write_checkpoint();

@@ -1,5 +1,7 @@
 /// Pictures that are put together from others say what they are.
 
+#include "app/output/atomic_file.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -96,6 +98,31 @@ TEST_F(Origins, ASlateAndADifferenceCarryTheirScene) {
                            "reference   a/particles/0000.png\n", "\n# scene\n"})
     EXPECT_TRUE(contains(difference.output, part)) << part << "is missing in\n"
                                                    << difference.output;
+}
+
+TEST_F(Origins, APictureWhoseStateIsNotReachedAgainIsWarnedOf) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "a", "--frames", "1-1", "--no-movie"}).exit_code,
+            0);
+  const auto again = [&] {
+    return neve({"render", "a/particles/0001.png", "--out", "b", "--yes"});
+  };
+  EXPECT_FALSE(contains(again().errors, "reached state")) << again().errors;
+  // As of a program whose steps were others.
+  const std::vector<std::uint8_t> bytes = app::output::read_file(folder / "a/particles/0001.png");
+  render::PngText text = render::read_png_text(bytes);
+  text.at("neve:state_hash") = "0123456789abcdef";
+  app::output::write_file(folder / "a/particles/0001.png",
+                          render::encode_png(render::decode_png(bytes), text));
+  std::filesystem::remove_all(folder / "b");
+  const auto other = again();
+  EXPECT_EQ(other.exit_code, 0) << other.errors;
+  EXPECT_TRUE(contains(other.errors, "shows state 0123456789abcdef, and its scene reached state "))
+      << other.errors;
+  EXPECT_EQ(json_of("b/run.json")["warnings"].size(), 1u);
+  // Of another parameter it says nothing.
+  const auto changed =
+      neve({"render", "a/particles/0001.png", "--out", "c", "--set", "material.snow.hardening=3"});
+  EXPECT_FALSE(contains(changed.errors, "reached state")) << changed.errors;
 }
 
 TEST_F(Origins, ACardIsNoPictureOfARun) {
