@@ -9,7 +9,7 @@
 /// ASFLIP particles move with beta of that, AFLIP particles with nothing of it.
 /// A collider that holds on to a particle takes what it holds of the particle's own velocity: the
 /// grid does not see that velocity, and an answer to it would strain snow by what it does not feel,
-/// again and again.
+/// again and again. Where there are several, each takes of what the others left.
 /// The impulses are found by a projected Jacobi iteration
 ///   j_p <- project(j_p + (wanted - v_p) / D_p),  D_p = sum_i w_ip c_i / m_i,  c_i = sum_q w_iq
 /// with c over the particles in contact. D is the sum of a row of the system, not its diagonal: a

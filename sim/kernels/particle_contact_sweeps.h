@@ -189,16 +189,19 @@ struct ContactSweepsFor {
         const V kept = load_candidates(a, block, q, count, p, storage);
         s.template set<false, false>(0, p.offset, p.cell);
         const FourWords<V> on_grid = gathered(s, v_free);
-        Velocities v{{on_grid.w[0], on_grid.w[1], on_grid.w[2]}, {}, kept};
+        Velocities v{{on_grid.w[0], on_grid.w[1], on_grid.w[2]}, {}, {}, kept};
         if (keeps) {
           const FourWords<V> changed = gathered(s, change);
           for (int x = 0; x < 3; ++x) v.own[x] = p.v[x] - (on_grid.w[x] - changed.w[x]);
         }
+        v.came = v.own;
         FourWords<V> given{};  // impulses to begin with, and 1 per contact
         const I is_used = first_lanes<I>(static_cast<int>(count - q));
+        Contact<Real>* const first = to;
         for (int k = 0; k < near.colliders.count; ++k)
           add_contacts(a, p, storage, block.key, v, is_used, near.colliders.local[k], near.index[k],
                        to, given);
+        if (any_lane(given.w[3] > all<V>(1))) give_own(v, storage, first, to);
         scatter(s, given, static_cast<int>(smaller<Index>(W, count - q)), tile);
       }
       a.counts[b] = static_cast<Index>(to - (a.contacts + a.first[b]));
@@ -207,8 +210,22 @@ struct ContactSweepsFor {
 
   struct Velocities {
     Vec3<V> of_grid, own;
-    V kept;  ///< share of its own that the particle moves with beside that of the grid
+    Vec3<V> came;  ///< own, before colliders took of it
+    V kept;        ///< share of its own that the particle moves with beside that of the grid
   };
+
+  /// A particle at several surfaces moves with one velocity: its contacts get what all of them
+  /// left.
+  /// @param first, end  contacts of the particles `storage`
+  NEVE_NOINLINE static void give_own(const Velocities& v, const Index* storage,
+                                     Contact<Real>* first, const Contact<Real>* end) {
+    const Vec3<V> own = v.own * v.kept;
+    for (; first != end; ++first) {
+      int l = 0;
+      while (storage[l] != static_cast<Index>(first->particle)) ++l;
+      for (int x = 0; x < 3; ++x) first->own[x] = own[x][l];
+    }
+  }
 
   /// What particles remember of a collider.
   struct Memory {
@@ -272,9 +289,10 @@ struct ContactSweepsFor {
 
   /// Finds the particles of a batch that would come nearer to a collider than they may, and those
   /// that it pressed or held in the last step.
+  /// @param v  loses what the collider takes: the next one finds the rest
   /// @param given  gets what they begin with, and 1 in their lanes
   NEVE_INLINE static void add_contacts(const Args& a, const Batch& p, const Index* storage,
-                                       std::uint64_t key, const Velocities& v, const I& is_used,
+                                       std::uint64_t key, Velocities& v, const I& is_used,
                                        const LocalCollider<Real>& collider, Integer<Real> index,
                                        Contact<Real>*& to, FourWords<V>& given) {
     const StepConstants<Real>& c = a.step.constants;
@@ -294,7 +312,7 @@ struct ContactSweepsFor {
                   : normal * dot(v.own, normal);
     const Vec3<V> own = (v.own - lost) * v.kept;
     // What stops a particle by its own velocity alone is a contact, too.
-    const V v_n = dot(v.of_grid + (lets_go ? v.own * v.kept : own) - surface, normal);
+    const V v_n = dot(v.of_grid + (lets_go ? v.came * v.kept : own) - surface, normal);
     const I is_seeded = memory.touches != touching;
     const I is_near = gap <= all<V>(static_cast<Real>(touching_slack) * c.h);
     // In the solve, elasticity may yet bring to it what is near.
@@ -330,6 +348,7 @@ struct ContactSweepsFor {
     if (a.is_before_solve) guess(a, p, contact);
     store(contact, bits, to);
     for (int x = 0; x < 3; ++x) {
+      v.own[x] = is_contact ? v.own[x] - lost[x] : v.own[x];
       const V impulse = contact.normal[x] * contact.impulse + contact.sliding[x];
       given.w[x] += is_contact ? impulse : V{};
     }
