@@ -187,6 +187,7 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
   const EnergyAccount account =
       has_new_accounts ? energy_account(before, progress.energy, found) : EnergyAccount{};
   const double longest_before = longest_step(before, progress.limits);
+  const double met_before = state.fastest_near(0, state.particles.size());
 
   if (!settings.is_contact_at_particles() || !are_the_same(state.colliders.list(), colliders))
     state.particles.contacts.forget();
@@ -201,11 +202,13 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
   if (has_new_stress) recompute_stress(is_changed, state);
   if (has_new_affine && state.method.fits_affine_velocity() && state.particles.size() > 0)
     StillGrid<Real>(state).fit_affine_velocities();
-  state.note_near_colliders();
   if (has_new_accounts) rebase_energy(before, account, found, state);
-  // Which step is too short was said by the parameters of the start.
+  // Which step is too short was said by the parameters of the start: by other colliders, none is.
   const double ratio = longest_step(settings, progress.limits) / longest_before;
   if (std::isfinite(ratio) && ratio > 0) progress.rest_dt *= ratio;
+  // What the step has found stays, unless the change alone gives another speed.
+  const double met = state.fastest_near(0, state.particles.size());
+  if (met != met_before) progress.limits.max_collider_speed = met;
 }
 
 #define NEVE_LIVE_CHANGES(Real)                                             \

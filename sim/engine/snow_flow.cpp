@@ -68,23 +68,27 @@ void account_for(const kernels::Particle<Real>& p, double sign, State<Real>& sta
   energy.start += sign * (state.method.kinetic_energy(p) + state.method.elastic_energy(p));
 }
 
-/// Lets the next dt be short enough for particles that came.
+/// Lets the next dt be short enough for particles [begin, end) that came, and for the colliders
+/// that they may meet.
 template <class Real>
-void include_limits(const kernels::BlockReport<Real>& report, State<Real>& state) {
+void include_limits(const kernels::BlockReport<Real>& report, std::size_t begin, std::size_t end,
+                    State<Real>& state) {
   const SolverSettings& settings = state.method.settings;
   Progress& progress = state.progress;
-  StateLimits born = progress.limits;
+  StateLimits& limits = progress.limits;
+  StateLimits born = limits;
   born.max_speed = std::sqrt(static_cast<double>(report.max_speed_squared));
   born.max_sound_speed = std::sqrt(static_cast<double>(report.max_sound_squared));
   born.max_strain_rate = 0;
+  limits.max_speed = std::max(limits.max_speed, born.max_speed);
+  limits.max_sound_speed = std::max(limits.max_sound_speed, born.max_sound_speed);
+  limits.max_collider_speed = std::max(limits.max_collider_speed, state.fastest_near(begin, end));
+  born.max_collider_speed = limits.max_collider_speed;
   const double rest = std::min(settings.max_dt, stable_dt(settings, born));
   progress.rest_dt = progress.rest_dt > 0 ? std::min(progress.rest_dt, rest) : rest;
   seeding::FlowTotals& flow = progress.flow;
   flow.max_speed = std::max(flow.max_speed, born.max_speed);
   flow.max_sound_speed = std::max(flow.max_sound_speed, born.max_sound_speed);
-  StateLimits& limits = progress.limits;
-  limits.max_speed = std::max(limits.max_speed, born.max_speed);
-  limits.max_sound_speed = std::max(limits.max_sound_speed, born.max_sound_speed);
 }
 
 }  // namespace
@@ -153,7 +157,7 @@ void SnowFlow<Real>::emit(State<Real>& state) {
   const kernels::BlockReport<Real> report = state.refresh(before, after);
   if (report.overflowed > 0) throw std::invalid_argument("an emitter is outside the lattice");
   state.note_touching(before, after);
-  include_limits(report, state);
+  include_limits(report, before, after, state);
 }
 
 /// True if a block may hold particles that go. Blocks are those at the beginning of the last step,

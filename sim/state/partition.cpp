@@ -318,6 +318,18 @@ void Partition::link_node_blocks(ThreadPool& pool, int threads) {
   is_linked_ = true;
 }
 
+/// Neighbours in the storage are mostly of one block.
+std::vector<kernels::BlockRange> Partition::blocks_of(const std::vector<std::uint64_t>& keys,
+                                                      std::size_t begin, std::size_t end) const {
+  std::vector<kernels::BlockRange> blocks;
+  for (std::size_t q = begin; q < end; ++q)
+    if (q == begin || keys[q] != keys[q - 1]) blocks.push_back({wrapped(keys[q]), 0, 0});
+  std::sort(blocks.begin(), blocks.end(), is_before);
+  const auto is_same = [](const auto& a, const auto& b) { return a.key == b.key; };
+  blocks.erase(std::unique(blocks.begin(), blocks.end(), is_same), blocks.end());
+  return blocks;
+}
+
 std::size_t Partition::reached_node_blocks() const {
   if (is_linked_ && !all_.empty() && spray_.clusters().empty()) return node_blocks_.size();
   Union lines, planes, nodes;

@@ -67,6 +67,10 @@ class Partition {
   const std::vector<kernels::ParticleBlock>& blocks() const { return blocks_; }
   const std::vector<kernels::NodeBlock>& node_blocks() const { return node_blocks_; }
   const std::vector<kernels::SprayCluster>& spray() const { return spray_.clusters(); }
+  /// The blocks of particles [begin, end), in order, by their keys alone: whatever was built. Their
+  /// ranges are empty.
+  std::vector<kernels::BlockRange> blocks_of(const std::vector<std::uint64_t>& keys,
+                                             std::size_t begin, std::size_t end) const;
   /// Blocks of nodes that the blocks of all particles reach, those of spray as well.
   std::size_t reached_node_blocks() const;
 

@@ -149,6 +149,13 @@ void State<Real>::note_near_colliders() {
       method.settings.max_dt, progress.limits.max_speed);
 }
 
+template <class Real>
+double State<Real>::fastest_near(std::size_t begin, std::size_t end) const {
+  return colliders.fastest_near(particles.partition.blocks_of(particles.keys, begin, end),
+                                method.lattice, progress.colliders_time, method.settings.max_dt,
+                                progress.limits.max_speed);
+}
+
 /// In double, as the kernels see it: four particles at a time.
 template <class Real>
 void State<Real>::note_touching(std::size_t begin, std::size_t end) {

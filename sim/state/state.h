@@ -45,6 +45,9 @@ struct State {
   void advance_time(double dt);
   /// Makes the speed of colliders that snow may meet a limit of the next step.
   void note_near_colliders();
+  /// Speed of the colliders that particles [begin, end) may meet in the next step, where they are
+  /// now, m/s.
+  double fastest_near(std::size_t begin, std::size_t end) const;
   /// Lets new particles [begin, end) touch colliders where they are: those that lie nearer than
   /// snow rests are not pushed away.
   void note_touching(std::size_t begin, std::size_t end);

@@ -503,4 +503,72 @@ TEST(AppliedCollider, AppliedColliderWaitsWhileItsStageIsSkipped) {
   EXPECT_LT((pose_of(simulation, 1).point - before.point - Vec3d(0, -5e-4, 0)).norm(), 1e-12);
 }
 
+// ---- fast colliders -----------------------------------------------------------------------------
+
+/// A block that lies on a belt of 150 m/s: longer steps than the belt lets it take go 20 times as
+/// far.
+struct Belt {
+  World world;
+
+  Belt() {
+    shapes::Collider belt = plane({0, 0, 0}, {0, 1, 0}, 0);
+    belt.velocity = {150, 0, 0};
+    world.colliders = {belt};
+  }
+  Simulation simulate() const {
+    return world.simulate(box_of_snow({0, 0.003, 0}, {0.1, 0.1, 0.1}, 0.01));
+  }
+  /// A copy that was saved and restored.
+  Simulation again(const Simulation& simulation) const {
+    Simulation copy = world.simulate({});
+    copy.restore(simulation.save());
+    return copy;
+  }
+};
+
+/// Any curve changes a run at every frame; a run that is resumed is changed just after it.
+TEST(AppliedToARestoredRun, TheSpeedOfCollidersIsKept) {
+  Belt belt;
+  Simulation whole = belt.simulate();
+  advance(whole, 20);
+  Simulation again = belt.again(whole);
+  belt.world.settings.gravity = {0, -5, 0};
+  for (Simulation* simulation : {&whole, &again}) {
+    belt.world.apply_to(*simulation);
+    EXPECT_EQ(simulation->step_limits().max_collider_speed, 150);
+    advance(*simulation, 20);
+  }
+  EXPECT_EQ(again.save(), whole.save());
+}
+
+TEST(AppliedToARestoredRun, ANewSpeedIsFoundAsWithoutTheStop) {
+  for (const double speed : {60.0, 300.0}) {
+    Belt belt;
+    Simulation whole = belt.simulate();
+    advance(whole, 20);
+    Simulation again = belt.again(whole);
+    belt.world.colliders[0].velocity = {speed, 0, 0};
+    for (Simulation* simulation : {&whole, &again}) {
+      belt.world.apply_to(*simulation);
+      EXPECT_EQ(simulation->step_limits().max_collider_speed, speed);
+      advance(*simulation, 20);
+    }
+    EXPECT_EQ(again.save(), whole.save());
+  }
+}
+
+/// The step that says that a run has collapsed grew by each change after a stop, 20 times each: in
+/// the fourth the run ended.
+TEST(AppliedToARestoredRun, ManyStopsEndNoRun) {
+  Belt belt;
+  Simulation simulation = belt.simulate();
+  for (int stop = 0; stop < 6; ++stop) {
+    advance(simulation, 1);
+    ASSERT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
+    simulation = belt.again(simulation);
+    belt.world.settings.gravity[1] += 0.1;
+    belt.world.apply_to(simulation);
+  }
+}
+
 }  // namespace

@@ -73,6 +73,24 @@ TEST(TimeStep, CollidersOutOfReachAndThoseThatRestLimitNothing) {
   EXPECT_NEAR(limit_of({40, 0, 0}, -0.16), 0.4 * 0.02 / 40, 1e-12);
 }
 
+/// The first step after a birth: of a body that appears in a scene without snow, and of a stream.
+TEST(TimeStep, FastCollidersLimitTheStepOfSnowThatIsBorn) {
+  shapes::Collider belt = plane({0, 0, 0}, {0, 1, 0}, 0.5);
+  belt.velocity = {80, 0, 0};
+  seeding::Emitter e;
+  e.name = "tap";
+  e.material = "snow";
+  e.shape.form = shapes::Box{{0, 0.05, 0}, {0.1, 0.08, 0.1}};
+  e.velocity = {0, -1, 0};
+  for (const double rate : {0.0, 3.0}) {
+    e.rate = rate;
+    Simulation simulation(SolverSettings{}, {Material{}}, {belt}, {}, 1, neve::sim::Vec3i::Zero(),
+                          {{e}, {}, 1});
+    while (simulation.particle_count() == 0) simulation.step(1e-3);
+    EXPECT_EQ(simulation.step_limits().max_collider_speed, 80) << rate;
+  }
+}
+
 TEST(TimeStep, FastSnowTakesStepsThatItsHardeningCannotOutrun) {
   SolverSettings s;
   StateLimits impact{20, 19.7, 0, 10, 1970};
