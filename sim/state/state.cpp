@@ -61,8 +61,7 @@ template <class Real>
 kernels::SweepArgs<Real> State<Real>::sweep_args(double dt, int channels) {
   kernels::SweepArgs<Real> a{};
   a.constants = method.step_constants(dt);
-  a.constants.colliders = colliders.poses().data();
-  a.constants.collider_count = static_cast<int>(colliders.poses().size());
+  show_colliders(a);
   a.particles = particles.records.data();
   a.particle_count = static_cast<std::uint32_t>(particles.size());
   a.keys = particles.keys.data();
@@ -88,6 +87,13 @@ kernels::SweepArgs<Real> State<Real>::sweep_args(double dt, int channels) {
   a.load_count = static_cast<int>(grid.loads.size());
   a.load_unit = method.load_unit;
   return a;
+}
+
+/// Those in reach where they are now; how many there are changes as they move.
+template <class Real>
+void State<Real>::show_colliders(kernels::SweepArgs<Real>& a) const {
+  a.constants.colliders = colliders.poses().data();
+  a.constants.collider_count = static_cast<int>(colliders.poses().size());
 }
 
 template <class Real>
@@ -200,7 +206,7 @@ double State<Real>::touching_distance(const kernels::Particle<Real>& p) const {
 template <class Real>
 void State<Real>::push_out(kernels::SweepArgs<Real> a) const {
   if (!method.settings.push_out) return;
-  a.constants.colliders = colliders.poses().data();
+  show_colliders(a);
   over_particle_blocks(method.sweeps->push_out, a);
 }
 

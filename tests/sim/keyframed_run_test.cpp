@@ -107,5 +107,26 @@ TEST_F(KeyframedRun, KeyframedRunTakesOtherKeyframesShapesAndMeshesWhileItRuns) 
   EXPECT_FALSE(simulation.divergence());
 }
 
+/// Snow is brought out of the floor also in the step in which another collider, before it in the
+/// list, comes into the reach of the lattice, or leaves it.
+TEST(PushOut, KnowsCollidersThatComeAndGo) {
+  constexpr double dt = 5e-4;
+  for (const double way : {5e5, -5e5}) {
+    SolverSettings settings;
+    settings.push_out = true;
+    shapes::Collider passing;
+    passing.name = "passing";
+    passing.shape.form = shapes::Box{{-1000 - (way > 0 ? way : 0), 0, 0}, {1, 1, 1}};
+    passing.velocity = {way / dt, 0, 0};
+    Simulation simulation(settings, {Material{}},
+                          {passing, test::plane({0, 0.05, 0}, {0, 1, 0}, 0.5)},
+                          test::box_of_snow({0, 0, 0}, {0.1, 0.1, 0.1}, 0.01), 1);
+    EXPECT_GT(simulation.summary().max_depth, 0.04);
+    simulation.step(dt);
+    // Slightly less than the tenth of a cell that settings.h promises, and places are floats.
+    EXPECT_LT(simulation.summary().max_depth, 0.1 * settings.cell_size) << way;
+  }
+}
+
 }  // namespace
 }  // namespace neve::sim
