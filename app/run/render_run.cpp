@@ -333,7 +333,6 @@ bool RenderRun::take_kept(int frame) {
   const auto listed =
       std::ranges::find(made, scene::number_of(job_.scene, frame), &record::FrameRecord::frame);
   seconds_ = listed != made.end() ? listed->seconds_sim : 0;
-  kept_blocks_ = listed != made.end() ? listed->summary.grid_blocks : 0;
   ledger_.record().retries = kept->retries;
   ++ledger_.record().frames_from_states;
   return true;
@@ -344,7 +343,6 @@ bool RenderRun::go_to_frame(int frame) {
     note_warnings();
     return true;
   }
-  kept_blocks_.reset();
   ++result_.simulated;
   const Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
   seconds_ = advanced.seconds;
@@ -384,8 +382,7 @@ void RenderRun::draw_frame(int frame) {
   compare_with_picture(frame, state_hash);
   const picture::Snapshot snapshot = drawing_.read(timeline_, state_hash);
   const sim::AdvanceReport advance = timeline_.here().advance;
-  sim::Summary summary = timeline_.summary();
-  if (kept_blocks_) summary.grid_blocks = *kept_blocks_;
+  const sim::Summary summary = timeline_.summary();
   std::vector<exports::Exporter::Work> exports = ledger_.read_exports(timeline_);
   std::vector<record::BodyRecord> bodies =
       record::bodies_of(timeline_.simulation().colliders(), timeline_.simulation().time());

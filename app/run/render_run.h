@@ -91,13 +91,12 @@ class RenderRun {
   Drawing drawing_;
   std::optional<sim::checks::Watch> laws_;  ///< of --validate
   RenderResult result_;
-  setup::FrameRange frames_;                ///< to draw, counted from 0
-  int newest_checkpoint_ = -1;              ///< of an earlier command that this one adds to
-  bool was_cut_off_ = false;                ///< that command
-  std::vector<std::string> told_before_;    ///< warnings of that command
-  double seconds_ = 0;                      ///< that the simulation of the frame took
-  std::optional<std::size_t> kept_blocks_;  ///< of the grid, of a frame whose state was kept
-  bool is_continued_ = false;               ///< from a checkpoint or a fork
+  setup::FrameRange frames_;              ///< to draw, counted from 0
+  int newest_checkpoint_ = -1;            ///< of an earlier command that this one adds to
+  bool was_cut_off_ = false;              ///< that command
+  std::vector<std::string> told_before_;  ///< warnings of that command
+  double seconds_ = 0;                    ///< that the simulation of the frame took
+  bool is_continued_ = false;             ///< from a checkpoint or a fork
   bool is_mending_ = false;
   bool said_slow_ = false;
   std::atomic<bool> is_abandoned_ = false;  ///< nobody waits for the frame being simulated

@@ -230,7 +230,7 @@ Summary StateReader<Real>::summary() const {
   all.max_pressure = surfaces.max_pressure;
   all.time = state_.progress.time;
   all.particles = count;
-  all.grid_blocks = state_.particles.partition.reached_node_blocks();
+  all.grid_blocks = state_.particles.partition.reached_node_blocks(state_.particles.keys);
   all.emitted = state_.progress.flow.emitted;
   all.removed = state_.progress.flow.removed;
   all.withheld = state_.progress.flow.withheld;

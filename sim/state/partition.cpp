@@ -330,10 +330,10 @@ std::vector<kernels::BlockRange> Partition::blocks_of(const std::vector<std::uin
   return blocks;
 }
 
-std::size_t Partition::reached_node_blocks() const {
-  if (is_linked_ && !all_.empty() && spray_.clusters().empty()) return node_blocks_.size();
+std::size_t Partition::reached_node_blocks(const std::vector<std::uint64_t>& keys) const {
   Union lines, planes, nodes;
-  for (const kernels::BlockRange& block : all_) nodes.keys.push_back(block.key);
+  for (const kernels::BlockRange& block : blocks_of(keys, 0, keys.size()))
+    nodes.keys.push_back(block.key);
   unite(nodes.keys, 2, lines);
   unite(lines.keys, 1, planes);
   unite(planes.keys, 0, nodes);

@@ -71,8 +71,8 @@ class Partition {
   /// ranges are empty.
   std::vector<kernels::BlockRange> blocks_of(const std::vector<std::uint64_t>& keys,
                                              std::size_t begin, std::size_t end) const;
-  /// Blocks of nodes that the blocks of all particles reach, those of spray as well.
-  std::size_t reached_node_blocks() const;
+  /// Blocks of nodes that particles reach, those of spray as well, by their keys alone.
+  std::size_t reached_node_blocks(const std::vector<std::uint64_t>& keys) const;
 
   std::size_t memory_bytes() const;
 

@@ -40,7 +40,7 @@ struct Summary {
   std::size_t particles = 0;
   std::uint64_t emitted = 0, removed = 0;  ///< particles that came and went since the start
   std::uint64_t withheld = 0;              ///< particles of emitters that found no room so far
-  std::size_t grid_blocks = 0;             ///< of 4^3 nodes, in the last step; 0 before the first
+  std::size_t grid_blocks = 0;             ///< of 4^3 nodes that the snow reaches
   double mass = 0;
   double kinetic_energy = 0, elastic_energy = 0;  ///< J
   double affine_energy = 0;                       ///< J, of the kinetic energy: in C

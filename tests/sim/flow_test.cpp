@@ -440,6 +440,26 @@ TEST(Flow, FastSnowDoesNotFlyThroughASink) {
   EXPECT_EQ(simulation.particle_count(), 0u);
 }
 
+/// Also after steps in which a sink took snow, and in a run that was restored.
+TEST(Flow, TheGridIsThatOfTheSnowAtAnyTime) {
+  ParticleArrays block = box_of_snow({0, 0.1, 0}, {0.1, 0.3, 0.1}, 0.01);
+  for (Vec3d& v : block.v) v = {0, -5, 0};
+  Simulation simulation = flowing(without_gravity(), block, {{}, {pit(0)}, 1});
+  int removals = 0;
+  for (std::uint64_t before = 0; simulation.particle_count() > 0;) {
+    simulation.step(1e-3);
+    const Summary now = simulation.summary();
+    if (now.removed > before) ++removals;
+    before = now.removed;
+    Simulation again = flowing(without_gravity(), {}, {{}, {pit(0)}, 1});
+    again.restore(simulation.save());
+    EXPECT_EQ(again.summary().grid_blocks, now.grid_blocks);
+    EXPECT_EQ(now.grid_blocks > 0, now.particles > 0) << now.time;
+  }
+  EXPECT_GT(removals, 3);
+  EXPECT_EQ(simulation.summary().grid_blocks, 0u);
+}
+
 TEST(Flow, AParticleAtTheFarCornerOfItsBlockIsSeen) {
   SolverSettings settings = without_gravity();
   const double h = settings.cell_size;

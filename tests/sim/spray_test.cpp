@@ -92,7 +92,8 @@ double expect_bits_of_the_grid(const SolverSettings& s, const std::vector<Materi
       EXPECT_EQ(off.loads[c].angular_impulse, on.loads[c].angular_impulse);
     }
     const auto& partition = off.state.particles.partition;
-    EXPECT_EQ(partition.reached_node_blocks(), on.state.particles.partition.reached_node_blocks());
+    EXPECT_EQ(partition.reached_node_blocks(off.state.particles.keys),
+              on.state.particles.partition.reached_node_blocks(on.state.particles.keys));
     EXPECT_TRUE(on.state.particles.partition.spray().empty());
     for (const kernels::SprayCluster& cluster : partition.spray())
       spray += cluster.count[0] + cluster.count[1];
