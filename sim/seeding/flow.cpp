@@ -147,6 +147,8 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births, const Ha
   };
   for (const std::uint64_t until = due(state_.waited); state_.born < until; ++state_.born) {
     const double birth = emitter_.start + (static_cast<double>(state_.born) + 0.5) * period;
+    // One that was waiting when the emitter closed is not born: its place would move on and on.
+    if (state_.withheld > 0 && emitter_.end && state_.waited == *emitter_.end - birth) break;
     const double age = std::max(0.0, time - state_.waited - birth);
     const std::optional<Birth> born = next_birth(age, has_room);
     if (!born) {

@@ -605,6 +605,34 @@ TEST(FlowRoom, TheClockOfAnEmitterStopsWhileABirthWaits) {
   EXPECT_NEAR(static_cast<double>(stream.state().withheld), 0.2 / period, 1.01);
 }
 
+/// What is in the way stays until long after. The birth that waited has no place by then: its snow
+/// would have flown on from the shape for as long, and was born far from it.
+TEST(FlowRoom, ABirthThatWaitsWhenItsEmitterClosesIsLeftOut) {
+  seeding::Emitter e = spout(3);
+  e.end = 0.3;
+  const Material snow;
+  const auto none = [](const seeding::Birth&) { return false; };
+  // The last try before the end, at it, and after it; or none between the first and the end.
+  for (const std::vector<double>& tries :
+       {std::vector<double>{0.2, 0.299, 0.301, 0.5}, {0.2, 0.3, 0.5}, {0.4, 0.5}}) {
+    seeding::EmitterStream stream(e, 0, snow, 1, 0.02);
+    std::vector<seeding::Birth> births;
+    stream.advance_to(0.1, births);
+    for (const double t : tries) stream.advance_to(t, births, none);
+    const std::size_t before = births.size();
+    seeding::EmitterStream again(e, 0, snow, 1, 0.02);
+    again.restore(stream.state());
+    for (seeding::EmitterStream* s : {&stream, &again}) {
+      for (const double t : {0.6, 7.0}) s->advance_to(t, births);
+      EXPECT_EQ(births.size(), before);
+      EXPECT_EQ(s->state().born + s->state().withheld, seeding::count_emitted(e, snow, 0.02, 7));
+    }
+  }
+  // Those that nobody looked at before the end were due before it, and are born.
+  seeding::EmitterStream late(e, 0, snow, 1, 0.02);
+  EXPECT_EQ(births_of(late, 0.301).size(), seeding::count_emitted(e, snow, 0.02, 7));
+}
+
 /// A body that appears where half of its shape is full.
 TEST(FlowRoom, AnEmitterThatFillsItsShapeOnceLeavesOutPlacesThatAreFull) {
   const ParticleArrays block = box_of_snow({0, 0, 0}, {0.2, 0.2, 0.2}, 0.01);
