@@ -13,4 +13,8 @@ namespace neve::sim {
 RasterizedNodes rasterize(const Simulation& simulation,
                           const std::vector<std::vector<double>>& values = {});
 
+/// The grid that some of the particles make, as if the others were not there.
+/// @param rows  of Simulation::particles()
+RasterizedNodes rasterize_some(const Simulation& simulation, const std::vector<std::size_t>& rows);
+
 }  // namespace neve::sim

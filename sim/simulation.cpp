@@ -42,7 +42,13 @@ seeding::FlowTotals Simulation::flow_totals() const {
   return stepper_->progress().flow;
 }
 std::vector<std::uint64_t> Simulation::withheld() const {
-  return stepper_->withheld();
+  std::vector<std::uint64_t> counts;
+  for (const seeding::EmitterStream::State& emitter : emitter_states())
+    counts.push_back(emitter.withheld);
+  return counts;
+}
+std::vector<seeding::EmitterStream::State> Simulation::emitter_states() const {
+  return stepper_->emitter_states();
 }
 const Warnings& Simulation::warnings() const {
   return stepper_->progress().warnings;
@@ -137,6 +143,10 @@ EnergyAccount energy_account(const Simulation& simulation) {
 RasterizedNodes rasterize(const Simulation& simulation,
                           const std::vector<std::vector<double>>& values) {
   return simulation.stepper().rasterize(values);
+}
+
+RasterizedNodes rasterize_some(const Simulation& simulation, const std::vector<std::size_t>& rows) {
+  return simulation.stepper().rasterize_some(rows);
 }
 
 std::uint64_t estimate_memory(std::size_t particles, double particles_per_cell,

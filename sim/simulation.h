@@ -50,6 +50,8 @@ class Simulation {
   seeding::FlowTotals flow_totals() const;
   /// Births of each emitter that found no room so far.
   std::vector<std::uint64_t> withheld() const;
+  /// Births of each emitter so far, and what was in their way.
+  std::vector<seeding::EmitterStream::State> emitter_states() const;
   int threads() const;
   const char* simd() const;
   PhaseSeconds phase_seconds() const;

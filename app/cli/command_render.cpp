@@ -25,6 +25,7 @@
 #include "app/run/render_run.h"
 #include "app/run/step_warnings.h"
 #include "app/scene/burn_in.h"
+#include "app/scene/check.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/override.h"
 #include "app/scene/toml/error.h"
@@ -187,8 +188,12 @@ void check_title(const std::string& title, std::vector<health::Finding>& finding
                         "Sans, or --no-caption"});
 }
 
-/// Views whose snow is in no pass.
-void check_passes(const scene::Scene& scene, std::vector<health::Finding>& findings) {
+/// Passes that are left out, and views whose snow is in no pass.
+void check_passes(const run::RenderJob& job, std::vector<health::Finding>& findings) {
+  const scene::Scene& scene = job.scene;
+  if (job.passes.size() < job.options.passes.size())
+    findings.push_back({health::Severity::note, "--passes",
+                        std::string("no pass body: ") + scene::mixed_emitters, "use one emitter"});
   for (const scene::View& view : scene.views)
     if (!scene::shows_particles(view) && scene::has_layer(view, scene::Layer::smoke))
       findings.push_back({health::Severity::warning, "--passes",
@@ -214,7 +219,7 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
                                     rough_text(job.shutter)),
                         fmt::format("a share of the frame is 360 times as many degrees: {}",
                                     rough_text(360 * job.shutter))});
-  if (!job.passes.empty()) check_passes(job.scene, findings);
+  if (!job.passes.empty()) check_passes(job, findings);
   // Of the command, not of the run: a sweep says it once for all of its runs.
   std::vector<health::Finding> idle;
   health::check_idle(job.scene, scene::addresses_of(scene::parse_overrides(job.options.overrides)),

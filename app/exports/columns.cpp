@@ -157,22 +157,6 @@ bool is_single(const scene::Scene& scene) {
   return scene.solver.precision == sim::Precision::single;
 }
 
-/// Lists the particles of the bodies and emitters that an export names.
-std::vector<std::size_t> rows_of(const scene::Scene& scene, const scene::Export& e,
-                                 const Origins& origins, const sim::ParticleArrays& particles) {
-  std::vector<bool> is_wanted;
-  for (const std::string& name : scene::snow_sources(scene))
-    is_wanted.push_back(e.bodies.empty() ||
-                        std::find(e.bodies.begin(), e.bodies.end(), name) != e.bodies.end());
-  const bool has_all = e.bodies.empty();
-  std::vector<std::size_t> rows;
-  rows.reserve(particles.x.size());
-  for (std::size_t p = 0; p < particles.x.size(); ++p)
-    if (has_all || is_wanted[static_cast<std::size_t>(origins.body_of(particles.id_of(p)))])
-      rows.push_back(p);
-  return rows;
-}
-
 /// Formats that hold no attributes of points.
 bool has_places_only(const scene::Export& e) {
   return e.format == scene::ExportFormat::obj || e.format == scene::ExportFormat::vdb;
@@ -238,7 +222,7 @@ const std::vector<double>& Table::places() const {
 
 Table make_table(const scene::Scene& scene, const scene::Export& e, const Origins& origins,
                  const Carried& carried, const State& state) {
-  const std::vector<std::size_t> rows = rows_of(scene, e, origins, state.particles);
+  const std::vector<std::size_t> rows = origins.rows_of(e.bodies, state.particles);
   const ColumnSource source{scene, origins, state, Axes(scene, e), rows, e.dust};
   Table table = empty_table(scene, e, carried);
   table.rows = rows.size();

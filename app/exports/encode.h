@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/exports/columns.h"
+#include "sim/types/grid_fields.h"
 
 namespace neve::app::exports {
 
@@ -14,6 +15,7 @@ struct ExportMoment {
   const State& state;
   const Table& table;
 
+  const sim::RasterizedNodes& nodes() const { return state.nodes.at(spec.bodies); }
   /// Time in frames of the scene, with the numbers of its files.
   double frame() const { return state.time * scene.fps + scene::number_of(scene, 0); }
 };

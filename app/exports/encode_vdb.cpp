@@ -39,7 +39,7 @@ VdbGrid node_grid(const sim::RasterizedNodes& nodes, const Axes& axes, const std
 }  // namespace
 
 std::string encode_vdb(const ExportMoment& moment) {
-  const sim::RasterizedNodes& nodes = *moment.state.nodes;
+  const sim::RasterizedNodes& nodes = moment.nodes();
   const Axes axes(moment.spec);
   const double cell = nodes.spacing * nodes.spacing * nodes.spacing;
   std::vector<VdbGrid> grids;

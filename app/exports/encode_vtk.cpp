@@ -171,7 +171,7 @@ std::string encode_vtp(const ExportMoment& moment) {
 }
 
 std::string encode_vti(const ExportMoment& moment) {
-  const DenseGrid grid = dense_grid(*moment.state.nodes, Axes(moment.scene, moment.spec));
+  const DenseGrid grid = dense_grid(moment.nodes(), Axes(moment.scene, moment.spec));
   AppendedArrays arrays;
   std::string extent;
   for (int a = 0; a < 3; ++a) extent += (a > 0 ? " 0 " : "0 ") + std::to_string(grid.size[a] - 1);

@@ -163,7 +163,7 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
   std::vector<Work> works;
   if (due.empty()) return works;
   note_colliders(colliders);
-  const std::shared_ptr<const State> state = read_state(due, colliders, simulation);
+  const std::shared_ptr<const State> state = read_state(due, origins_, colliders, simulation);
   for (Job& job : jobs_)
     if (is_due(job)) works.push_back(work(job, state, colliders, number));
   return works;

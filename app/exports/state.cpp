@@ -1,9 +1,13 @@
 #include "app/exports/state.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <numbers>
 
+#include "app/support/errors.h"
+#include "app/support/text.h"
 #include "sim/dust_grid.h"
 #include "sim/rasterize.h"
 
@@ -18,6 +22,26 @@ bool has_attribute(const scene::Export& e, scene::ExportAttribute attribute) {
 bool has_stress(const scene::Export& e) {
   return has_attribute(e, scene::ExportAttribute::stress) ||
          has_attribute(e, scene::ExportAttribute::kirchhoff);
+}
+
+/// The clock of an emitter stands still while snow is in its way: its births are late from then on,
+/// each by what it had waited.
+void require_known_ages(const scene::Export& e, const Origins& origins,
+                        const sim::Simulation& simulation) {
+  if (!has_attribute(e, scene::ExportAttribute::age)) return;
+  const std::string advice = "omit age, or give the emitter room with a lower rate";
+  const std::vector<sim::seeding::EmitterStream::State> emitters = simulation.emitter_states();
+  for (std::size_t k = 0; k < emitters.size(); ++k) {
+    const std::string& name = origins.names()[origins.body_end().size() + k];
+    const bool is_written =
+        e.bodies.empty() || std::find(e.bodies.begin(), e.bodies.end(), name) != e.bodies.end();
+    if (!is_written || emitters[k].waited == 0) continue;
+    throw Error(exit_invalid_scene,
+                fmt::format("emitter.{} has waited for room by {} s: the state does not say when "
+                            "its particles were born; {}",
+                            name, fixed_text(simulation.time(), 3), advice),
+                "emitter." + name, advice);
+  }
 }
 
 }  // namespace
@@ -53,11 +77,12 @@ std::shared_ptr<const State> state_of_dust(const State& state) {
   p.J_P.assign(count, 1.0);
   p.material.assign(count, 0);
   for (const std::uint64_t id : dust.id) p.id.push_back(static_cast<std::uint32_t>(id));
-  out->nodes = sim::dust_nodes(dust);
+  out->nodes[{}] = sim::dust_nodes(dust);
   return out;
 }
 
 std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
+                                        const Origins& origins,
                                         const std::vector<scene::Collider>& colliders,
                                         const sim::Simulation& simulation) {
   auto state = std::make_shared<State>();
@@ -72,8 +97,15 @@ std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
   state->particles = simulation.particles();
   if (std::any_of(exports.begin(), exports.end(), has_stress))
     state->kirchhoff = simulation.kirchhoff();
-  if (std::any_of(exports.begin(), exports.end(), has_grid))
-    state->nodes = sim::rasterize(simulation);
+  for (const scene::Export& e : exports) {
+    if (e.dust) continue;
+    require_known_ages(e, origins, simulation);
+    if (has_grid(e) && !state->nodes.contains(e.bodies))
+      state->nodes[e.bodies] =
+          e.bodies.empty()
+              ? sim::rasterize(simulation)
+              : sim::rasterize_some(simulation, origins.rows_of(e.bodies, state->particles));
+  }
   state->colliders = placed_at(colliders, state->time);
   return state;
 }

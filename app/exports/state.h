@@ -1,12 +1,13 @@
 #pragma once
 /// The state of a simulation at one moment, as far as exports want to see it.
 
+#include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app/exports/origins.h"
 #include "app/scene/scene.h"
 #include "sim/simulation.h"
 #include "sim/types/grid_fields.h"
@@ -25,11 +26,12 @@ std::vector<PlacedShape> placed_at(const std::vector<scene::Collider>& colliders
 struct State {
   double time = 0;  ///< s
   std::uint64_t hash = 0;
-  sim::ParticleArrays particles;              ///< id order
-  std::vector<sim::Mat3d> kirchhoff;          ///< Pa; empty unless an export has stress
-  std::optional<sim::RasterizedNodes> nodes;  ///< absent unless an export has the grid
-  sim::DustArrays dust;                       ///< empty unless an export has it
-  std::vector<PlacedShape> colliders;         ///< of that moment
+  sim::ParticleArrays particles;      ///< id order
+  std::vector<sim::Mat3d> kirchhoff;  ///< Pa; empty unless an export has stress
+  /// By the bodies that exports with the grid name: none for all snow.
+  std::map<std::vector<std::string>, sim::RasterizedNodes> nodes;
+  sim::DustArrays dust;                ///< empty unless an export has it
+  std::vector<PlacedShape> colliders;  ///< of that moment
 };
 
 /// The dust as if it were the snow of a state: `particles`, and `nodes` where there are any.
@@ -39,7 +41,9 @@ std::shared_ptr<const State> state_of_dust(const State& state);
 bool has_grid(const scene::Export& e);
 
 /// @param colliders  where their drawn places come from: the scene's, followed to this moment
+/// @throws Error for an age that the state does not say
 std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
+                                        const Origins& origins,
                                         const std::vector<scene::Collider>& colliders,
                                         const sim::Simulation& simulation);
 

@@ -6,6 +6,7 @@
 #include "app/advice/suggest.h"
 #include "app/exports/columns.h"
 #include "app/picture/attributes.h"
+#include "app/scene/check.h"
 #include "app/scene/names.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
@@ -112,6 +113,17 @@ PassList pass_list(const std::vector<std::string>& names) {
   return list;
 }
 
+std::vector<std::string> passes_of(const scene::Scene& scene, std::vector<std::string> names) {
+  const auto has = [&](const char* name) { return std::ranges::find(names, name) != names.end(); };
+  if (!scene::mixes_emitters(scene) || !(has("body") || has("age"))) return names;
+  const bool has_all =
+      std::ranges::all_of(pass_names, [&](const auto& each) { return has(each.text); });
+  if (!has_all || has("age"))
+    throw UsageError("--passes", scene::mixed_emitters, "omit body and age, or use one emitter");
+  std::erase(names, "body");
+  return names;
+}
+
 double bytes_of_pixel(const PassList& list) {
   // Single precision is 4 bytes, half floats are 2; tensors have nine numbers.
   double bytes = 8;
@@ -151,7 +163,7 @@ std::vector<PointNumbers> PassReader::read(const picture::Snapshot& snapshot,
   scene::Export spec;
   spec.format = scene::ExportFormat::npz;
   spec.attributes = list_.attributes;
-  const auto state = exports::read_state({&spec, 1}, scene_.colliders, simulation);
+  const auto state = exports::read_state({&spec, 1}, origins_, scene_.colliders, simulation);
   const exports::Table table = exports::make_table(scene_, spec, origins_, carried_, *state);
   for (const scene::ExportAttribute attribute : list_.attributes)
     all.push_back(numbers_of(*table.find(attribute)));

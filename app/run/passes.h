@@ -27,6 +27,12 @@ std::vector<std::string> parse_passes(const std::string& text);
 /// @param names  of parse_passes, or of a picture @throws UsageError for an unknown name
 PassList pass_list(const std::vector<std::string>& names);
 
+/// The passes that a scene can have: where the state does not say which emitter snow comes from,
+/// "all" is without the pass of bodies.
+/// @param names  of parse_passes, or of a picture
+/// @throws UsageError for those that are asked for by name
+std::vector<std::string> passes_of(const scene::Scene& scene, std::vector<std::string> names);
+
 /// Bytes that the channels of a pixel take while they wait for the encoder.
 double bytes_of_pixel(const PassList& list);
 

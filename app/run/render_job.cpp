@@ -152,6 +152,7 @@ RenderJob make_job(const RenderOptions& options) {
     job.passes.clear();
     job.plate.clear();
   }
+  job.passes = passes_of(job.scene, job.passes);
   if (options.from) set_fork(options, job);
   return job;
 }

@@ -514,12 +514,11 @@ Found export_problem(const Scene& scene, const Export& e) {
     return Problem{at + ".bodies", "there is no body or emitter " + toml::toml_string(name),
                    advice::suggest_one_of(name, {"", names})};
   }
-  if (e.dust || scene.emitters.size() < 2) return {};
+  if (e.dust || !mixes_emitters(scene)) return {};
   const bool needs_origin =
       names_attribute(e, ExportAttribute::body) || names_attribute(e, ExportAttribute::age);
   if (!needs_origin && e.bodies.empty()) return {};
-  return Problem{at + (needs_origin ? ".attributes" : ".bodies"),
-                 "the state does not say which of several emitters a particle comes from",
+  return Problem{at + (needs_origin ? ".attributes" : ".bodies"), mixed_emitters,
                  "omit body and age, and name no bodies, or use one emitter"};
 }
 

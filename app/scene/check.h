@@ -13,6 +13,13 @@ struct Problem {
   std::string message, hint;
 };
 
+/// The steps of a run mix the ids of several emitters.
+inline bool mixes_emitters(const Scene& scene) {
+  return scene.emitters.size() > 1;
+}
+inline constexpr const char* mixed_emitters =
+    "the state does not say which of several emitters a particle comes from";
+
 /// The first thing wrong with a scene whose parameters are each in range.
 std::optional<Problem> find_problem(const Scene& scene);
 

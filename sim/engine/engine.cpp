@@ -315,6 +315,11 @@ RasterizedNodes Engine<Real>::rasterize(const std::vector<std::vector<double>>& 
   return engine::rasterize(state_, values);
 }
 
+template <class Real>
+RasterizedNodes Engine<Real>::rasterize_some(const std::vector<std::size_t>& rows) const {
+  return engine::rasterize_some(state_, rows);
+}
+
 template class Engine<float>;
 template class Engine<double>;
 

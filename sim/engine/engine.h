@@ -27,7 +27,9 @@ class Engine final : public Stepper {
   void set_dt_scale(double scale) override { state_.progress.dt_scale = scale; }
 
   const Progress& progress() const override { return state_.progress; }
-  std::vector<std::uint64_t> withheld() const override { return flow_.withheld(); }
+  std::vector<seeding::EmitterStream::State> emitter_states() const override {
+    return flow_.emitter_states();
+  }
   const std::optional<Divergence>& divergence() const override { return watch_.divergence(); }
   SolveReport last_solve() const override { return solve_; }
   PhaseSeconds phase_seconds() const override { return parts_.seconds; }
@@ -50,6 +52,7 @@ class Engine final : public Stepper {
   std::vector<std::uint8_t> save() const override;
   StagedStep staged_step(double dt) const override;
   RasterizedNodes rasterize(const std::vector<std::vector<double>>& values) const override;
+  RasterizedNodes rasterize_some(const std::vector<std::size_t>& rows) const override;
 
  private:
   void take_whole_step(double dt);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sim/engine/state_reader.h"
 
@@ -81,7 +82,20 @@ RasterizedNodes rasterize(State<Real> copy, const std::vector<std::vector<double
   return out;
 }
 
+template <class Real>
+RasterizedNodes rasterize_some(State<Real> copy, const std::vector<std::size_t>& rows) {
+  std::vector<bool> is_wanted(copy.particles.size(), false);
+  for (const std::size_t row : rows) is_wanted.at(row) = true;
+  const Ranks rank = StateReader<Real>(copy).ranks();
+  for (std::size_t q = copy.particles.size(); q-- > 0;)
+    if (!is_wanted[rank[copy.particles.records[q]]]) copy.particles.remove(q);
+  copy.particles.partition.invalidate();
+  return rasterize(std::move(copy), {});
+}
+
 template RasterizedNodes rasterize(State<float>, const std::vector<std::vector<double>>&);
 template RasterizedNodes rasterize(State<double>, const std::vector<std::vector<double>>&);
+template RasterizedNodes rasterize_some(State<float>, const std::vector<std::size_t>&);
+template RasterizedNodes rasterize_some(State<double>, const std::vector<std::size_t>&);
 
 }  // namespace neve::sim::engine

@@ -14,4 +14,8 @@ namespace neve::sim::engine {
 template <class Real>
 RasterizedNodes rasterize(State<Real> copy, const std::vector<std::vector<double>>& values);
 
+/// The same of some particles alone. @param rows  their places in id order
+template <class Real>
+RasterizedNodes rasterize_some(State<Real> copy, const std::vector<std::size_t>& rows);
+
 }  // namespace neve::sim::engine

@@ -206,13 +206,6 @@ void SnowFlow<Real>::remove_in_sinks(State<Real>& state) const {
 }
 
 template <class Real>
-std::vector<std::uint64_t> SnowFlow<Real>::withheld() const {
-  std::vector<std::uint64_t> counts;
-  for (const Emitter& emitter : emitters_) counts.push_back(emitter.births.state().withheld);
-  return counts;
-}
-
-template <class Real>
 std::vector<seeding::EmitterStream::State> SnowFlow<Real>::emitter_states() const {
   std::vector<seeding::EmitterStream::State> states;
   for (const Emitter& emitter : emitters_) states.push_back(emitter.births.state());

@@ -21,8 +21,6 @@ class SnowFlow {
   /// Does the same after every step.
   void run(State<Real>& state);
 
-  /// Births of each emitter that found no room so far.
-  std::vector<std::uint64_t> withheld() const;
   std::vector<seeding::EmitterStream::State> emitter_states() const;
   void restore(const std::vector<seeding::EmitterStream::State>& states);
 

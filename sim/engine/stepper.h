@@ -35,7 +35,7 @@ class Stepper {
   virtual void set_dt_scale(double scale) = 0;
 
   virtual const Progress& progress() const = 0;
-  virtual std::vector<std::uint64_t> withheld() const = 0;
+  virtual std::vector<seeding::EmitterStream::State> emitter_states() const = 0;
   virtual const std::optional<Divergence>& divergence() const = 0;
   virtual SolveReport last_solve() const = 0;
   virtual PhaseSeconds phase_seconds() const = 0;
@@ -58,6 +58,7 @@ class Stepper {
   virtual std::vector<std::uint8_t> save() const = 0;
   virtual StagedStep staged_step(double dt) const = 0;
   virtual RasterizedNodes rasterize(const std::vector<std::vector<double>>& values) const = 0;
+  virtual RasterizedNodes rasterize_some(const std::vector<std::size_t>& rows) const = 0;
 };
 
 }  // namespace neve::sim::engine

@@ -167,9 +167,10 @@ TEST(DustExport, HasTheDustInThePlaceOfTheSnow) {
                                     "[[export]]\nname = \"fog\"\nformat = \"vdb\"\ndust = true\n"
                                     "[[export]]\nname = \"snow\"\nformat = \"ply\"\n"));
   const std::vector<scene::Export>& specs = moment.scene.exports;
-  const auto state = exports::read_state(specs, moment.scene.colliders, *moment.simulation);
-  const auto cloud = exports::state_of_dust(*state);
   const exports::Origins origins(moment.scene, moment.seeded.body_end);
+  const auto state =
+      exports::read_state(specs, origins, moment.scene.colliders, *moment.simulation);
+  const auto cloud = exports::state_of_dust(*state);
   const exports::Carried carried(moment.scene, moment.seeded.body_end);
   const exports::Table table =
       exports::make_table(moment.scene, specs[0], origins, carried, *cloud);
@@ -185,7 +186,7 @@ TEST(DustExport, HasTheDustInThePlaceOfTheSnow) {
                        exports::make_table(moment.scene, specs[1], origins, carried, *cloud)});
   EXPECT_NE(fog.find("density"), std::string::npos);
   double mass = 0, expected = 0;
-  for (const double m : cloud->nodes->mass) mass += m;
+  for (const double m : cloud->nodes.at({}).mass) mass += m;
   for (const double m : state->dust.m) expected += m;
   EXPECT_NEAR(mass, expected, 1e-9 * expected);
   EXPECT_EQ(exports::make_table(moment.scene, specs[2], origins, carried, *state).rows,

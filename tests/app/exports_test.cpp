@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <numeric>
 
 #include "app/exports/encode.h"
 #include "app/exports/series.h"
 #include "app/scene/read.h"
+#include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 
 namespace {
@@ -69,17 +71,17 @@ TEST(Exports, AGridAroundSnowThatIsFarApartIsRefused) {
   const app::scene::Scene scene = scene_with("");
   const auto e = spec_of(ExportFormat::vti, {});
   app::exports::State state;
-  state.nodes.emplace();
-  state.nodes->spacing = 0.1;
-  state.nodes->block = {{-2, 0, 0}, {5, 1, 3}};
-  state.nodes->mass.assign(128, 1.0);
-  state.nodes->velocity.assign(128, sim::Vec3d(1, 2, 3));
+  sim::RasterizedNodes& nodes = state.nodes[{}];
+  nodes.spacing = 0.1;
+  nodes.block = {{-2, 0, 0}, {5, 1, 3}};
+  nodes.mass.assign(128, 1.0);
+  nodes.velocity.assign(128, sim::Vec3d(1, 2, 3));
   const app::exports::Table none;
   const std::string small = app::exports::encode_vti({scene, e, state, none});
   EXPECT_NE(small.find("WholeExtent=\"0 31 0 7 0 15\" Origin=\"-0.8 0 0\" Spacing=\"0.1 0.1 0.1\""),
             std::string::npos)
       << small.substr(0, 400);
-  state.nodes->block = {{-100000, -100000, -100000}, {100000, 100000, 100000}};
+  nodes.block = {{-100000, -100000, -100000}, {100000, 100000, 100000}};
   try {
     app::exports::encode_vti({scene, e, state, none});
     FAIL() << "was written";
@@ -156,6 +158,65 @@ TEST(Exports, AgeOfLooseEmittedSnowFollowsItsOwnPeriod) {
       "velocity = [0, -1, 0]\n");
   const double h = scene.solver.cell_size, mass = 400 / 1.6 * h * h * h / 8;
   EXPECT_NEAR(app::exports::Origins(scene, {10}).birth_of(13), 3.5 * mass / 2, 1e-12);
+}
+
+/// Two balls so near each other that they share nodes.
+TEST(Exports, AGridIsOfTheBodiesThatAreNamed) {
+  app::scene::Scene scene = app::scene::read_scene_text(
+      "[solver]\ntransfer = \"flip\"\n"
+      "[[body]]\nname = \"left\"\nshape = { sphere = { radius = 0.1 } }\nvelocity = [1, 0, 0]\n"
+      "[[body]]\nname = \"right\"\nshape = { sphere = { center = [0.2, 0, 0], radius = 0.1 } }\n"
+      "velocity = [-1, 0, 0]\n"
+      "[[export]]\nformat = \"vdb\"\n[[export]]\nformat = \"vti\"\nbodies = [\"left\"]\n",
+      "scene");
+  const app::setup::SeededScene seeded = app::setup::seed_scene(scene);
+  const sim::Simulation simulation = app::setup::make_simulation(scene, seeded.particles, 1);
+  const auto state = app::exports::read_state(
+      scene.exports, app::exports::Origins(scene, seeded.body_end), scene.colliders, simulation);
+  const sim::ParticleArrays& p = state->particles;
+  const auto left = p.m.begin() + static_cast<std::ptrdiff_t>(seeded.body_end[0]);
+  const sim::RasterizedNodes &all = state->nodes.at({}), &some = state->nodes.at({"left"});
+  // Sums of single precision.
+  EXPECT_NEAR(std::accumulate(all.mass.begin(), all.mass.end(), 0.0),
+              std::accumulate(p.m.begin(), p.m.end(), 0.0), 1e-4);
+  EXPECT_NEAR(std::accumulate(some.mass.begin(), some.mass.end(), 0.0),
+              std::accumulate(p.m.begin(), left, 0.0), 1e-4);
+  for (std::size_t n = 0; n < some.mass.size(); ++n)
+    if (some.mass[n] > 0) {
+      EXPECT_EQ(some.velocity[n].x(), 1);
+    }
+}
+
+/// An emitter over a floor that is nearer than its snow is deep.
+TEST(Exports, AgesThatTheStateDoesNotSayAreRefused) {
+  const app::scene::Scene scene = scene_with(
+      "[solver]\ncell_size = 0.05\n"
+      "[[emitter]]\nname = \"hose\"\nshape = { box = { center = [1, 0.1, 0], size = [0.2, 0.2, "
+      "0.2] } }\n"
+      "rate = 40\nvelocity = [0, -0.5, 0]\n"
+      "[[collider]]\nshape = { plane = {} }\n"
+      "[[export]]\nformat = \"npz\"\nattributes = [\"age\"]\n"
+      "[[export]]\nformat = \"csv\"\nattributes = [\"age\"]\nbodies = [\"ball\"]\n");
+  const app::setup::SeededScene seeded = app::setup::seed_scene(scene);
+  const app::exports::Origins origins(scene, seeded.body_end);
+  sim::Simulation simulation = app::setup::make_simulation(scene, seeded.particles, 1);
+  const auto read = [&](std::size_t k) {
+    return app::exports::read_state({&scene.exports[k], 1}, origins, scene.colliders, simulation);
+  };
+  simulation.advance_to(0.01);
+  EXPECT_NO_THROW(read(0));
+  while (simulation.emitter_states().front().waited == 0 && simulation.time() < 1)
+    simulation.advance_to(simulation.time() + 0.05);
+  ASSERT_GT(simulation.emitter_states().front().waited, 0);
+  EXPECT_NO_THROW(read(1));
+  try {
+    read(0);
+    FAIL() << "an age was written";
+  } catch (const app::Error& error) {
+    EXPECT_EQ(error.code, app::exit_invalid_scene);
+    EXPECT_NE(std::string(error.what()).find("emitter.hose has waited for room"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct ReachedState {
     body_end = seeded.body_end;
     sim::Simulation simulation = setup::make_simulation(scene, seeded.particles, 2);
     simulation.advance_to(time);
-    state = read_state({}, scene.colliders, simulation);
+    state = read_state({}, Origins(scene, body_end), scene.colliders, simulation);
     rows.resize(state->particles.x.size());
     std::iota(rows.begin(), rows.end(), std::size_t{0});
   }

@@ -172,5 +172,28 @@ TEST_F(Passes, OpenGlDrawsTheSamePassesAsTheCpu) {
     EXPECT_EQ(cpu.channels[c].numbers, gl.channels[c].numbers) << cpu.channels[c].name;
 }
 
+TEST_F(Passes, WhatTheStateDoesNotSayOfSeveralEmittersIsNoPass) {
+  const auto emitter = [](const std::string& name, const std::string& x) {
+    return "[[emitter]]\nname = \"" + name + "\"\nshape = { box = { center = [" + x +
+           ", 0.3, 0], size = [0.1, 0.1, 0.1] } }\nvelocity = [0, -1, 0]\nrate = 4\n";
+  };
+  folder.write("two.toml", flying_scene + emitter("left", "-0.3") + emitter("right", "0.3"));
+  for (const char* passes : {"body", "depth,age", "all,age"}) {
+    const auto refused = neve({"render", "two.toml", "--passes", passes});
+    EXPECT_EQ(refused.exit_code, 2) << passes;
+    EXPECT_TRUE(contains(refused.errors, "which of several emitters")) << refused.errors;
+  }
+  const auto all = neve({"render", "two.toml", "--passes", "all", "--view", "particles", "--frames",
+                         "1-1", "--no-movie", "--out", "all"});
+  EXPECT_EQ(all.exit_code, 0) << all.errors;
+  EXPECT_TRUE(contains(all.errors, "no pass body: the state does not say")) << all.errors;
+  const render::ExrPicture drawn = picture("all/particles/0001.exr");
+  const auto has = [&](const char* name) {
+    return std::ranges::any_of(drawn.channels, [&](const auto& c) { return c.name == name; });
+  };
+  EXPECT_TRUE(has("id.Y"));
+  EXPECT_FALSE(has("body.Y"));
+}
+
 }  // namespace
 }  // namespace neve::test
