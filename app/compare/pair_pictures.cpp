@@ -8,6 +8,7 @@
 #include "app/scene/read.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
+#include "app/timeline/snapshot.h"
 
 namespace neve::app::compare {
 
@@ -96,7 +97,7 @@ PairPainter::Taken PairPainter::take_side(const timeline::Timeline& timeline,
     mass.smoke.field = scene::ScalarField::mass;
     views.push_back(mass);
   }
-  taken.snapshot = picture::take_snapshot(taken.scene, views, timeline.simulation(), 0);
+  taken.snapshot = timeline::take_snapshot(timeline, taken.scene, views, 0);
   return taken;
 }
 
@@ -120,9 +121,12 @@ void PairPainter::take(const timeline::Timeline& a, const timeline::Timeline& b,
 
 std::array<render::Frame, 2> PairPainter::frames_for(Mode mode) const {
   const scene::View view = view_for(mode);
-  std::array<render::Frame, 2> frames{
-      picture::FrameBuilder(a_.scene, *a_.seeded).build(view, a_.snapshot),
-      picture::FrameBuilder(b_.scene, *b_.seeded).build(view, b_.snapshot)};
+  const auto build = [&](const Side& side, const Taken& taken) {
+    const picture::PictureOptions options{.overrides = side.job.overrides,
+                                          .coarsening = side.job.coarsening};
+    return picture::FrameBuilder(taken.scene, *taken.seeded, options).build(view, taken.snapshot);
+  };
+  std::array<render::Frame, 2> frames{build(pair_.a, a_), build(pair_.b, b_)};
   // A camera that follows a body follows that of A in both.
   frames[1].camera = frames[0].camera;
   if (mode != Mode::displacement) return frames;

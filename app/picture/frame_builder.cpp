@@ -81,22 +81,6 @@ std::string steps_text(const sim::AdvanceReport& advance) {
   return text;
 }
 
-/// "hardening = 5 since step 120", "added collider.ball at step 120".
-std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& changes) {
-  std::vector<std::string> texts, objects;
-  for (const scene::LiveChange& change : changes) {
-    const std::string step = "step " + std::to_string(change.step);
-    if (scene::is_object_address(change.address))
-      objects.push_back((change.value == "none" ? "removed " : "added ") + change.address + " at " +
-                        step);
-    else
-      texts.push_back(change.address + "=" + change.value + " since " + step);
-  }
-  std::vector<std::string> lines = override_lines(texts);
-  lines.insert(lines.end(), objects.begin(), objects.end());
-  return lines;
-}
-
 /// What the material bears.
 std::string strength_line(const sim::Material& m) {
   const sim::laws::Law& law = sim::laws::of(m);
@@ -413,6 +397,21 @@ std::vector<std::string> override_lines(const std::vector<std::string>& override
     else
       lines.push_back((named_alike[name] > 1 ? address : name) + " = " + value);
   }
+  return lines;
+}
+
+std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& changes) {
+  std::vector<std::string> texts, objects;
+  for (const scene::LiveChange& change : changes) {
+    const std::string step = "step " + std::to_string(change.step);
+    if (scene::is_object_address(change.address))
+      objects.push_back((change.value == "none" ? "removed " : "added ") + change.address + " at " +
+                        step);
+    else
+      texts.push_back(change.address + "=" + change.value + " since " + step);
+  }
+  std::vector<std::string> lines = override_lines(texts);
+  lines.insert(lines.end(), objects.begin(), objects.end());
   return lines;
 }
 

@@ -85,5 +85,8 @@ render::Camera camera_of(const scene::Scene& scene, const scene::View& view,
 /// the whole address where two are named alike. None for other cameras, views and colours: these
 /// are seen.
 std::vector<std::string> override_lines(const std::vector<std::string>& overrides);
+/// "hardening = 5 since step 120", "added collider.ball at step 120".
+std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& changes);
+
 
 }  // namespace neve::app::picture

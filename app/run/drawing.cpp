@@ -12,6 +12,7 @@
 #include "app/run/lut.h"
 #include "app/run/plate.h"
 #include "app/run/slate.h"
+#include "app/timeline/snapshot.h"
 #include "render/image/mean_image.h"
 
 namespace neve::app::run {
@@ -44,16 +45,13 @@ picture::Snapshot Drawing::take(const timeline::Timeline& timeline,
                                 const std::vector<scene::View>& views, int frame,
                                 std::uint64_t state_hash) {
   scene_ = timeline.scene();
-  const sim::Simulation& simulation = timeline.simulation();
-  picture::Snapshot snapshot = picture::take_snapshot(scene_, views, simulation, frame);
+  picture::Snapshot snapshot = timeline::take_snapshot(timeline, scene_, views, frame);
   history_ = timeline.here().history;
   snapshot.history = history_;
-  snapshot.advance = timeline.here().advance;
   record_.frame = scene::number_of(scene_, frame);
   record_.state_hash = record::hash_text(state_hash);
   record_.changes = job_.changes;
-  scene::forget_changes_after(record_.changes, simulation.steps());
-  snapshot.changes = record_.changes;
+  scene::forget_changes_after(record_.changes, timeline.simulation().steps());
   return snapshot;
 }
 

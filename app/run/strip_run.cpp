@@ -11,6 +11,7 @@
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
+#include "app/timeline/snapshot.h"
 #include "app/timeline/times.h"
 #include "render/frame/compose.h"
 #include "render/gl/context.h"
@@ -69,13 +70,16 @@ struct Layout {
   int height() const { return top + rows * (tile_height + gap) - gap; }
 };
 
-/// Title, view and changes, which all tiles share.
-std::vector<std::string> words_of(const StripJob& job) {
+/// Title, view and changes: those at the start are of all tiles, the others say when they were
+/// made.
+std::vector<std::string> words_of(const StripJob& job,
+                                  const std::vector<scene::LiveChange>& changes) {
   const scene::Scene& scene = job.run.scene;
   std::vector<std::string> lines{scene.title.empty() ? job.run.scene_file : scene.title};
   std::string line = "view " + scene.views.front().name;
   for (const std::string& change : picture::override_lines(job.run.overrides))
     line += "   \u00b7   " + change;
+  for (const std::string& change : picture::change_lines(changes)) line += "   \u00b7   " + change;
   if (job.run.coarsening > 1)
     line += "   \u00b7   coarsened " + rough_text(job.run.coarsening) + "x";
   lines.push_back(line);
@@ -88,7 +92,6 @@ class Strip {
   Strip(const StripJob& job, const scene::Scene& scene, render::Renderer& renderer)
       : job_(job),
         renderer_(renderer),
-        words_(words_of(job)),
         legends_(scene::has_layer(scene.views.front(), scene::Layer::legend)
                      ? picture::legends_of(scene, with_one_scale(scene.views.front()))
                      : std::vector<render::Legend>{}),
@@ -113,10 +116,13 @@ class Strip {
     scene.camera = resolved.camera;
     scene.views = {tile_view(resolved.views.front())};
     const double fps = scene.fps, time = timeline.simulation().time();
-    const picture::Snapshot snapshot = picture::take_snapshot(
-        scene, scene.views, timeline.simulation(), static_cast<int>(std::lround(time * fps)));
-    render::Frame frame = picture::FrameBuilder(scene, timeline.seeded(), {job_.run.quality, {}, 1})
+    const picture::Snapshot snapshot = timeline::take_snapshot(
+        timeline, scene, scene.views, static_cast<int>(std::lround(time * fps)));
+    const picture::PictureOptions options{job_.run.quality, job_.run.overrides,
+                                          job_.run.coarsening};
+    render::Frame frame = picture::FrameBuilder(scene, timeline.seeded(), options)
                               .build(scene.views.front(), snapshot);
+    changes_ = snapshot.changes;
     frame.caption = {"t = " + fixed_text(time, 3) + " s"};
     frame.footnote.clear();
     if (!tiles_.empty()) frame.scale_bar.reset();  // all tiles have one scale
@@ -129,7 +135,7 @@ class Strip {
     render::Frame words;
     words.width = job_.width;
     words.height = layout_.height();
-    words.caption = words_;
+    words.caption = words_of(job_, changes_);
     words.caption_height = layout_.top;
     words.font_size = layout_.font_size;
     words.legends = legends_;
@@ -154,7 +160,8 @@ class Strip {
 
  private:
   Layout layout_with(const scene::Scene& scene) const {
-    return {job_, setup::size_of(scene, scene.views.front()), words_.size(), !legends_.empty()};
+    return {job_, setup::size_of(scene, scene.views.front()), words_of(job_, {}).size(),
+            !legends_.empty()};
   }
 
   /// All tiles have the ranges of the scene.
@@ -175,11 +182,11 @@ class Strip {
 
   StripJob job_;
   render::Renderer& renderer_;
-  std::vector<std::string> words_;
   std::vector<render::Legend> legends_;
   Layout layout_;
   std::vector<render::Tile> tiles_;
-  std::uint64_t state_hash_ = 0;  ///< of the last of them
+  std::vector<scene::LiveChange> changes_;  ///< of the run up to the last of them
+  std::uint64_t state_hash_ = 0;            ///< of the last of them
 };
 
 /// Places automatic cameras for the moments of the strip. A run keeps its scene with cameras in

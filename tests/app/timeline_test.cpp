@@ -11,6 +11,7 @@
 #include "app/support/errors.h"
 #include "app/timeline/changes.h"
 #include "app/timeline/origin.h"
+#include "app/timeline/snapshot.h"
 #include "app/timeline/timeline.h"
 #include "app/timeline/times.h"
 #include "sim/laws/list.h"
@@ -466,6 +467,22 @@ TEST(Times, ATypedTimeMeansTheFrameThatEndsThere) {
   EXPECT_EQ(timeline::frame_at(0.2999, 10), 2);
   EXPECT_TRUE(timeline::is_not_after(0.1 + 0.2, 0.3));
   EXPECT_FALSE(timeline::is_not_after(0.301, 0.3));
+}
+
+/// Pictures of strips and comparisons have the plots and changes of those of a run.
+TEST(Timeline, ASnapshotHasTheHistoryTheStepsAndTheChangesOfTheRun) {
+  const scene::Scene scene = test::changed_scene();
+  const auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(scene));
+  const std::vector<scene::LiveChange> changes{{2, "material.snow.youngs_modulus", "2e5"},
+                                               {100000, "material.snow.youngs_modulus", "3e5"}};
+  Timeline run(scene, changes, seeded, 1);
+  ASSERT_TRUE(run.go_to(3 / scene.fps));
+  const picture::Snapshot snapshot = timeline::take_snapshot(run, scene, scene.views, 3);
+  EXPECT_EQ(snapshot.history.size(), 4u);
+  EXPECT_EQ(snapshot.advance.steps, run.here().advance.steps);
+  EXPECT_GT(snapshot.advance.steps, 0u);
+  ASSERT_EQ(snapshot.changes.size(), 1u);
+  EXPECT_EQ(snapshot.changes[0].value, "2e5");
 }
 
 }  // namespace

@@ -121,5 +121,35 @@ TEST_F(Strip, RefusesNumbersAndNamesThatItCannotUse) {
   expect_refused({"fall.toml", "--view", "slcie"}, "slice");
 }
 
+/// Above the tiles: 40 rows of a picture of 640.
+TEST_F(Strip, SaysWhatAForkChanged) {
+  ASSERT_EQ(neve({"render", "fall.toml", "--no-movie", "--out", "run"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "run", "--from", "0.1", "--set", "material.snow.hardening=11",
+                  "--no-movie", "--out", "fork"})
+                .exit_code,
+            0);
+  const auto words = [&](const char* run, const char* at) {
+    EXPECT_EQ(neve({"strip", run, "--at", at, "--width", "640", "--out", "s.png"}).exit_code, 0);
+    render::Image image = picture("s.png");
+    image.height = 40;
+    image.pixels.resize(static_cast<std::size_t>(image.width * image.height * image.channels));
+    return image;
+  };
+  EXPECT_GT(render::compare(words("run", "0.2"), words("fork", "0.2")).max, 100);
+  EXPECT_EQ(render::compare(words("run", "0.05"), words("fork", "0.05")).max, 0);
+}
+
+TEST_F(Strip, BurnInsSayWhatWasChanged) {
+  const auto drawn = [&](const std::string& more) {
+    folder.write("burnt.toml", "title = \"Burnt\"\n" + more + (falling + 16));
+    EXPECT_EQ(neve({"strip", "burnt.toml", "--at", "0.1", "--set", "material.snow.hardening=11",
+                    "--width", "320", "--out", "s.png"})
+                  .exit_code,
+              0);
+    return picture("s.png");
+  };
+  EXPECT_GT(render::compare(drawn(""), drawn("burn_in = { bottom = \"{changes}\" }\n")).max, 100);
+}
+
 }  // namespace
 }  // namespace neve::test

@@ -8,6 +8,7 @@
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
+#include "app/timeline/snapshot.h"
 #include "app/timeline/times.h"
 #include "app/view/session/session.h"
 #include "app/view/session/stage_summary.h"
@@ -143,10 +144,7 @@ void Session::publish() {
   const timeline::Moment& here = timeline_->here();
   live->scene = shown_scene();
   live->snapshot =
-      picture::take_snapshot(*live->scene, live->scene->views, simulation(), here.frame);
-  live->snapshot.advance = here.advance;
-  live->snapshot.changes = timeline_->changes();
-  scene::forget_changes_after(live->snapshot.changes, simulation().steps());
+      timeline::take_snapshot(*timeline_, *live->scene, live->scene->views, here.frame);
   live->history = head_ ? head_->history : here.history;
   live->snapshot.history = live->history;
   live->samples = samples_.list();
