@@ -154,6 +154,8 @@ class PairRun {
         result_.is_whole = false;
         return;
       }
+      refuse_mode(options_, Mode::displacement,
+                  birth_problem(pair_, a.simulation(), b.simulation()), target_, result_);
       result_.moments.push_back(moment(frame));
       painter.take(a, b, target_.modes(), result_.moments.back());
       for (const Mode mode : target_.modes())

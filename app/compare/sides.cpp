@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 
 #include "app/output/sequence.h"
 #include "app/picture/frame_builder.h"
+#include "app/scene/check.h"
 #include "app/scene/flat.h"
 #include "app/scene/live_change.h"
 #include "app/support/errors.h"
@@ -111,6 +113,40 @@ std::string count_text(std::size_t a, std::size_t b, const std::string& body) {
   return fmt::format("body {} has {} particles in A and {} in B", body, a, b);
 }
 
+UsageError no_same_snow(const std::string& why) {
+  return {"--mode displacement", "no particle of A is the same piece of snow as one of B: " + why,
+          "compare runs of one seed, cell size and emitter that always has room, or use --mode "
+          "beside, wipe or metrics"};
+}
+
+/// s, from birth to birth: infinite where the whole shape is filled at once.
+double period_of(const scene::Scene& scene) {
+  const sim::seeding::Emitter& emitter = scene.emitters.front();
+  return sim::seeding::birth_period(emitter,
+                                    scene.materials[setup::material_index(scene, emitter.material)],
+                                    scene.solver.cell_size);
+}
+
+/// Emitters number their particles in the order of their births.
+std::string emitter_problem(const scene::Scene& a, const scene::Scene& b) {
+  if (a.emitters.size() != b.emitters.size())
+    return fmt::format("A has {} emitters and B has {}", a.emitters.size(), b.emitters.size());
+  if (a.emitters.empty()) return "";
+  if (scene::mixes_emitters(a)) return scene::mixed_emitters;
+  if (a.solver.cell_size != b.solver.cell_size)
+    return fmt::format("solver.cell_size is {} m in A and {} m in B",
+                       rough_text(a.solver.cell_size), rough_text(b.solver.cell_size));
+  // The k-th birth is the same snow, whatever moves it.
+  constexpr std::array same_snow{"velocity", "angular_velocity", "end", "material"};
+  for (const scene::Difference& d : scene::differences(a, b)) {
+    const std::string key = d.address.substr(d.address.rfind('.') + 1);
+    if (d.address.starts_with("emitter.") && std::ranges::find(same_snow, key) == same_snow.end())
+      return d.address + " differs";
+  }
+  if (period_of(a) != period_of(b)) return "their emitters have materials of other densities";
+  return "";
+}
+
 }  // namespace
 
 Pair read_pair(const PairOptions& options) {
@@ -148,10 +184,27 @@ std::optional<UsageError> id_problem(const Pair& pair, const setup::SeededScene&
                       in_b = b.body_end[k] - b.body_begin(k);
     if (in_a != in_b) why = count_text(in_a, in_b, scene_a.bodies[k].name);
   }
+  if (why.empty()) why = emitter_problem(scene_a, scene_b);
   if (why.empty()) return std::nullopt;
-  return UsageError(
-      "--mode displacement", "no particle of A is the same piece of snow as one of B: " + why,
-      "compare runs of one seed and cell size, or use --mode beside, wipe or metrics");
+  return no_same_snow(why);
+}
+
+std::optional<UsageError> birth_problem(const Pair& pair, const sim::Simulation& a,
+                                        const sim::Simulation& b) {
+  for (const auto& [side, simulation] : {std::pair{&pair.a, &a}, std::pair{&pair.b, &b}}) {
+    const scene::Scene& scene = side->job.scene;
+    if (scene.emitters.size() != 1) continue;
+    const sim::seeding::Emitter& emitter = scene.emitters.front();
+    const sim::seeding::EmitterStream alone(
+        emitter, 0, scene.materials[setup::material_index(scene, emitter.material)], scene.seed,
+        scene.solver.cell_size);
+    if (!alone.is_undisturbed(simulation->emitter_states().front()))
+      return no_same_snow(
+          fmt::format("snow was in the way of emitter.{} by {} s of {}, so that its births came "
+                      "later or elsewhere",
+                      emitter.name, fixed_text(simulation->time(), 3), side->job.scene_file));
+  }
+  return std::nullopt;
 }
 
 std::optional<UsageError> grid_problem(const Pair& pair) {

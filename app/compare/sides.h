@@ -9,6 +9,7 @@
 #include "app/run/render_job.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
+#include "sim/simulation.h"
 
 namespace neve::app::compare {
 
@@ -32,6 +33,11 @@ Pair read_pair(const PairOptions& options);
 /// Why an id does not mean the same piece of snow in both runs; empty if it does.
 std::optional<UsageError> id_problem(const Pair& pair, const setup::SeededScene& a,
                                      const setup::SeededScene& b);
+
+/// Why the number of a birth does not mean the same snow in both runs as they are now; empty if it
+/// does: nothing was in the way of their emitters.
+std::optional<UsageError> birth_problem(const Pair& pair, const sim::Simulation& a,
+                                        const sim::Simulation& b);
 
 /// Why the nodes of both grids lie in other places; empty if they do not.
 std::optional<UsageError> grid_problem(const Pair& pair);

@@ -160,6 +160,17 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births, const Ha
   state_.withheld = due(0) - state_.born;
 }
 
+bool EmitterStream::is_undisturbed(const State& state) const {
+  if (state.withheld > 0 || state.waited > 0) return false;
+  if (fills_whole()) return true;
+  // A place that is taken costs a candidate more.
+  if (!fills(box_, solid_.volume())) return state.candidate == state.born;
+  EmitterStream alone = *this;
+  alone.state_ = {};
+  for (std::uint64_t k = 0; k < state.born; ++k) alone.next_place();
+  return alone.state_.candidate == state.candidate;
+}
+
 std::optional<Birth> EmitterStream::next_birth(double age, const HasRoom& has_room) {
   for (int tries = 0; tries < tries_per_birth; ++tries)
     if (const Birth birth = born_at(next_place(), age); has_room(birth)) return birth;

@@ -113,6 +113,10 @@ class EmitterStream {
   bool fills_whole() const { return emitter_.rate == 0; }
   void restore(const State& state) { state_ = state; }
 
+  /// True if nothing was in the way of the births of a state of this stream: each was born where
+  /// and when the stream alone says, whatever the run.
+  bool is_undisturbed(const State& state) const;
+
  private:
   void fill_whole(double age, std::vector<Birth>& births, const HasRoom& has_room);
   std::optional<Birth> next_birth(double age, const HasRoom& has_room);

@@ -340,5 +340,56 @@ TEST(CompareMeasures, MassDifferenceSumsOverBlocksOfBothRuns) {
   EXPECT_EQ(difference.smoke.value[130], 3.0f);
 }
 
+/// Particles of an emitter are numbered in the order of their births.
+TEST_F(Compare, BirthsAreTheSameSnowOnlyWhereTheirOrderSaysSo) {
+  const auto emitter = [](const std::string& name, const std::string& x, const std::string& y) {
+    return "[[emitter]]\nname = \"" + name + "\"\nshape = { box = { center = [" + x + ", " + y +
+           ", 0], size = [0.16, 0.08, 0.16] } }\nvelocity = [0, -2, 0]\nrate = 15\n";
+  };
+  const std::string left = emitter("left", "-0.5", "0.6");
+  const auto compare_with_steps = [&](const std::string& emitters, const char* set) {
+    folder.write("scene.toml", tiny_scene + emitters);
+    render("a", {"--replace"});
+    render("b", {"--replace", "--set", set});
+    return compare("a", "b", {"--out", "x.png", "--mode", "displacement", "--json"});
+  };
+  const auto expect_refused = [&](const std::string& emitters, const char* set, const char* why) {
+    const auto done = compare_with_steps(emitters, set);
+    EXPECT_EQ(done.exit_code, 2) << set;
+    EXPECT_TRUE(contains(done.errors, why)) << done.errors;
+  };
+  const auto same = compare_with_steps(left, "solver.max_dt=2e-4");
+  ASSERT_EQ(same.exit_code, 0) << same.errors;
+  // Snow in flight is where it is for any steps.
+  const app::Json json = app::parse_json(std::string_view(same.output));
+  EXPECT_LT(json["frames"][0]["displacement_mean"].get<double>(), 0.01);
+  expect_refused(left + emitter("right", "0.5", "0.6"), "solver.max_dt=2e-4",
+                 "which of several emitters");
+  expect_refused(left, "emitter.left.rate=20", "emitter.left.rate differs");
+  expect_refused(left, "material.snow.density=300", "materials of other densities");
+  // In the floor: its snow cannot leave.
+  expect_refused(emitter("left", "-0.5", "0.02"), "solver.max_dt=2e-4",
+                 "snow was in the way of emitter.left");
+}
+
+TEST_F(Compare, BurnInsSayWhatWasChanged) {
+  const auto drawn = [&](const std::string& burn_in, const char* a, const char* b) {
+    folder.write("scene.toml", tiny_scene + burn_in);
+    render(a);
+    render(b, {"--set", "material.snow.hardening=11"});
+    EXPECT_EQ(compare(a, b, {"--out", "x.png", "--mode", "wipe", "--wipe", "0"}).exit_code, 0);
+    render::Image image = picture("x.png");
+    // Without the words around it, which name the runs.
+    const std::ptrdiff_t row = image.width * image.channels;
+    image.pixels.erase(image.pixels.begin(), image.pixels.begin() + 60 * row);
+    image.pixels.resize(static_cast<std::size_t>(80 * row));
+    image.height = 80;
+    return image;
+  };
+  const render::Image without = drawn("", "a", "b"),
+                      with = drawn("[burn_in]\nbottom = \"{changes}\"\n", "c", "d");
+  EXPECT_GT(render::compare(without, with).max, 50);
+}
+
 }  // namespace
 }  // namespace neve::test
