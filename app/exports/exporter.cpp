@@ -204,8 +204,8 @@ bool Exporter::follows() const {
 std::optional<sim::Vec3d> Exporter::followed(const sim::ParticleArrays& particles, double time,
                                              const std::vector<scene::Collider>& colliders) const {
   if (!follows()) return std::nullopt;
-  return picture::followed_by(*scene_.camera, scene_, colliders, origins_.body_end(), particles,
-                              time);
+  return picture::followed_by(scene_.camera->follow, scene_, colliders, origins_.body_end(),
+                              particles, time);
 }
 
 /// Some come and go while a run is made.

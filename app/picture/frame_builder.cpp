@@ -234,12 +234,18 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
     add_dust(view, *snapshot.dust, frame);
   const SlicePlane plane = plane_of(view, snapshot);
   add_slice(scene_, view, snapshot, plane, {pixels_on(plane, frame), seeded_.spacing}, frame);
+  if (!frame.footnote.empty() && !view.slice.follow.empty() &&
+      !centre_of(view.slice.follow, scene_, scene_.colliders, seeded_.body_end, snapshot.particles,
+                 snapshot.time))
+    frame.footnote += ", " + view.slice.follow + " is gone: the plane is where it began";
   if (scene::has_layer(view, scene::Layer::extremes))
     mark_extremes(view, fields, snapshot.advance.dt_max, frame);
 }
 
 SlicePlane FrameBuilder::plane_of(const scene::View& view, const Snapshot& snapshot) const {
-  return slice_plane(view.slice, snapshot.time, centre_of_mass(view.slice.follow, snapshot));
+  return slice_plane(view.slice, snapshot.time,
+                     followed_by(view.slice.follow, scene_, scene_.colliders, seeded_.body_end,
+                                 snapshot.particles, snapshot.time));
 }
 
 /// The scene's camera decides on the side, not one that somebody turns: it must not change.
@@ -280,17 +286,11 @@ std::pair<std::size_t, std::size_t> FrameBuilder::particles_of(std::size_t body,
   return {p.first_from(seeded_.body_begin(body)), p.first_from(seeded_.body_end[body])};
 }
 
-std::optional<sim::Vec3d> FrameBuilder::centre_of_mass(const std::string& name,
-                                                       const Snapshot& snapshot) const {
-  return centre_of(name, scene_, scene_.colliders, seeded_.body_end, snapshot.particles,
-                   snapshot.time);
-}
-
 setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& view,
                                 const setup::SeededScene& seeded, const Snapshot& snapshot) {
   const scene::CameraSettings& settings = settings_of(scene, view);
   setup::CameraPlace place = setup::camera_at(settings, snapshot.time, scene::duration(scene));
-  const sim::Vec3d moved = followed_by(settings, scene, scene.colliders, seeded.body_end,
+  const sim::Vec3d moved = followed_by(settings.follow, scene, scene.colliders, seeded.body_end,
                                        snapshot.particles, snapshot.time);
   place.eye += moved;
   place.target += moved;

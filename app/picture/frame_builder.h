@@ -64,7 +64,6 @@ class FrameBuilder {
   /// Particles of a body: the first and the one after the last.
   std::pair<std::size_t, std::size_t> particles_of(std::size_t body,
                                                    const Snapshot& snapshot) const;
-  std::optional<sim::Vec3d> centre_of_mass(const std::string& body, const Snapshot& snapshot) const;
   /// Caption, counter and slate, as the layers say.
   std::vector<std::string> words(const scene::View& view, const Snapshot& snapshot) const;
 
@@ -85,8 +84,8 @@ render::Camera camera_of(const scene::Scene& scene, const scene::View& view,
 /// the whole address where two are named alike. None for other cameras, views and colours: these
 /// are seen.
 std::vector<std::string> override_lines(const std::vector<std::string>& overrides);
+
 /// "hardening = 5 since step 120", "added collider.ball at step 120".
 std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& changes);
-
 
 }  // namespace neve::app::picture

@@ -102,18 +102,18 @@ std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene&
   return std::nullopt;
 }
 
-sim::Vec3d followed_by(const scene::CameraSettings& settings, const scene::Scene& scene,
+sim::Vec3d followed_by(const std::string& name, const scene::Scene& scene,
                        const std::vector<scene::Collider>& colliders,
                        const std::vector<std::size_t>& body_end,
                        const sim::ParticleArrays& particles, double time) {
-  if (settings.follow.empty()) return sim::Vec3d::Zero();
-  const auto body = std::find_if(
-      scene.bodies.begin(), scene.bodies.end(),
-      [&](const sim::seeding::Body& candidate) { return candidate.name == settings.follow; });
+  if (name.empty()) return sim::Vec3d::Zero();
+  const auto body =
+      std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                   [&](const sim::seeding::Body& candidate) { return candidate.name == name; });
   // A body that a sink has removed is looked for where it was.
   const sim::Vec3d start =
       body == scene.bodies.end() ? sim::Vec3d::Zero() : sim::shapes::center(body->shape);
-  return centre_of(settings.follow, scene, colliders, body_end, particles, time).value_or(start);
+  return centre_of(name, scene, colliders, body_end, particles, time).value_or(start);
 }
 
 }  // namespace neve::app::picture

@@ -41,9 +41,10 @@ std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene&
                                     const std::vector<std::size_t>& body_end,
                                     const sim::ParticleArrays& particles, double time);
 
-/// @return what eye and target of setup::camera_at() move by, m: the centre of what the camera
-/// follows; 0 where it follows nothing
-sim::Vec3d followed_by(const scene::CameraSettings& settings, const scene::Scene& scene,
+/// @param name  of what a camera or a plane follows; "": nothing
+/// @return what the camera or plane moves by, m: its centre, or where it began once a sink has
+/// taken it; 0 for nothing
+sim::Vec3d followed_by(const std::string& name, const scene::Scene& scene,
                        const std::vector<scene::Collider>& colliders,
                        const std::vector<std::size_t>& body_end,
                        const sim::ParticleArrays& particles, double time);

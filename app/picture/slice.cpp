@@ -67,12 +67,10 @@ void add_frame(const SlicePlane& plane, const Rectangle& r, render::Frame& frame
 
 }  // namespace
 
-SlicePlane slice_plane(const scene::SliceStyle& slice, double time,
-                       const std::optional<Vec3d>& followed) {
+SlicePlane slice_plane(const scene::SliceStyle& slice, double time, const Vec3d& followed) {
   SlicePlane plane;
   plane.normal = slice.normal.normalized();
-  plane.point =
-      followed.value_or(Vec3d::Zero()) + slice.point.value_or(Vec3d::Zero()) + time * slice.motion;
+  plane.point = followed + slice.point.value_or(Vec3d::Zero()) + time * slice.motion;
   // Up in the plane is up in the world, where the plane is not level.
   const bool is_level = std::abs(plane.normal.y()) > 1 - 1e-9;
   const Vec3d up = is_level ? Vec3d(0, 0, -1) : Vec3d(0, 1, 0);

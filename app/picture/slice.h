@@ -13,9 +13,9 @@ struct SlicePlane {
   sim::Vec3d across, up;     ///< unit, in the plane
 };
 
-/// @param followed centre of mass of the body that the slice follows, if it does
+/// @param followed  see followed_by()
 SlicePlane slice_plane(const scene::SliceStyle& slice, double time,
-                       const std::optional<sim::Vec3d>& followed);
+                       const sim::Vec3d& followed = sim::Vec3d::Zero());
 
 /// How large the plane is in the picture.
 struct SliceSight {

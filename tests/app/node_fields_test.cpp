@@ -141,7 +141,7 @@ render::Frame frame_of_slice(const FieldMoment& moment, std::size_t view,
 TEST(Slice, ArrowsLieOnNodesAndHaveTheirVelocity) {
   const FieldMoment moment = moment_of(all_fields);
   const app::scene::SliceStyle& slice = moment.scene.views[2].slice;
-  const app::picture::SlicePlane plane = app::picture::slice_plane(slice, 0, std::nullopt);
+  const app::picture::SlicePlane plane = app::picture::slice_plane(slice, 0);
   EXPECT_TRUE(plane.across.isApprox(Vec3d(1, 0, 0)));
   EXPECT_TRUE(plane.up.isApprox(Vec3d(0, 1, 0)));
   const render::Frame frame = frame_of_slice(moment, 2, plane);
@@ -164,8 +164,7 @@ TEST(Slice, SliceMarksPointsWithoutSnow) {
   const FieldMoment moment = moment_of(all_fields);
   app::scene::SliceStyle slice = moment.scene.views[2].slice;
   slice.point = Vec3d(0, 0, 5);
-  const render::Frame frame =
-      frame_of_slice(moment, 2, app::picture::slice_plane(slice, 0, std::nullopt));
+  const render::Frame frame = frame_of_slice(moment, 2, app::picture::slice_plane(slice, 0));
   EXPECT_TRUE(frame.heat_maps.empty());
   EXPECT_NE(frame.footnote.find("no snow here"), std::string::npos) << frame.footnote;
 }
@@ -184,8 +183,7 @@ TEST(Legends, TwoLayersOfOneQuantityShareALegend) {
 
 TEST(Slice, ArrowsKeepTheirDistanceInThePicture) {
   const FieldMoment moment = moment_of(all_fields);
-  const app::picture::SlicePlane plane =
-      app::picture::slice_plane(moment.scene.views[2].slice, 0, std::nullopt);
+  const app::picture::SlicePlane plane = app::picture::slice_plane(moment.scene.views[2].slice, 0);
   const auto distance = [&](double pixels_per_metre) {
     render::Frame frame;
     app::picture::add_slice(moment.scene, moment.scene.views[2], moment.snapshot, plane,
@@ -201,8 +199,7 @@ TEST(Slice, ArrowsKeepTheirDistanceInThePicture) {
 
 TEST(Slice, NoArrowReachesIntoThePlaceOfAnother) {
   const FieldMoment moment = moment_of(all_fields);
-  const app::picture::SlicePlane plane =
-      app::picture::slice_plane(moment.scene.views[2].slice, 0, std::nullopt);
+  const app::picture::SlicePlane plane = app::picture::slice_plane(moment.scene.views[2].slice, 0);
   for (const double pixels_per_metre : {30.0, 700.0, 5000.0}) {
     render::Frame frame;
     app::picture::add_slice(moment.scene, moment.scene.views[2], moment.snapshot, plane,
@@ -222,7 +219,7 @@ TEST(Slice, AnyPlaneWorksAndOneThatMissesTheSnowIsEmpty) {
   const FieldMoment moment = moment_of(all_fields);
   app::scene::SliceStyle slice = moment.scene.views[2].slice;
   slice.normal = {1, 2, 3};
-  const app::picture::SlicePlane tilted = app::picture::slice_plane(slice, 0, std::nullopt);
+  const app::picture::SlicePlane tilted = app::picture::slice_plane(slice, 0);
   EXPECT_NEAR(tilted.across.dot(tilted.normal), 0, 1e-12);
   EXPECT_NEAR(tilted.up.dot(tilted.normal), 0, 1e-12);
   EXPECT_GT(tilted.up.y(), 0);
@@ -231,8 +228,7 @@ TEST(Slice, AnyPlaneWorksAndOneThatMissesTheSnowIsEmpty) {
   for (const Vec3f& p : frame.arrows[0].position)
     EXPECT_NEAR((Vec3d(p.x, p.y, p.z) - tilted.point).dot(tilted.normal), 0, 1e-5);
   slice.point = Vec3d(0, 50, 0);
-  const render::Frame missed =
-      frame_of_slice(moment, 2, app::picture::slice_plane(slice, 0, std::nullopt));
+  const render::Frame missed = frame_of_slice(moment, 2, app::picture::slice_plane(slice, 0));
   EXPECT_TRUE(missed.arrows.empty());
   EXPECT_TRUE(missed.lines.empty());
 }
@@ -241,12 +237,12 @@ TEST(Slice, SliceMovesAndFollows) {
   app::scene::SliceStyle slice;
   slice.point = Vec3d(1, 2, 3);
   slice.motion = {0, 0, 2};
-  EXPECT_TRUE(app::picture::slice_plane(slice, 0.5, std::nullopt).point.isApprox(Vec3d(1, 2, 4)));
+  EXPECT_TRUE(app::picture::slice_plane(slice, 0.5).point.isApprox(Vec3d(1, 2, 4)));
   EXPECT_TRUE(app::picture::slice_plane(slice, 0, Vec3d(7, 8, 9)).point.isApprox(Vec3d(8, 10, 12)));
   slice.point.reset();
   EXPECT_TRUE(app::picture::slice_plane(slice, 0, Vec3d(7, 8, 9)).point.isApprox(Vec3d(7, 8, 9)));
   slice.normal = {0, -1, 0};
-  const app::picture::SlicePlane level = app::picture::slice_plane(slice, 0, std::nullopt);
+  const app::picture::SlicePlane level = app::picture::slice_plane(slice, 0);
   EXPECT_NEAR(level.across.norm(), 1, 1e-12);
 }
 
@@ -378,8 +374,8 @@ name = "arrows"
 layers = ["arrows", "legend"]
 slice = { field = "velocity", range_from = "frame" }
 )");
-  const render::Frame frame = frame_of_slice(
-      moment, 0, app::picture::slice_plane(moment.scene.views[0].slice, 0, std::nullopt));
+  const render::Frame frame =
+      frame_of_slice(moment, 0, app::picture::slice_plane(moment.scene.views[0].slice, 0));
   EXPECT_NE(frame.footnote.find("longest arrow"), std::string::npos) << frame.footnote;
   EXPECT_NE(frame.footnote.find("the largest of this frame"), std::string::npos) << frame.footnote;
 }

@@ -157,6 +157,32 @@ layers = ["bounds"]
   EXPECT_EQ(frame.labels[0].text, "kept");
 }
 
+TEST(SceneFlow, APlaneStaysWhereTheBodyBeganThatASinkHasTaken) {
+  app::scene::Scene scene = flow_scene(R"(
+[[body]]
+name = "gone"
+shape = { box = { center = [0.4, 0.3, 0.2], size = [0.1, 0.1, 0.1] } }
+[[body]]
+name = "kept"
+shape = { box = { center = [1, 0.05, 0], size = [0.1, 0.1, 0.1] } }
+[[sink]]
+shape = { sphere = { center = [0.4, 0.3, 0.2], radius = 0.2 } }
+[[view]]
+name = "slice"
+layers = ["heatmap"]
+[view.slice]
+follow = "gone"
+)");
+  app::setup::resolve(scene, 1000);
+  const app::setup::SeededScene seeded = app::setup::seed_scene(scene);
+  const sim::Simulation simulation = app::setup::make_simulation(scene, seeded.particles, 1);
+  const app::picture::Snapshot snapshot =
+      app::picture::take_snapshot(scene, scene.views, simulation, 0);
+  const app::picture::FrameBuilder builder(scene, seeded, {.quality = app::setup::Quality::draft});
+  EXPECT_EQ(builder.build(scene.views[0], snapshot).footnote,
+            "z = 0.2 m: no snow here, gone is gone: the plane is where it began");
+}
+
 TEST(SceneFlow, VariationBelongsToTheBodyAndNotToTheGrid) {
   const std::string text = R"(
 [material.snow]

@@ -43,7 +43,7 @@ std::optional<dump::Probe> pick(const ViewerState& state, ImVec2 mouse, bool wan
   const bool takes_node = wants_node || !scene::shows_particles(view);
   if (takes_node && is_slice && view.slice.point) {
     const auto place =
-        pick_plane(state.orbit, x, y, picture::slice_plane(view.slice, live.snapshot.time, {}));
+        pick_plane(state.orbit, x, y, picture::slice_plane(view.slice, live.snapshot.time));
     if (place && is_in_snow(live, *place)) return dump::Probe(*place);
   }
   const auto hit = pick_particle(state.orbit, x, y, live, view.clip);
