@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/setup/curves.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/round_number.h"
 #include "sim/health/diagnostics.h"
@@ -60,6 +61,21 @@ double own_speed(const sim::shapes::Shape& shape) {
   return sim::shapes::summary_of(*points, sim::rotation_from_degrees(shape.rotation)).max_speed;
 }
 
+/// Unit vector; without gravity that of the pictures.
+Vec3d down_in(const scene::Scene& scene) {
+  const double g = scene.solver.gravity.norm();
+  return g > 0 ? Vec3d(scene.solver.gravity / g) : Vec3d(-Vec3d::UnitY());
+}
+
+/// m, from the middle of a box to its surface, straight down.
+double half_height(const sim::shapes::Bounds& box, const Vec3d& down) {
+  const Vec3d half = 0.5 * (box.max - box.min);
+  double height = half.norm();
+  for (int axis = 0; axis < 3; ++axis)
+    height = std::min(height, half[axis] / std::max(std::abs(down[axis]), 1e-9));
+  return height;
+}
+
 /// Speed of snow when it meets the surface below it, or at the end of the scene when nothing is.
 double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
@@ -68,7 +84,7 @@ double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
       piece.velocity.norm() + piece.angular_velocity.norm() * radius + own_speed(*piece.shape);
   const double g = scene.solver.gravity.norm();
   if (g == 0) return start;
-  const Vec3d down = scene.solver.gravity / g;
+  const Vec3d down = down_in(scene);
   const bool is_cover = std::holds_alternative<sim::shapes::Cover>(piece.shape->form);
   const Vec3d middle =
       is_cover ? Vec3d(0.5 * (box.min + box.max)) : sim::shapes::center(*piece.shape);
@@ -79,8 +95,8 @@ double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   }
   const double duration = scene::duration(scene);
   const double free_fall = 0.5 * g * duration * duration;
-  // Snow at rest still slumps by about its own size.
-  fall = std::max(fall < 0 ? free_fall : fall, radius);
+  // Snow at rest still slumps by about its own height.
+  fall = std::max(fall < 0 ? free_fall : fall, half_height(box, down));
   return std::sqrt(start * start + 2 * g * fall);
 }
 
@@ -151,12 +167,6 @@ double fall_of(const scene::Scene& scene, const sim::shapes::Collider& body, con
 /// m, from the middle of a body to its corners.
 double radius_around(const sim::shapes::Bounds& box) {
   return 0.5 * (box.max - box.min).norm();
-}
-
-/// Unit vector; without gravity that of the pictures.
-Vec3d down_in(const scene::Scene& scene) {
-  const double g = scene.solver.gravity.norm();
-  return g > 0 ? Vec3d(scene.solver.gravity / g) : Vec3d(-Vec3d::UnitY());
 }
 
 BodyHeights body_heights(const scene::Scene& scene) {
@@ -236,44 +246,77 @@ double speed_of_top(const scene::Scene& scene, const SnowPiece& piece) {
   return std::sqrt(impact * impact + 2 * above);
 }
 
+/// The same scene under each gravity that its curve gives.
+std::vector<scene::Scene> scenes_under_gravities(const scene::Scene& scene) {
+  std::vector<scene::Scene> scenes;
+  for (const Vec3d& gravity : vectors_along(scene, "solver.gravity")) {
+    scenes.push_back(scene);
+    scenes.back().solver.gravity = gravity;
+    scenes.back().curves.clear();
+  }
+  return scenes;
+}
+
+/// The largest value under any gravity that the scene has.
+template <class Of>
+double largest_under_gravity(const scene::Scene& scene, const Of& of) {
+  const std::vector<scene::Scene> scenes = scenes_under_gravities(scene);
+  if (scenes.empty()) return of(scene);
+  double value = 0;
+  for (const scene::Scene& each : scenes) value = std::max(value, of(each));
+  return value;
+}
+
 }  // namespace
 
-double impact_speed(const scene::Scene& scene) {
-  double speed = 0;
-  for (const SnowPiece& piece : snow_places(scene))
-    speed = std::max(speed, impact_speed(scene, piece));
-  return speed;
+double impact_speed(const scene::Scene& given) {
+  return largest_under_gravity(given, [](const scene::Scene& scene) {
+    double speed = 0;
+    for (const SnowPiece& piece : snow_places(scene))
+      speed = std::max(speed, impact_speed(scene, piece));
+    return speed;
+  });
 }
 
-double collider_speed(const scene::Scene& scene, const sim::shapes::Collider& collider) {
+double collider_speed(const scene::Scene& given, const sim::shapes::Collider& collider) {
   const double speed = sim::shapes::largest_speed(collider);
-  return collider.body.moves() ? std::max(speed, body_speed(scene, collider)) : speed;
+  if (!collider.body.moves()) return speed;
+  return std::max(speed, largest_under_gravity(given, [&](const scene::Scene& scene) {
+                    return body_speed(scene, collider);
+                  }));
 }
 
-double largest_speed(const scene::Scene& scene) {
-  const Drive drive = drive_of(scene);
-  double speed = drive.pushing;
-  for (const SnowPiece& piece : snow_places(scene))
-    speed = std::max({speed, speed_of(scene, piece, drive), speed_of_top(scene, piece)});
-  return speed;
+double largest_speed(const scene::Scene& given) {
+  return largest_under_gravity(given, [](const scene::Scene& scene) {
+    const Drive drive = drive_of(scene);
+    double speed = drive.pushing;
+    for (const SnowPiece& piece : snow_places(scene))
+      speed = std::max({speed, speed_of(scene, piece, drive), speed_of_top(scene, piece)});
+    return speed;
+  });
 }
 
-double energy_of_impact(const scene::Scene& scene) {
-  const Drive drive = drive_of(scene);
-  double energy = 0;
-  for (const SnowPiece& piece : snow_pieces(scene)) {
-    const double speed = speed_of(scene, piece, drive);
-    energy += 0.5 * piece.mass * speed * speed;
-  }
-  return energy;
+double energy_of_impact(const scene::Scene& given) {
+  return largest_under_gravity(given, [](const scene::Scene& scene) {
+    const Drive drive = drive_of(scene);
+    double energy = 0;
+    for (const SnowPiece& piece : snow_pieces(scene)) {
+      const double speed = speed_of(scene, piece, drive);
+      energy += 0.5 * piece.mass * speed * speed;
+    }
+    return energy;
+  });
 }
 
-double force_of_impact(const scene::Scene& scene) {
-  const Drive drive = drive_of(scene);
-  double force = 0;
-  for (const SnowPiece& piece : snow_pieces(scene))
-    force += piece.mass * (scene.solver.gravity.norm() + speed_of(scene, piece, drive) * scene.fps);
-  return force;
+double force_of_impact(const scene::Scene& given) {
+  return largest_under_gravity(given, [](const scene::Scene& scene) {
+    const Drive drive = drive_of(scene);
+    double force = 0;
+    for (const SnowPiece& piece : snow_pieces(scene))
+      force +=
+          piece.mass * (scene.solver.gravity.norm() + speed_of(scene, piece, drive) * scene.fps);
+    return force;
+  });
 }
 
 scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
@@ -368,7 +411,11 @@ void resolve_plot_ranges(const scene::Scene& scene, scene::PlotRanges& ranges) {
   if (!ranges.speed) ranges.speed = automatic_range(scene, scene::ColorBy::speed, 0);
   if (!ranges.force) ranges.force = from_zero(force_of_impact(scene));
   if (scene::has_moving_bodies(scene)) {
-    const BodyHeights heights = body_heights(scene);
+    BodyHeights heights = body_heights(scene);
+    for (const scene::Scene& each : scenes_under_gravities(scene)) {
+      const BodyHeights more = body_heights(each);
+      heights = {std::min(heights.low, more.low), std::max(heights.high, more.high)};
+    }
     if (!ranges.body_height) ranges.body_height = rounded_range(heights.low, heights.high);
     if (!ranges.body_speed) ranges.body_speed = from_zero(largest_speed(scene));
   }

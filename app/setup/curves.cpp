@@ -78,6 +78,27 @@ const scene::Curve* curve_of(const scene::Scene& scene, const std::string& addre
   return found == scene.curves.end() ? nullptr : &*found;
 }
 
+std::vector<sim::Vec3d> vectors_along(const scene::Scene& scene, const std::string& address) {
+  constexpr int parts = 4;
+  const scene::Curve* curve = curve_of(scene, address);
+  if (!curve || curve->keyframes.empty() || !curve->keyframes.front().vector) return {};
+  const double end = scene::duration(scene);
+  std::vector<double> times{0, end};
+  for (std::size_t k = 0; k < curve->keyframes.size(); ++k) {
+    const double time = curve->keyframes[k].time;
+    const double next = k + 1 < curve->keyframes.size() ? curve->keyframes[k + 1].time : time;
+    for (int part = 0; part < parts; ++part) times.push_back(time + (next - time) * part / parts);
+  }
+  std::vector<sim::Vec3d> vectors;
+  for (const double time : times) {
+    if (time > end) continue;
+    const std::vector<double> x = numbers_at(*curve, time);
+    const sim::Vec3d vector(x[0], x[1], x[2]);
+    if (std::ranges::find(vectors, vector) == vectors.end()) vectors.push_back(vector);
+  }
+  return vectors;
+}
+
 void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes) {
   for (const scene::Override& change : changes)
     if (const scene::Curve* curve = curve_of(scene, change.address))

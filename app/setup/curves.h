@@ -20,6 +20,10 @@ scene::Scene with_curves(const scene::Scene& scene, int frame);
 /// The curve that a parameter follows; null: none.
 const scene::Curve* curve_of(const scene::Scene& scene, const std::string& address);
 
+/// Vectors that a curve gives to a parameter while the scene lasts: those of its keyframes, and
+/// some between. None without a curve.
+std::vector<sim::Vec3d> vectors_along(const scene::Scene& scene, const std::string& address);
+
 /// A curve has the last word: a change of its parameter would do nothing.
 /// @throws UsageError or SceneError that names the flag or the place of the change
 void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes);

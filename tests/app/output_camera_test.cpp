@@ -199,5 +199,40 @@ TEST(AutomaticRange, AutomaticRangeHoldsTheNeutralValue) {
   EXPECT_EQ(app::setup::automatic_range(scene, app::scene::ColorBy::id, 10).max, 9);
 }
 
+/// Of a ball that falls on a floor: speeds grow with the root of gravity.
+TEST(AutomaticRange, AutomaticRangesKnowTheGravityOfACurve) {
+  const auto scene_with = [](const std::string& more) {
+    return app::scene::read_scene_text(drop + more, "drop.toml");
+  };
+  const auto curve = [](const std::string& keyframes) {
+    return "[[curve]]\nparameter = \"solver.gravity\"\nkeyframes = [" + keyframes + "]\n";
+  };
+  const double usual = app::setup::impact_speed(scene_with(""));
+  const auto impact = [&](const std::string& keyframes) {
+    return app::setup::impact_speed(scene_with(curve(keyframes)));
+  };
+  const std::string weak = "{ time = 0, vector = [0, -0.0981, 0] }";
+  EXPECT_NEAR(impact(weak + ", { time = 0.2, vector = [0, -981, 0] }"), 10 * usual, 1e-9);
+  EXPECT_LT(impact(weak), 0.5 * usual);
+  // A keyframe after the end, at 0.5 s, acts as far as the scene goes towards it.
+  EXPECT_LT(impact(weak + ", { time = 100, vector = [0, -981, 0] }"), usual);
+  scene::PlotRanges still, strong;
+  app::setup::resolve_plot_ranges(scene_with(""), still);
+  app::setup::resolve_plot_ranges(scene_with(curve("{ time = 0, vector = [0, -98.1, 0] }")),
+                                  strong);
+  EXPECT_GT(strong.energy->max, 5 * still.energy->max);
+}
+
+TEST(AutomaticRange, WideFlatSnowSlumpsByItsHeight) {
+  const app::scene::Scene scene = app::scene::read_scene_text(R"(
+[[body]]
+shape = { box = { center = [0, 0.1, 0], size = [8, 0.2, 6] } }
+[[collider]]
+shape = { plane = {} }
+)",
+                                                              "slab.toml");
+  EXPECT_NEAR(app::setup::impact_speed(scene), std::sqrt(2 * 9.81 * 0.1), 1e-9);
+}
+
 }  // namespace
 }  // namespace neve::app
