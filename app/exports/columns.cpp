@@ -148,7 +148,11 @@ std::vector<double> values_of(ExportAttribute attribute, const ColumnSource& s) 
       return each([&](std::size_t p) { return s.axes.scale() * radius_of(a.V0[p]); });
     case ExportAttribute::age:
       if (s.is_dust) return each([&](std::size_t p) { return s.state.dust.age[p]; });
-      return each([&](std::size_t p) { return s.state.time - s.origins.birth_of(a.id_of(p)); });
+      return each([&](std::size_t p) {
+        const std::uint32_t id = a.id_of(p);
+        const bool is_known = s.state.waiting.empty() || !s.origins.is_born(id);
+        return is_known ? s.state.time - s.origins.birth_of(id) : NAN;
+      });
   }
   return {};
 }

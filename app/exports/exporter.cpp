@@ -165,7 +165,10 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
   note_colliders(colliders);
   const std::shared_ptr<const State> state = read_state(due, origins_, colliders, simulation);
   for (Job& job : jobs_)
-    if (is_due(job)) works.push_back(work(job, state, colliders, number));
+    if (is_due(job)) {
+      works.push_back(work(job, state, colliders, number));
+      if (warning_.empty()) warning_ = unknown_ages(job.record.spec, origins_, *state);
+    }
   return works;
 }
 
@@ -186,6 +189,12 @@ void Exporter::add_between(const std::vector<scene::Collider>& colliders,
   // Once something was elsewhere, a frame that is not listed would be taken for that, too.
   for (Job& job : jobs_)
     if (has_no_file(job) && !(says_nothing && job.between.empty())) put(job.between, sample);
+}
+
+std::string Exporter::take_warning() {
+  const bool is_new = !warning_.empty() && !is_told_;
+  is_told_ = is_told_ || is_new;
+  return is_new ? warning_ : "";
 }
 
 bool Exporter::has_stage() const {

@@ -45,6 +45,9 @@ class Exporter {
   std::vector<Work> add(const std::vector<scene::Collider>& colliders,
                         const sim::Simulation& simulation, int number, bool is_frame);
 
+  /// What is not in the files, once; "" for nothing.
+  std::string take_warning();
+
   /// Notes where things are at a frame without a file, for stages, which have them at every frame.
   /// @param is_frame  only exports whose `every` does not divide it
   void add_between(const std::vector<scene::Collider>& colliders, const sim::Simulation& simulation,
@@ -81,6 +84,8 @@ class Exporter {
   Origins origins_;
   Carried carried_;
   std::vector<Job> jobs_;
+  std::string warning_;
+  bool is_told_ = false;  ///< the warning
 };
 
 }  // namespace neve::app::exports

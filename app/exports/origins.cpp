@@ -35,7 +35,7 @@ std::vector<std::size_t> Origins::rows_of(const std::vector<std::string>& bodies
 }
 
 double Origins::birth_of(std::uint32_t id) const {
-  const std::size_t first = body_end_.empty() ? 0 : body_end_.back();
+  const std::size_t first = first_born();
   if (id < first) return 0;
   return period_ > 0 ? start_ + (static_cast<double>(id - first) + 0.5) * period_ : start_;
 }

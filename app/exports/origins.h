@@ -25,10 +25,13 @@ class Origins {
   const std::vector<std::size_t>& body_end() const { return body_end_; }
   /// Number of the body in the scene, from 0; emitters are counted after the bodies.
   int body_of(std::uint32_t id) const;
+  /// True for the snow of emitters.
+  bool is_born(std::uint32_t id) const { return id >= first_born(); }
   /// s, of an emitter that never waited for room; 0 for particles of bodies
   double birth_of(std::uint32_t id) const;
 
  private:
+  std::size_t first_born() const { return body_end_.empty() ? 0 : body_end_.back(); }
   std::vector<std::string> names_;
   std::vector<std::size_t> body_end_;
   double start_ = 0, period_ = 0;  ///< s, of the emitter's births

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "app/support/errors.h"
 #include "app/support/text.h"
 #include "sim/dust_grid.h"
 #include "sim/rasterize.h"
@@ -24,27 +23,22 @@ bool has_stress(const scene::Export& e) {
          has_attribute(e, scene::ExportAttribute::kirchhoff);
 }
 
-/// The clock of an emitter stands still while snow is in its way: its births are late from then on,
-/// each by what it had waited.
-void require_known_ages(const scene::Export& e, const Origins& origins,
-                        const sim::Simulation& simulation) {
-  if (!has_attribute(e, scene::ExportAttribute::age)) return;
-  const std::string advice = "omit age, or give the emitter room with a lower rate";
-  const std::vector<sim::seeding::EmitterStream::State> emitters = simulation.emitter_states();
-  for (std::size_t k = 0; k < emitters.size(); ++k) {
-    const std::string& name = origins.names()[origins.body_end().size() + k];
+}  // namespace
+
+std::string unknown_ages(const scene::Export& e, const Origins& origins, const State& state) {
+  if (e.dust || !has_attribute(e, scene::ExportAttribute::age)) return "";
+  for (const std::string& name : state.waiting) {
     const bool is_written =
         e.bodies.empty() || std::find(e.bodies.begin(), e.bodies.end(), name) != e.bodies.end();
-    if (!is_written || emitters[k].waited == 0) continue;
-    throw Error(exit_invalid_scene,
-                fmt::format("emitter.{} has waited for room by {} s: the state does not say when "
-                            "its particles were born; {}",
-                            name, fixed_text(simulation.time(), 3), advice),
-                "emitter." + name, advice);
+    if (is_written)
+      return fmt::format(
+          "emitter.{} has waited for room by {} s: from then on the state does not say when its "
+          "particles were born, and their age is not-a-number; give the emitter room with a lower "
+          "rate",
+          name, fixed_text(state.time, 3));
   }
+  return "";
 }
-
-}  // namespace
 
 bool has_grid(const scene::Export& e) {
   return e.format == scene::ExportFormat::vti || e.format == scene::ExportFormat::vdb;
@@ -97,9 +91,12 @@ std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
   state->particles = simulation.particles();
   if (std::any_of(exports.begin(), exports.end(), has_stress))
     state->kirchhoff = simulation.kirchhoff();
+  const std::vector<sim::seeding::EmitterStream::State> emitters = simulation.emitter_states();
+  for (std::size_t k = 0; k < emitters.size(); ++k)
+    if (emitters[k].waited > 0)
+      state->waiting.push_back(origins.names()[origins.body_end().size() + k]);
   for (const scene::Export& e : exports) {
     if (e.dust) continue;
-    require_known_ages(e, origins, simulation);
     if (has_grid(e) && !state->nodes.contains(e.bodies))
       state->nodes[e.bodies] =
           e.bodies.empty()

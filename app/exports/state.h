@@ -30,6 +30,9 @@ struct State {
   std::vector<sim::Mat3d> kirchhoff;  ///< Pa; empty unless an export has stress
   /// By the bodies that exports with the grid name: none for all snow.
   std::map<std::vector<std::string>, sim::RasterizedNodes> nodes;
+  /// Emitters that have waited for room. Their clock stands still while snow is in their way:
+  /// births are late from then on, each by what it had waited.
+  std::vector<std::string> waiting;
   sim::DustArrays dust;                ///< empty unless an export has it
   std::vector<PlacedShape> colliders;  ///< of that moment
 };
@@ -37,11 +40,13 @@ struct State {
 /// The dust as if it were the snow of a state: `particles`, and `nodes` where there are any.
 std::shared_ptr<const State> state_of_dust(const State& state);
 
+/// Why some ages of an export are not-a-number; "" where none is.
+std::string unknown_ages(const scene::Export& e, const Origins& origins, const State& state);
+
 /// True for formats that have the grid instead of particles.
 bool has_grid(const scene::Export& e);
 
 /// @param colliders  where their drawn places come from: the scene's, followed to this moment
-/// @throws Error for an age that the state does not say
 std::shared_ptr<const State> read_state(std::span<const scene::Export> exports,
                                         const Origins& origins,
                                         const std::vector<scene::Collider>& colliders,

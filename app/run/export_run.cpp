@@ -291,6 +291,8 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
     for (exports::Exporter::Work& work :
          exporter.add(timeline.scene().colliders, simulation, number, false))
       writer.write(std::move(work));
+    if (const std::string warning = exporter.take_warning(); !warning.empty())
+      progress.warning(warning);
   }
   writer.finish();
   std::vector<output::WrittenFile> written = writer.take_written();

@@ -115,6 +115,8 @@ std::vector<exports::Exporter::Work> Ledger::read_exports(const timeline::Timeli
   std::vector<exports::Exporter::Work> work;
   if (exporter_.is_due(frame))
     work = exporter_.add(timeline.scene().colliders, timeline.simulation(), number, true);
+  if (const std::string warning = exporter_.take_warning(); !warning.empty())
+    progress_.warning(warning);
   exporter_.add_between(timeline.scene().colliders, timeline.simulation(), number, true);
   note_exports();
   return work;
