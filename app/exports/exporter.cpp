@@ -167,7 +167,7 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
   for (Job& job : jobs_)
     if (is_due(job)) {
       works.push_back(work(job, state, colliders, number));
-      if (warning_.empty()) warning_ = unknown_ages(job.record.spec, origins_, *state);
+      if (warning_.empty()) warning_ = unknown_ages(job.record.spec, *state);
     }
   return works;
 }

@@ -25,7 +25,7 @@ bool has_stress(const scene::Export& e) {
 
 }  // namespace
 
-std::string unknown_ages(const scene::Export& e, const Origins& origins, const State& state) {
+std::string unknown_ages(const scene::Export& e, const State& state) {
   if (e.dust || !has_attribute(e, scene::ExportAttribute::age)) return "";
   for (const std::string& name : state.waiting) {
     const bool is_written =

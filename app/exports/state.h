@@ -41,7 +41,7 @@ struct State {
 std::shared_ptr<const State> state_of_dust(const State& state);
 
 /// Why some ages of an export are not-a-number; "" where none is.
-std::string unknown_ages(const scene::Export& e, const Origins& origins, const State& state);
+std::string unknown_ages(const scene::Export& e, const State& state);
 
 /// True for formats that have the grid instead of particles.
 bool has_grid(const scene::Export& e);

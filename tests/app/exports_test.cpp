@@ -216,7 +216,7 @@ TEST(Exports, AgesThatTheStateDoesNotSayAreNotANumber) {
               ages.begin(), ages.end(), [](auto a) { return std::isnan(static_cast<double>(a)); }));
         },
         table.find(app::scene::ExportAttribute::age)->numbers);
-    EXPECT_EQ(unknown > 0, !app::exports::unknown_ages(e, origins, *state).empty());
+    EXPECT_EQ(unknown > 0, !app::exports::unknown_ages(e, *state).empty());
     return std::pair(table.rows - unknown, unknown);
   };
   simulation.advance_to(0.01);
