@@ -316,14 +316,8 @@ struct InLanes {
   template <class V, class I>
   NEVE_INLINE static Elasticity<V> elasticity(const Record<V, I>& p,
                                               const MaterialConstants<ElementOf<V>>* table) {
-    using Real = ElementOf<V>;
     const ClayLanes<V> m = take_clay(p, table);
-    const Sym3<V> b = left_cauchy_green(p.F_E);
-    // Snow that is torn, at the tip of tension: its stress does not grow.
-    constexpr Real rounding = sizeof(Real) == 4 ? Real(4e-6) : Real(1e-12);
-    const V open = fused(Real(2) * m.beta, m.p0 / m.K, all<V>(Real(1) - rounding));
-    const V bears = (p.J_P > all<V>(1)) & (determinant(b) >= open) ? V{} : p.V0;
-    return {b, bears * m.mu, bears * m.K};
+    return {left_cauchy_green(p.F_E), p.V0 * m.mu, p.V0 * m.K};
   }
 
   template <class V>

@@ -9,7 +9,6 @@
 
 #include "tests/support/clay_sample.h"
 #include "tests/support/simd_levels.h"
-#include "tests/support/spin.h"
 
 namespace {
 
@@ -261,14 +260,6 @@ TEST(CamClay, ReturnIsFiniteForAnyFiniteDeformation) {
       EXPECT_TRUE(real.tau().allFinite() && real.F().allFinite()) << s.transpose() << size;
       EXPECT_GT(real.J_E(), 0);
     }
-}
-
-/// Snow without cohesion, as sand, see Sand.GrainsThatAreApartBearNothingInSemiImplicitSteps.
-TEST(CamClay, SnowThatIsTornBearsNothingMoreInSemiImplicitSteps) {
-  Material m = clay();
-  m.own[cam_clay::cohesion] = 0;
-  m.consolidation_pressure = 10;
-  EXPECT_NEAR(energy_after_a_turn(m, 1), energy_after_a_turn(m, 0), 0.03);
 }
 
 }  // namespace

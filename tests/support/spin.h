@@ -1,5 +1,5 @@
 #pragma once
-/// A cube that spins and vibrates in free flight, and a ball that flies apart.
+/// A cube that spins and vibrates in free flight.
 
 #include <Eigen/Geometry>
 
@@ -94,24 +94,6 @@ inline BallSpin spin_ball(Transfer transfer, Kernel kernel, double radius_in_cel
                                 (now.kinetic_energy + now.elastic_energy) / start.kinetic_energy);
   }
   return r;
-}
-
-/// Kinetic energy of a ball of snow or grains that spins without gravity after nearly a turn, over
-/// that of the start.
-inline double energy_after_a_turn(sim::Material m, double beta) {
-  sim::SolverSettings s;
-  s.cell_size = 0.04;
-  s.gravity.setZero();
-  s.beta = beta;
-  s.max_dt = 2e-3;
-  m.density = 400;
-  m.youngs_modulus = 1e5;
-  ParticleArrays p = ball_of_snow({0, 0, 0}, 0.16, 0.02, {0, 0, 0});
-  for (std::size_t q = 0; q < p.x.size(); ++q) p.v[q] = Vec3d(0, 15, 0).cross(p.x[q]);
-  sim::Simulation simulation(s, {m}, {}, p, 1);
-  const double start = simulation.summary().kinetic_energy;
-  simulation.advance_to(1.0 / 3);
-  return simulation.summary().kinetic_energy / start;
 }
 
 }  // namespace neve::test
