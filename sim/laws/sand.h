@@ -230,10 +230,7 @@ struct InLanes {
   NEVE_INLINE static Elasticity<V> elasticity(const Record<V, I>& p,
                                               const MaterialConstants<ElementOf<V>>* table) {
     const SandLanes<V> m = take_sand(p, table);
-    // Grains that are apart bear nothing, until they have given back the volume that they gained.
-    const MaskOf<V> is_apart = (p.J_P > all<V>(1)) & (determinant(p.F_E) * p.J_P > all<V>(1));
-    const V bears = is_apart ? V{} : p.V0;
-    return {left_cauchy_green(p.F_E), bears * m.mu, bears * m.lambda};
+    return {left_cauchy_green(p.F_E), p.V0 * m.mu, p.V0 * m.lambda};
   }
 
   template <class V>

@@ -27,8 +27,6 @@ ParticleArrays strained(std::size_t count) {
   p.x.resize(count), p.v.resize(count), p.m.resize(count), p.V0.resize(count);
   disturb(p, 0.03, 1.0);
   for (std::size_t q = 0; q < count; ++q) p.material.push_back(static_cast<int>(q % 5));
-  // Sand that gained volume bears nothing, whatever F_E is.
-  for (std::size_t q = 4; q < count; q += 5) p.J_P[q] = std::min(p.J_P[q], 1.0);
   return p;
 }
 

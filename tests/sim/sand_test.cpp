@@ -16,7 +16,6 @@
 #include "tests/support/one_particle.h"
 #include "tests/support/sand.h"
 #include "tests/support/simd_levels.h"
-#include "tests/support/snow.h"
 
 namespace {
 
@@ -162,31 +161,6 @@ TEST(Sand, SlopesSlideBeyondTheFrictionAngleAndAsFastAsFrictionAllows) {
     EXPECT_GE(found, 0.85 * exact);
     EXPECT_LE(found, 1.05 * exact);
   }
-}
-
-/// Kinetic energy of a spinning ball of sand without gravity after a turn, over that of the start.
-/// Its grains fly apart: they bear nothing.
-double energy_after_a_turn(double beta) {
-  SolverSettings s;
-  s.cell_size = 0.04;
-  s.gravity = {0, 0, 0};
-  s.beta = beta;
-  s.max_dt = 2e-3;
-  Material m = dry_sand(30);
-  m.youngs_modulus = 1e5;
-  const Vec3d spin{0, 15, 0};
-  ParticleArrays p = ball_of_snow({0, 0, 0}, 0.16, 0.02, {0, 0, 0});
-  for (std::size_t q = 0; q < p.x.size(); ++q) p.v[q] = spin.cross(p.x[q]);
-  Simulation simulation(s, {m}, {}, p, 1);
-  const double start = simulation.summary().kinetic_energy;
-  simulation.advance_to(1.0 / 3);
-  return simulation.summary().kinetic_energy / start;
-}
-
-/// The transfers take 8 % while the grains part, in steps of any length. With the elasticity of
-/// packed sand in the solve, it took two thirds.
-TEST(Sand, GrainsThatAreApartBearNothingInSemiImplicitSteps) {
-  EXPECT_NEAR(energy_after_a_turn(1), energy_after_a_turn(0), 0.03);
 }
 
 }  // namespace
