@@ -81,6 +81,9 @@ void refuse_loss(const CardOptions& options, const fs::path& picture, const fs::
   if (!is_named) look_at(picture, is_card(picture));
   look_at(numbers, has_numbers(numbers));
   if (options.replaces || is_named || lost.empty() || shows_cards(picture, texts)) return;
+  if (!fs::exists(picture, error))
+    throw UsageError("", numbers.string() + " has no picture that says of what it is",
+                     "add --replace, or name another file with --out");
   throw UsageError("",
                    "there is a card of other scenes or settings; this one would replace " +
                        joined(lost, " and "),

@@ -147,21 +147,34 @@ class PairRun {
     timeline::Timeline b = timeline::open(pair_.b.job, options_.threads, progress_);
     refuse_mode(options_, Mode::displacement, id_problem(pair_, a.seeded(), b.seeded()), target_,
                 result_);
-    target_.begin(numbers_of(frames));
     progress_.start(frames.last, scene::number_of(pair_.a.job.scene, 0));
     for (int frame = frames.first; frame <= frames.last; ++frame) {
-      if (!advance(a, pair_.a, frame) || !advance(b, pair_.b, frame)) {
+      const bool is_there = advance(a, pair_.a, frame) && advance(b, pair_.b, frame);
+      if (is_there && target_.has(Mode::displacement))
+        follow_births(birth_problem(pair_, a.simulation(), b.simulation()), frame);
+      // Nothing of an earlier comparison goes before this one is known to be possible.
+      if (frame == frames.first) target_.begin(numbers_of(frames));
+      if (!is_there) {
         result_.is_whole = false;
         return;
       }
-      refuse_mode(options_, Mode::displacement,
-                  birth_problem(pair_, a.simulation(), b.simulation()), target_, result_);
       result_.moments.push_back(moment(frame));
       painter.take(a, b, target_.modes(), result_.moments.back());
       for (const Mode mode : target_.modes())
         if (mode != Mode::metrics)
           add_picture(mode, result_.moments.back().frame, painter.draw(mode));
     }
+  }
+
+  /// At the first frame the mode is refused, later it ends: its pictures so far are right.
+  void follow_births(const std::optional<UsageError>& problem, int frame) {
+    if (!problem) return;
+    if (result_.moments.empty() || target_.kind() != TargetKind::folder)
+      return refuse_mode(options_, Mode::displacement, problem, target_, result_);
+    target_.leave_out(Mode::displacement);
+    result_.warnings.push_back("displacement ends before frame " +
+                               std::to_string(scene::number_of(pair_.a.job.scene, frame)) + ": " +
+                               problem->message);
   }
 
   void add_picture(Mode mode, int frame, const render::Image& image) {

@@ -35,7 +35,7 @@ struct DenseBirth {
 /// Check: Softness.SnowThatBeginsDenserThanIceIsNotCalledSoft
 std::optional<DenseBirth> dense_birth(const scene::Scene& scene);
 
-/// "emitter.jet.J_P = 0.15 makes snow of 2670 kg/m3, ..."
+/// "emitter.jet.J_P = 0.15 packs snow to 2670 kg/m3 before it moves, ..."
 std::string evidence_text(const DenseBirth& birth);
 /// "emitter.jet.J_P = 1 ..."
 std::string advice_text(const DenseBirth& birth);

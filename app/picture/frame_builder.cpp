@@ -237,7 +237,13 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
   if (!frame.footnote.empty() && !view.slice.follow.empty() &&
       !centre_of(view.slice.follow, scene_, scene_.colliders, seeded_.body_end, snapshot.particles,
                  snapshot.time))
-    frame.footnote += ", " + view.slice.follow + " is gone: the plane is where it began";
+    frame.footnote += ", " + view.slice.follow + " is gone" +
+                      (std::ranges::any_of(scene_.bodies,
+                                           [&](const sim::seeding::Body& body) {
+                                             return body.name == view.slice.follow;
+                                           })
+                           ? ": the plane is where it began"
+                           : "");
   if (scene::has_layer(view, scene::Layer::extremes))
     mark_extremes(view, fields, snapshot.advance.dt_max, frame);
 }

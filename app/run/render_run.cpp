@@ -367,10 +367,8 @@ void RenderRun::compare_with_picture(int frame, std::uint64_t state_hash) {
       job_.coarsening != picture->coarsening ||
       picture->state_hash == record::hash_text(state_hash))
     return;
-  std::string warning = fmt::format(
-      "{} shows state {}, and its scene reached state {}: it was made by another version of neve, "
-      "from other files, or changed since",
-      job_.scene_file, picture->state_hash, record::hash_text(state_hash));
+  std::string warning = fmt::format("frame {} has another state than {} shows{}", picture->frame,
+                                    job_.scene_file, timeline::other_bits);
   progress_.warning(warning);
   told_before_.push_back(std::move(warning));
   note_warnings();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "app/setup/curves.h"
 #include "app/setup/snow_pieces.h"
@@ -246,24 +247,24 @@ double speed_of_top(const scene::Scene& scene, const SnowPiece& piece) {
   return std::sqrt(impact * impact + 2 * above);
 }
 
-/// The same scene under each gravity that its curve gives.
-std::vector<scene::Scene> scenes_under_gravities(const scene::Scene& scene) {
-  std::vector<scene::Scene> scenes;
-  for (const Vec3d& gravity : vectors_along(scene, "solver.gravity")) {
-    scenes.push_back(scene);
-    scenes.back().solver.gravity = gravity;
-    scenes.back().curves.clear();
+/// act(the scene under each gravity that it has): several where gravity follows a curve.
+template <class Act>
+void under_each_gravity(const scene::Scene& scene, const Act& act) {
+  const std::vector<Vec3d> gravities = vectors_along(scene, "solver.gravity");
+  if (gravities.empty()) return act(scene);
+  scene::Scene under = scene;
+  under.curves.clear();
+  for (const Vec3d& gravity : gravities) {
+    under.solver.gravity = gravity;
+    act(std::as_const(under));
   }
-  return scenes;
 }
 
-/// The largest value under any gravity that the scene has.
+/// The largest value under any of them.
 template <class Of>
 double largest_under_gravity(const scene::Scene& scene, const Of& of) {
-  const std::vector<scene::Scene> scenes = scenes_under_gravities(scene);
-  if (scenes.empty()) return of(scene);
   double value = 0;
-  for (const scene::Scene& each : scenes) value = std::max(value, of(each));
+  under_each_gravity(scene, [&](const scene::Scene& each) { value = std::max(value, of(each)); });
   return value;
 }
 
@@ -412,10 +413,10 @@ void resolve_plot_ranges(const scene::Scene& scene, scene::PlotRanges& ranges) {
   if (!ranges.force) ranges.force = from_zero(force_of_impact(scene));
   if (scene::has_moving_bodies(scene)) {
     BodyHeights heights = body_heights(scene);
-    for (const scene::Scene& each : scenes_under_gravities(scene)) {
+    under_each_gravity(scene, [&](const scene::Scene& each) {
       const BodyHeights more = body_heights(each);
       heights = {std::min(heights.low, more.low), std::max(heights.high, more.high)};
-    }
+    });
     if (!ranges.body_height) ranges.body_height = rounded_range(heights.low, heights.high);
     if (!ranges.body_speed) ranges.body_speed = from_zero(largest_speed(scene));
   }

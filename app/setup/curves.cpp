@@ -37,14 +37,42 @@ double value_at(const scene::Curve& curve, const std::vector<double>& times,
   return x[before];
 }
 
+/// A curve that is asked for many times.
+class CurveValues {
+ public:
+  explicit CurveValues(const scene::Curve& curve)
+      : curve_(curve), coordinates_(coordinates_of(curve)) {
+    for (const scene::CurveKeyframe& key : curve.keyframes) times_.push_back(key.time);
+  }
+  std::vector<double> at(double time) const {
+    const sim::shapes::CurvePlace place(times_, time);
+    std::vector<double> numbers;
+    for (const std::vector<double>& x : coordinates_)
+      numbers.push_back(value_at(curve_, times_, x, place));
+    return numbers;
+  }
+
+ private:
+  const scene::Curve& curve_;
+  std::vector<std::vector<double>> coordinates_;
+  std::vector<double> times_;
+};
+
 std::vector<double> numbers_at(const scene::Curve& curve, double time) {
-  std::vector<double> times;
-  for (const scene::CurveKeyframe& key : curve.keyframes) times.push_back(key.time);
-  const sim::shapes::CurvePlace place(times, time);
-  std::vector<double> numbers;
-  for (const std::vector<double>& x : coordinates_of(curve))
-    numbers.push_back(value_at(curve, times, x, place));
-  return numbers;
+  return CurveValues(curve).at(time);
+}
+
+/// Of very many, the ends along each axis, the longest, and some of the others.
+std::vector<sim::Vec3d> few_of(const std::vector<sim::Vec3d>& all) {
+  constexpr std::size_t most = 64;
+  if (all.size() <= most) return all;
+  std::vector<sim::Vec3d> few;
+  for (std::size_t k = 0; k < most; ++k) few.push_back(all[k * all.size() / most]);
+  const auto add = [&](const auto& of) { few.push_back(*std::ranges::max_element(all, {}, of)); };
+  add([](const sim::Vec3d& v) { return v.squaredNorm(); });
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1.0, 1.0}) add([&](const sim::Vec3d& v) { return sign * v[axis]; });
+  return few;
 }
 
 double time_of(const scene::Scene& scene, int frame) {
@@ -89,14 +117,14 @@ std::vector<sim::Vec3d> vectors_along(const scene::Scene& scene, const std::stri
     const double next = k + 1 < curve->keyframes.size() ? curve->keyframes[k + 1].time : time;
     for (int part = 0; part < parts; ++part) times.push_back(time + (next - time) * part / parts);
   }
+  const CurveValues values(*curve);
   std::vector<sim::Vec3d> vectors;
   for (const double time : times) {
     if (time > end) continue;
-    const std::vector<double> x = numbers_at(*curve, time);
-    const sim::Vec3d vector(x[0], x[1], x[2]);
-    if (std::ranges::find(vectors, vector) == vectors.end()) vectors.push_back(vector);
+    const std::vector<double> x = values.at(time);
+    vectors.emplace_back(x[0], x[1], x[2]);
   }
-  return vectors;
+  return few_of(vectors);
 }
 
 void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes) {

@@ -287,9 +287,7 @@ void compare_with_run(const Origin& origin, int frame, std::uint64_t hash, Progr
   for (const record::FrameRecord& record : origin.run_frames)
     if (record.frame == frame && record.state_hash != hash)
       progress.warning("frame " + std::to_string(scene::number_of(origin.scene, frame)) +
-                       " has another state than the run in " + origin.run.string() +
-                       ": its bits came from another version or other instructions, or files that "
-                       "the scene names have changed");
+                       " has another state than the run in " + origin.run.string() + other_bits);
 }
 
 }  // namespace neve::app::timeline

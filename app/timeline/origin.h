@@ -76,6 +76,12 @@ Timeline open(const Origin& origin, int threads, Progress& progress);
 Timeline open(const Origin& origin, std::shared_ptr<const setup::SeededScene> seeded, int threads,
               Progress& progress);
 
+/// Why a state is another one than a run or a picture has.
+inline constexpr const char* other_bits =
+    ": its bits came from another version or other instructions, or files that the scene names "
+    "have "
+    "changed";
+
 /// Warns where the run of an origin lists a frame with another state than the same frame made now.
 void compare_with_run(const Origin& origin, int frame, std::uint64_t hash, Progress& progress);
 

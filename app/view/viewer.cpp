@@ -61,6 +61,7 @@ void Viewer::run() {
     settle_ = is_more ? 3 : std::max(0, settle_ - 1);
     if (options_.max_pictures > 0 && ++pictures_ >= options_.max_pictures) break;
   }
+  record_due();
   if (state_.is_recording) bench_.session().set_recording(false);
   writer_.finish();
 }
@@ -87,6 +88,7 @@ void Viewer::take_drop(const std::string& file) {
 void Viewer::take_live_frame() {
   const std::shared_ptr<const session::LiveFrame> live = bench_.session().latest();
   if (state_.live && live->number == state_.live->number) return;
+  record_due();
   state_.live = live;
   if (live->probe) {
     panels::ProbeTrace& trace = state_.trace;

@@ -57,6 +57,9 @@ struct RecordedKey {
   bool operator==(const RecordedKey&) const = default;
 };
 
+/// s without a move of the camera.
+inline constexpr double still_after = 0.25;
+
 class Viewer {
  public:
   Viewer(session::Workbench& bench, frontend::Frontend& front, render::Screen& screen,
@@ -92,6 +95,8 @@ class Viewer {
   void save_picture();
   void download(const std::filesystem::path& file);
   void keep_recording();
+  void record_due();
+  bool has_what_is_shown() const;
   RecordedKey recorded_key() const;
   void announce_view();
   double seconds_passed();
@@ -126,6 +131,7 @@ class Viewer {
   bool has_input_ = false;                            ///< since the last picture
   bool is_going_to_frame_ = false, goes_on_ = false;  ///< for a picture that is to be saved
   std::optional<RecordedKey> recorded_;               ///< the last picture of the recording
+  bool is_record_due_ = false;                        ///< another one of its frame
   std::pair<std::shared_ptr<const scene::Scene>, std::string> announced_;  ///< to the session
 };
 

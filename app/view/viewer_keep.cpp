@@ -1,5 +1,7 @@
 /// Pictures that stay: of a moment, and a recording of every frame.
 
+#include <utility>
+
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
@@ -30,7 +32,8 @@ bool Viewer::has_picture_to_save() {
     settle_ = 3;
     return false;
   }
-  if (live.is_frame_end && painted_number_ == live.number && !(goes_on_ && live.is_running))
+  if (live.is_frame_end && painted_number_ == live.number && has_what_is_shown() &&
+      !(goes_on_ && live.is_running))
     return true;
   if (live.divergence) return true;  // there is no next one
   if (!is_going_to_frame_ && !live.is_frame_end) {
@@ -48,7 +51,7 @@ output::Picture Viewer::picture_to_keep(const std::filesystem::path& file) {
   scene::View view = panels::view_to_keep(state_);
   view.size = setup::size_of(*bench_.document().scene(), view);
   record::PictureRecord record = bench_.picture_record(live, view);
-  record.state_hash = record::hash_text(live.state_hash);
+  if (live.is_frame_end) record.state_hash = record::hash_text(live.state_hash);
   painted_.reset();  // another picture takes the place of the one on the screen
   render::Image image = renderer_.draw(picture_frame(view));
   screen_.select_panels();  // the picture's words have another context: keys would go there
@@ -109,18 +112,34 @@ RecordedKey Viewer::recorded_key() const {
 /// Every frame once, and again where something else of it is shown before the next.
 void Viewer::keep_recording() {
   if (!state_.is_recording) {
+    record_due();
     lock_.reset();
     recorded_.reset();
     return;
   }
   const session::LiveFrame& live = *state_.live;
-  const bool is_painted = painted_ && painted_number_ == live.number;
+  const bool is_painted = painted_ && painted_number_ == live.number && has_what_is_shown();
   if (!is_painted || !live.is_frame_end || live.stage) return;
   const RecordedKey key = recorded_key();
-  if (recorded_ == key) return;
+  is_record_due_ = recorded_ != key;
+  if (!is_record_due_) return;
+  const bool is_same_frame = recorded_ && recorded_->start == key.start &&
+                             recorded_->frame == key.frame && recorded_->view == key.view;
+  // Of a drag the last picture is enough.
+  if (is_same_frame && seconds_since(moved_at_) < still_after)
+    settle_ = 3;
+  else
+    record_due();
+}
+
+/// Before what is shown is another frame.
+void Viewer::record_due() {
+  if (!std::exchange(is_record_due_, false)) return;
+  const session::LiveFrame& live = *state_.live;
+  RecordedKey key = recorded_key();
   const bool is_another =
       !recorded_ || recorded_->frame != key.frame || recorded_->view != key.view;
-  recorded_ = key;
+  recorded_ = std::move(key);
   try {
     const std::string& view = panels::current_view(state_).name;
     // Frames have the names that neve render gives them.

@@ -21,7 +21,6 @@ namespace {
 /// s; a picture that takes longer is drawn smaller while it moves. As much again is for panels,
 /// encoding, and the simulation behind it: 30 pictures a second.
 constexpr double quick_enough = 1.0 / 60;
-constexpr double still_after = 0.25;  // s without a move
 constexpr double smallest_scale = 0.45;
 
 /// True if everything that the view shows was computed for this moment: a newly chosen view waits
@@ -123,7 +122,7 @@ void Viewer::paint_new_picture() {
     scale = std::clamp(std::sqrt(quick_enough / full_seconds_), smallest_scale, 1.0);
   PictureKey key = picture_key();
   if (key == painted_ && scale <= scale_) return;
-  if (!has_all(state_.live->snapshot, shown_view())) return;
+  if (!has_what_is_shown()) return;
   const auto start = Clock::now();
   const scene::PictureSize size{
       std::max(16, static_cast<int>(std::lround(scale * state_.viewport.width))),
@@ -143,6 +142,10 @@ void Viewer::paint_new_picture() {
   scale_ = scale;
   painted_number_ = state_.live->number;
   painted_ = std::move(key);
+}
+
+bool Viewer::has_what_is_shown() const {
+  return has_all(state_.live->snapshot, shown_view());
 }
 
 /// The current view; inside a step its arrows show the result of the stage.

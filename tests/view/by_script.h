@@ -3,9 +3,14 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "app/output/atomic_file.h"
+#include "app/output/sequence.h"
+#include "app/record/picture_record.h"
 #include "app/support/errors.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/needs.h"
 
@@ -20,6 +25,21 @@ class ViewByScript : public Cli {
                                    "--out", "out",        "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     return neve(words);
+  }
+
+  /// neve render makes the same picture from its record.
+  void expect_made_again(const std::string& file) {
+    const auto done = neve({"render", file, "--out", "again", "--no-movie", "--replace"});
+    ASSERT_EQ(done.exit_code, 0) << done.errors;
+    const app::record::PictureRecord record =
+        app::record::read_picture_record((folder / file).string());
+    const auto pixels = [&](const std::filesystem::path& picture) {
+      const render::Image image = render::decode_png(app::output::read_file(picture));
+      return std::pair(image.channels, image.pixels);
+    };
+    EXPECT_EQ(pixels(folder / file),
+              pixels(app::output::frame_path(folder / "again", record.view, record.frame)))
+        << file;
   }
 
   /// Files of the output folder whose names begin and end so.

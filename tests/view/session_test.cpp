@@ -249,7 +249,8 @@ TEST(Session, AnotherViewIsAnsweredThoughTheFrameWaitsForItsPicture) {
   const auto waits_at = [&](int frame) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (session.latest()->frame < frame && std::chrono::steady_clock::now() < end) {
-      if (session.latest()->frame < frame) session.taken(session.latest()->number);
+      const auto live = session.latest();
+      if (live->frame < frame) session.taken(live->number);
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return session.latest();

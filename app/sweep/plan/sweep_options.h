@@ -56,10 +56,10 @@ struct SweepOptions {
   bool is_json = false;
 };
 
-/// Options for one run of an existing sweep.
 /// Advice of commands that write into the folder of a sweep, and nowhere else.
 inline constexpr const char* copied_sweep = "copy the sweep to a folder that may be written";
 
+/// Options for one run of an existing sweep.
 struct SweepRunOptions {
   std::string folder;  ///< of the sweep
   std::optional<int> index;

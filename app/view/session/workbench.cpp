@@ -330,9 +330,22 @@ void Workbench::continue_anyway() {
   }
 }
 
+/// The scene of the start, with all that concerns pictures alone as it is now. Where another text
+/// was read and its Reset failed, it is that of the text of the start.
+std::shared_ptr<const scene::Scene> Workbench::pictured(const LiveFrame& live) const {
+  const Start& start = start_of(live);
+  std::vector<scene::Override> edits = start.at_start;
+  for (const std::string& address : Document::difference(start.at_start, document_.edits()))
+    if (effect_of(address) == Effect::display && !lacks_its_object(start.at_start, address))
+      put(edits, address, document_.edits());
+  return start.document.scene_with(edits);
+}
+
 scene::Scene Workbench::display_scene(const LiveFrame& live) const {
   scene::Scene scene = *live.scene;
-  const scene::Scene& mine = *document_.scene();
+  const std::shared_ptr<const scene::Scene> shown =
+      start_of(live).document.text() == document_.text() ? document_.scene() : pictured(live);
+  const scene::Scene& mine = *shown;
   scene.title = mine.title;
   scene.camera = mine.camera;
   scene.light = mine.light;
@@ -518,12 +531,7 @@ std::string Workbench::command() const {
 
 record::PictureRecord Workbench::picture_record(const LiveFrame& live,
                                                 const scene::View& view) const {
-  const Start& start = start_of(live);
-  std::vector<scene::Override> edits = start.at_start;
-  for (const scene::Override& edit : document_.edits())
-    if (effect_of(edit.address) == Effect::display && !lacks_its_object(edits, edit.address))
-      put(edits, edit.address, document_.edits());
-  scene::Scene scene = *start.document.scene_with(edits);
+  scene::Scene scene = *pictured(live);
   scene.views = {view};
   scene.mosaics.clear();
   record::PictureRecord record;

@@ -124,6 +124,7 @@ class Workbench {
 
   SessionOptions session_options() const;
   const Start& start_of(const LiveFrame& live) const;
+  std::shared_ptr<const scene::Scene> pictured(const LiveFrame& live) const;
   const Start& newest_start() const;
   Start& newest_start() { return const_cast<Start&>(std::as_const(*this).newest_start()); }
   void require_allowed(const std::string& address, const std::string& value) const;
