@@ -10,7 +10,6 @@
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
-#include "sim/files/file_axes.h"
 
 namespace neve::app::exports {
 
@@ -107,8 +106,7 @@ std::string encode_csv(const ExportMoment& moment) {
   // As a column: a comment is a line too much for most readers of such files.
   std::string axes;
   if (moment.spec.up == scene::UpAxis::z || moment.spec.scale != 1) {
-    text += ',';
-    text += moment.spec.up == scene::UpAxis::z ? sim::files::z_up_column : sim::files::y_up_column;
+    text += moment.spec.up == scene::UpAxis::z ? ",up_z_units_per_metre" : ",up_y_units_per_metre";
     append_text(moment.spec.scale, axes);
     axes += ',';
   }
