@@ -388,13 +388,30 @@ void Workbench::keep_file() {
   file_time_ = time_of(document_.file());
 }
 
+std::string Workbench::saved_text() const {
+  return scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
+                                scene::base_dir_of(document_.file()));
+}
+
+/// Such a file is not replaced by another: a script that is run again leaves no second copy.
+bool Workbench::has_saved_text(const std::filesystem::path& file) const {
+  try {
+    const std::vector<std::uint8_t> bytes = output::read_file(file);
+    return std::string(bytes.begin(), bytes.end()) == saved_text();
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 std::filesystem::path Workbench::save_copy() {
   std::error_code error;
   const auto name = [this](int k) {
     return options_.folder / (k == 1 ? "scene.toml" : "scene_" + std::to_string(k) + ".toml");
   };
   // One that was there before may be anyone's, and the scene itself.
-  for (int k = 1; copy_.empty() || (is_copy_new_ && std::filesystem::exists(copy_, error)); ++k)
+  for (int k = 1; copy_.empty() ||
+                  (is_copy_new_ && std::filesystem::exists(copy_, error) && !has_saved_text(copy_));
+       ++k)
     copy_ = name(k);
   if (!save_scene(copy_)) return {};
   is_copy_new_ = false;
@@ -406,9 +423,7 @@ bool Workbench::save_scene(const std::filesystem::path& file) {
     if (options_.is_remote && file.parent_path() != options_.folder)
       throw UsageError(
           "", "over the web, files are written into " + options_.folder.string() + " alone");
-    const std::string text =
-        scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
-                               scene::base_dir_of(document_.file()));
+    const std::string text = saved_text();
     output::make_folder(file.parent_path());
     output::write_named_file(file, text);
     std::error_code error;

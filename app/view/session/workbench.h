@@ -89,8 +89,8 @@ class Workbench {
 
   // Exports. Each leaves a message with the file it wrote or the error, and says false after one.
   bool save_scene(const std::filesystem::path& file);
-  /// Into the folder, in the place of no file but an earlier copy of this session. @return its
-  /// name; "" after an error
+  /// Into the folder, in the place of no file but an earlier copy of this session, or of one with
+  /// the same text. @return its name; "" after an error
   std::filesystem::path save_copy();
   bool may_save_over_file() const { return !options_.is_remote; }
   std::filesystem::path sweep_around(const std::string& address);
@@ -127,6 +127,8 @@ class Workbench {
   std::shared_ptr<const scene::Scene> pictured(const LiveFrame& live) const;
   const Start& newest_start() const;
   Start& newest_start() { return const_cast<Start&>(std::as_const(*this).newest_start()); }
+  std::string saved_text() const;
+  bool has_saved_text(const std::filesystem::path& file) const;
   void require_allowed(const std::string& address, const std::string& value) const;
   void take_over(const std::vector<scene::Override>& before);
   std::vector<std::string> changed_while_running() const;
