@@ -19,7 +19,6 @@
 #include "app/support/interrupt.h"
 #include "app/support/json.h"
 #include "app/support/text.h"
-#include "app/support/version.h"
 #include "render/gl/context.h"
 #include "render/image/image.h"
 #include "render/renderer.h"
@@ -186,7 +185,6 @@ void write_open_edges(const run::RenderOptions& options, const scene::Scene& sce
   render::Renderer renderer(*context, options.shader_dir, nullptr);
   record::SheetRecord record;
   record.what = "the open meshes of a scene";
-  record.version = version;
   record.scenes = {{"scene", scene::write_scene(scene)}};
   record.again = "neve check SCENE --open-edges FILE.png";
   output::write_file(options.open_edges,

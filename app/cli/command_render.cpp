@@ -35,7 +35,6 @@
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
-#include "app/support/version.h"
 #include "app/timeline/origin.h"
 #include "render/gl/context.h"
 #include "render/overlay/font_cover.h"
@@ -144,7 +143,6 @@ int compare_with_reference(const run::RenderOptions& options, const run::RenderJ
   const std::filesystem::path file = job.folder / "difference.png";
   record::SheetRecord record;
   record.what = "the difference of a picture and its reference";
-  record.version = version;
   record.add("reference", options.reference);
   record.add("frame", std::to_string(scene::number_of(job.scene, job.frames.last)));
   for (const std::string& change : job.overrides) record.add("override", change);

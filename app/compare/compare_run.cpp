@@ -13,7 +13,6 @@
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
-#include "app/support/version.h"
 #include "render/gl/context.h"
 
 namespace neve::app::compare {
@@ -66,13 +65,12 @@ std::string option_words(const PairOptions& options, Mode mode) {
   return words;
 }
 
-/// What made the picture of a mode.
+/// Says what made the picture of a mode.
 render::PngText text_of(const PairOptions& options, Mode mode, std::optional<int> frame,
                         const Pair* pair) {
   record::SheetRecord record;
   record.what =
       std::string("a comparison of two ") + (pair ? "runs" : "pictures") + ", " + name(mode);
-  record.version = version;
   const auto add_side = [&](const char* name, const std::string& path, const Side* side) {
     record.add(name, path + (side && !side->values.empty() ? "   " + side->values : ""));
     if (!side) return;

@@ -45,7 +45,7 @@ class Exporter {
   std::vector<Work> add(const std::vector<scene::Collider>& colliders,
                         const sim::Simulation& simulation, int number, bool is_frame);
 
-  /// What is not in the files, once; "" for nothing.
+  /// Says what the files lack, once; "" for nothing.
   std::string take_warning();
 
   /// Notes where things are at a frame without a file, for stages, which have them at every frame.

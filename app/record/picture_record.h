@@ -11,6 +11,7 @@
 #include "app/scene/live_change.h"
 #include "app/scene/scene.h"
 #include "app/support/json.h"
+#include "app/support/version.h"
 #include "render/image/image.h"
 
 namespace neve::app::record {
@@ -50,7 +51,7 @@ struct SheetRecord {
   };
   std::string what;                ///< "a contact sheet of 12 runs"
   std::vector<std::string> lines;  ///< "scene       drop.toml": of what, as `neve info` prints it
-  std::string version;
+  std::string version = app::version;
   std::vector<Scene>
       scenes;         ///< that it shows; none in sheets, whose runs have pictures with theirs
   std::string again;  ///< what makes it again; "" in sheets, which know no folder

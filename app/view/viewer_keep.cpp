@@ -16,7 +16,7 @@ namespace {
 /// Its pictures would be replaced by those of another run.
 void require_no_run(const std::filesystem::path& folder) {
   std::error_code error;
-  if (std::filesystem::exists(folder / "run.json", error))
+  if (std::filesystem::exists(output::run_json_path(folder), error))
     throw UsageError(folder.string(), folder.string() + " is the folder of a run",
                      "record into another: neve view --out DIR");
 }

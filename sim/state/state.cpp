@@ -150,16 +150,19 @@ void State<Real>::move_bodies(double dt) {
 
 template <class Real>
 void State<Real>::note_near_colliders() {
-  progress.limits.max_collider_speed = colliders.fastest_near(
-      particles.partition.all_blocks(), method.lattice, progress.colliders_time,
-      method.settings.max_dt, progress.limits.max_speed);
+  progress.limits.max_collider_speed = fastest_near(particles.partition.all_blocks());
 }
 
 template <class Real>
 double State<Real>::fastest_near(std::size_t begin, std::size_t end) const {
-  return colliders.fastest_near(particles.partition.blocks_of(particles.keys, begin, end),
-                                method.lattice, progress.colliders_time, method.settings.max_dt,
-                                progress.limits.max_speed);
+  if (colliders.list().empty()) return 0;
+  return fastest_near(particles.partition.blocks_of(particles.keys, begin, end));
+}
+
+template <class Real>
+double State<Real>::fastest_near(const std::vector<kernels::BlockRange>& blocks) const {
+  return colliders.fastest_near(blocks, method.lattice, progress.colliders_time,
+                                method.settings.max_dt, progress.limits.max_speed);
 }
 
 /// In double, as the kernels see it: four particles at a time.

@@ -69,6 +69,7 @@ struct State {
 
  private:
   void sort_into_blocks();
+  double fastest_near(const std::vector<kernels::BlockRange>& blocks) const;
   void show_colliders(kernels::SweepArgs<Real>& a) const;
   void move_bodies(double dt);
 };
