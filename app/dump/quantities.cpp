@@ -179,6 +179,24 @@ bool Quantity::is_outside_expected(std::size_t row) const {
   return expected && !(found >= expected->min && found <= expected->max);
 }
 
+Extremes extremes(const Listing& listing, const Quantity& quantity) {
+  Extremes e;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < quantity.rows(); ++row) {
+    if (!listing.is_negligible.empty() && listing.is_negligible[row]) continue;
+    e.outside_expected += quantity.is_outside_expected(row);
+    const double found = quantity.magnitude(row);
+    if (!std::isfinite(found)) continue;
+    e.least = std::fmin(e.least, found);
+    e.greatest = std::fmax(e.greatest, found);
+    sum += found;
+    ++count;
+  }
+  if (count > 0) e.mean = sum / static_cast<double>(count);
+  return e;
+}
+
 std::string component_name(const Quantity& quantity, int component) {
   static constexpr const char* axes[] = {"x", "y", "z"};
   if (quantity.components == 1) return quantity.name;

@@ -1,6 +1,8 @@
 #pragma once
 /// Quantities inside a step, with the ranges of a healthy run.
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -72,6 +74,13 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage);
 
 /// Names of the quantities of all stages and of the state before the step.
 const std::vector<std::string>& quantity_names();
+
+/// Magnitudes of one quantity in a few numbers, without those of light nodes.
+struct Extremes {
+  double least = NAN, greatest = NAN, mean = NAN;  ///< not-a-number: there is nothing to measure
+  std::size_t outside_expected = 0;                ///< with those that are not finite
+};
+Extremes extremes(const Listing& listing, const Quantity& quantity);
 
 /// Keeps the named ones.
 /// @throws UsageError with the nearest name

@@ -39,25 +39,6 @@ std::string summary_title(const Quantity& q) {
   return "|" + q.name + "|" + (q.unit.empty() ? "" : " (" + q.unit + ")");
 }
 
-struct Extremes {
-  double least = NAN, greatest = NAN;  ///< not-a-number: there is nothing to measure
-  std::size_t outside_expected = 0;
-};
-
-/// Extremes over all nodes except light ones.
-Extremes extremes(const Listing& listing, const Quantity& q) {
-  Extremes e;
-  for (std::size_t row = 0; row < q.rows(); ++row) {
-    if (!listing.is_negligible.empty() && listing.is_negligible[row]) continue;
-    e.outside_expected += q.is_outside_expected(row);
-    const double found = q.magnitude(row);
-    if (!std::isfinite(found)) continue;
-    e.least = std::fmin(e.least, found);
-    e.greatest = std::fmax(e.greatest, found);
-  }
-  return e;
-}
-
 std::string found_text(const Quantity& q, double value) {
   return std::isnan(value) ? "-" : value_text(q, value);
 }

@@ -163,9 +163,10 @@ scene::View Viewer::shown_view() const {
         view.slice.field == scene::VectorField::velocity ? "v_old" : scene::name(view.slice.field);
     view.slice.range = asked.front().slice.range;
     for (const session::QuantitySummary& quantity : state_.live->stage->quantities)
-      if (quantity.name == name && quantity.max > 0)
+      if (quantity.name == name && quantity.magnitudes.greatest > 0)
         view.slice.range =
-            scene::Range{0, round_up(std::min(quantity.max, of_the_mean * quantity.mean))};
+            scene::Range{0, round_up(std::min(quantity.magnitudes.greatest,
+                                              of_the_mean * quantity.magnitudes.mean))};
   }
   return view;
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/setup/seed_scene.h"
 #include "app/view/session/session.h"
 #include "tests/view/view_support.h"
@@ -109,12 +111,27 @@ TEST(Session, SessionGoesThroughAllStagesOfAStepAndTakesItThen) {
     EXPECT_TRUE(!leaves_numbers || !live->stage->quantities.empty()) << stage;
     for (const view::session::QuantitySummary& quantity : live->stage->quantities)
       // Volumes at the rim of a ball of two cells are too large: the paper's estimate.
-      EXPECT_LE(20 * quantity.outside_expected, live->stage->rows) << stage << " " << quantity.name;
+      EXPECT_LE(20 * quantity.magnitudes.outside_expected, live->stage->rows)
+          << stage << " " << quantity.name;
   }
   session.next_stage();
   const auto live =
       wait_for(session, [](const view::session::LiveFrame& frame) { return frame.steps == 1; });
   EXPECT_FALSE(live->stage);
+}
+
+TEST(Session, AStepWithoutSnowHasNoMagnitudes) {
+  view::session::Session session(
+      scene_of("[[emitter]]\nname = \"hose\"\nshape = { sphere = { radius = 0.1 } }\nrate = 2\n"
+               "start = 0.5\nvelocity = [0, -1, 0]\n"),
+      {}, {});
+  session.show_stage(sim::Stage::deformation);
+  const auto live =
+      wait_for(session, [](const view::session::LiveFrame& frame) { return bool(frame.stage); });
+  EXPECT_EQ(live->stage->rows, 0u);
+  EXPECT_FALSE(live->stage->quantities.empty());
+  for (const view::session::QuantitySummary& quantity : live->stage->quantities)
+    EXPECT_TRUE(std::isnan(quantity.magnitudes.least)) << quantity.name << " is not 0 to 0";
 }
 
 TEST(Session, StagesOfAnOlderFrameAreThoseOfThatFrame) {

@@ -68,9 +68,9 @@ void show_quantity_tip(const session::QuantitySummary& quantity) {
   if (std::string meaning = health::meaning_of(quantity.name); !meaning.empty())
     lines.push_back({std::move(meaning)});
   if (!quantity.why.empty())
-    lines.push_back(
-        {std::to_string(quantity.outside_expected) + " outside the expected range: " + quantity.why,
-         true});
+    lines.push_back({std::to_string(quantity.magnitudes.outside_expected) +
+                         " outside the expected range: " + quantity.why,
+                     true});
   lines.push_back({"click for its histogram", true});
   show_tip(lines);
 }
@@ -96,8 +96,9 @@ void draw_stage_table(ViewerState& state, const session::StageSummary& look) {
     }
     note_label(("stage " + quantity.name).c_str());
     if (wants_tip()) show_quantity_tip(quantity);
-    draw_value(rough_text(quantity.min) + " to " + rough_text(quantity.max),
-               quantity.outside_expected > 0, quantity.expected);
+    const dump::Extremes& m = quantity.magnitudes;
+    draw_value(std::isnan(m.least) ? "-" : rough_text(m.least) + " to " + rough_text(m.greatest),
+               m.outside_expected > 0, quantity.expected);
   }
   ImGui::EndTable();
 }

@@ -10,6 +10,7 @@
 
 #include "app/dump/dump_options.h"
 #include "app/dump/histogram.h"
+#include "app/dump/quantities.h"
 #include "app/health/diagnosis.h"
 #include "app/picture/snapshot.h"
 #include "app/setup/seed_scene.h"
@@ -35,8 +36,7 @@ struct RunSample {
 /// A quantity of many nodes or particles in a few numbers.
 struct QuantitySummary {
   std::string name, unit;
-  double min = 0, mean = 0, max = 0;  ///< of magnitudes
-  std::size_t outside_expected = 0;   ///< number of values outside the expected range
+  dump::Extremes magnitudes;
   std::optional<scene::Range> expected;
   std::string why;
 };

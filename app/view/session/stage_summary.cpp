@@ -1,32 +1,10 @@
 #include "app/view/session/stage_summary.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/setup/auto_ranges.h"
 
 namespace neve::app::view::session {
 
 namespace {
-
-QuantitySummary summary_of(const dump::Listing& listing, const dump::Quantity& quantity) {
-  QuantitySummary summary{quantity.name,     quantity.unit, 0, 0, 0, 0,
-                          quantity.expected, quantity.why};
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t row = 0; row < quantity.rows(); ++row) {
-    if (row < listing.is_negligible.size() && listing.is_negligible[row]) continue;
-    const double value = quantity.magnitude(row);
-    if (quantity.is_outside_expected(row)) ++summary.outside_expected;
-    if (!std::isfinite(value)) continue;
-    summary.min = count == 0 ? value : std::min(summary.min, value);
-    summary.max = count == 0 ? value : std::max(summary.max, value);
-    sum += value;
-    ++count;
-  }
-  if (count > 0) summary.mean = sum / static_cast<double>(count);
-  return summary;
-}
 
 std::optional<std::size_t> nearest_row(const dump::Listing& listing, const sim::Vec3d& place) {
   std::optional<std::size_t> nearest;
@@ -80,7 +58,9 @@ StageSummary summarize_stage(const dump::StepInspection& inside, sim::Stage stag
   summary.negligible = listing.negligible_count();
   summary.seconds = inside.step.seconds;
   for (const dump::Quantity& quantity : listing.quantities)
-    if (!dump::is_index(quantity)) summary.quantities.push_back(summary_of(listing, quantity));
+    if (!dump::is_index(quantity))
+      summary.quantities.push_back({quantity.name, quantity.unit, dump::extremes(listing, quantity),
+                                    quantity.expected, quantity.why});
   return summary;
 }
 
