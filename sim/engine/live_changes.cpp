@@ -98,6 +98,30 @@ bool contains_true(const std::vector<bool>& list) {
   return std::find(list.begin(), list.end(), true) != list.end();
 }
 
+/// What the last step added to the pressure of snow, by the parameters of that step: stress follows
+/// from F_E and J_P, and this from the velocities of a moment that is past.
+template <class Real>
+void find_shock_pressure(State<Real>& state) {
+  ParticleStorage<Real>& particles = state.particles;
+  if (particles.shock_pressure.size() == particles.size() &&
+      particles.shock_step == state.progress.steps)
+    return;
+  particles.shock_step = state.progress.steps;
+  particles.shock_pressure.assign(particles.size(), Real(0));
+  if (!(state.method.settings.shock_viscosity > 0)) return;
+  const std::vector<kernels::Particle<Real>> stressed = particles.records;
+  state.refresh(0, particles.size());
+  for (std::size_t q = 0; q < stressed.size(); ++q) {
+    const kernels::Particle<Real>& p = stressed[q];
+    if (!laws::of(state.method.materials[static_cast<std::size_t>(p.material())]).is_plastic)
+      continue;
+    Real sum = 0;
+    for (int axis = 0; axis < 3; ++axis) sum += particles.records[q].tau[axis] - p.tau[axis];
+    particles.shock_pressure[q] = std::max(sum / 3, Real(0));
+  }
+  particles.records = stressed;
+}
+
 /// Stress of the particles whose material changed, keys and groups of all: a kernel has its own
 /// blocks, a model its own groups.
 template <class Real>
@@ -112,9 +136,13 @@ void recompute_stress(const std::vector<bool>& is_changed, State<Real>& state) {
   // The sweep writes whole records, of materials that stayed perhaps with another last bit.
   std::vector<kernels::Particle<Real>> kept = records;
   const kernels::BlockReport<Real> report = state.refresh(0, records.size());
-  for (std::size_t q = 0; q < kept.size(); ++q)
-    if (is_changed[static_cast<std::size_t>(kept[q].material())])
-      std::copy(std::begin(records[q].tau), std::end(records[q].tau), std::begin(kept[q].tau));
+  for (std::size_t q = 0; q < kept.size(); ++q) {
+    const auto material = static_cast<std::size_t>(kept[q].material());
+    if (!is_changed[material]) continue;
+    std::copy(std::begin(records[q].tau), std::end(records[q].tau), std::begin(kept[q].tau));
+    if (!laws::of(state.method.materials[material]).is_plastic) continue;
+    for (int axis = 0; axis < 3; ++axis) kept[q].tau[axis] -= state.particles.shock_pressure[q];
+  }
   std::copy(kept.begin(), kept.end(), records.begin());
   if (contains_true(is_changed))
     state.progress.limits.max_sound_speed =
@@ -191,6 +219,7 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
 
   if (!settings.is_contact_at_particles() || !are_the_same(state.colliders.list(), colliders))
     state.particles.contacts.forget();
+  if (contains_true(is_changed)) find_shock_pressure(state);
   state.method = std::move(method);
   state.colliders = std::move(moving);
   progress.colliders_time = colliders_time;

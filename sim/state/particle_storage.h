@@ -70,6 +70,11 @@ struct ParticleStorage {
   std::vector<std::uint16_t> locals;  ///< model and cell in the block, per record
   Real largest_mass = 0;              ///< kg: none that was ever there has more, see refresh
   KeptContacts<Real> contacts;
+  /// Pa, per record, that the shock viscosity of the last step added: found by the first change
+  /// after that step, so that later ones at that moment leave the bits that they would leave
+  /// together.
+  std::vector<Real> shock_pressure;
+  std::size_t shock_step = 0;  ///< steps that were done then
   Partition partition;
   Reordering<kernels::Particle<Real>> reordering;
 
@@ -88,11 +93,13 @@ struct ParticleStorage {
     keys[q] = keys.back();
     locals[q] = locals.back();
     resize(size() - 1);
+    shock_pressure.clear();
   }
 
   /// Other records: keys and locals are not known yet, and nothing is in contact.
   void replace(const std::vector<kernels::Particle<Real>>& others) {
     contacts.forget();
+    shock_pressure.clear();
     records = others;
     keys.assign(others.size(), 0);
     locals.assign(others.size(), 0);
@@ -101,8 +108,8 @@ struct ParticleStorage {
 
   std::uint64_t memory_bytes() const {
     return sizeof(kernels::Particle<Real>) * records.capacity() + reordering.memory_bytes() +
-           8 * keys.capacity() + 2 * locals.capacity() + partition.memory_bytes() +
-           contacts.memory_bytes();
+           8 * keys.capacity() + 2 * locals.capacity() + sizeof(Real) * shock_pressure.capacity() +
+           partition.memory_bytes() + contacts.memory_bytes();
   }
 };
 
