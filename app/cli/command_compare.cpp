@@ -67,6 +67,7 @@ int compare_pictures(const CompareOptions& options) {
 struct KnownState {
   std::string hash;
   double time = 0;  ///< s
+  Json dust;        ///< its totals: hashes are of the snow alone
 };
 
 struct KnownStates {
@@ -83,7 +84,8 @@ KnownStates read_states(const fs::path& folder) {
     states.first_number = whole_number<int>(run.value("first_number", Json(0)));
     for (const Json& frame : run.at("frames"))
       states.at[whole_number<int>(frame.at("frame")) - states.first_number] = {
-          frame.at("state_hash").get<std::string>(), frame.at("time").get<double>()};
+          frame.at("state_hash").get<std::string>(), frame.at("time").get<double>(),
+          frame.value("dust", Json())};
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -96,7 +98,7 @@ KnownStates read_states(const fs::path& folder) {
 int compare_runs(const CompareOptions& options) {
   const KnownStates a = read_states(options.a), b = read_states(options.b);
   int compared = 0;
-  std::optional<int> first_different;
+  std::optional<int> first_different, first_other_dust;
   for (const auto& [frame, state] : a.at) {
     const auto other = b.at.find(frame);
     if (other == b.at.end()) continue;
@@ -110,22 +112,28 @@ int compare_runs(const CompareOptions& options) {
           "compare runs with the same fps");
     ++compared;
     if (!first_different && other->second.hash != state.hash) first_different = frame;
+    if (!first_other_dust && other->second.dust != state.dust) first_other_dust = frame;
   }
-  const bool is_same = !first_different && compared > 0 && a.at.size() == b.at.size() &&
-                       compared == static_cast<int>(a.at.size());
+  const bool is_same = !first_different && !first_other_dust && compared > 0 &&
+                       a.at.size() == b.at.size() && compared == static_cast<int>(a.at.size());
   if (options.is_json) {
     std::cout << to_text({{"same", is_same},
                           {"frames_compared", compared},
                           {"frames_a", a.at.size()},
                           {"frames_b", b.at.size()},
                           {"first_different_frame",
-                           first_different ? Json(a.first_number + *first_different) : Json()}})
+                           first_different ? Json(a.first_number + *first_different) : Json()},
+                          {"first_other_dust",
+                           first_other_dust ? Json(a.first_number + *first_other_dust) : Json()}})
               << "\n";
   } else if (first_different) {
     std::cout << "the states differ from frame " << a.first_number + *first_different;
     if (a.first_number != b.first_number)
       std::cout << " of A, " << b.first_number + *first_different << " of B";
     std::cout << "\n";
+  } else if (first_other_dust) {
+    std::cout << "the snow has the same states in " << compared << " frames; its dust differs from "
+              << "frame " << a.first_number + *first_other_dust << "\n";
   } else if (!is_same) {
     std::cout << "the runs have different frames: " << a.at.size() << " and " << b.at.size() << ", "
               << compared << " in common with the same states\n";

@@ -100,6 +100,7 @@ std::string bash_completion(const Entry& program) {
   }
   return text +
          "  esac\n  COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
+         "  local IFS=$'\\n'  # names of files may have blanks\n"
          "  case $word in -*) ;; *) COMPREPLY+=($(compgen -f -- \"$word\")) ;; esac\n}\n"
          "complete -o filenames -F _neve neve\n";
 }

@@ -1,9 +1,9 @@
 #include "app/dump/write.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 
 #include "app/support/text.h"
 
@@ -11,11 +11,18 @@ namespace neve::app::dump {
 
 namespace {
 
-/// As many digits as a float has.
-std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
+/// The shortest text that reads as the same bits.
+template <class T>
+std::string digits(T value) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+/// Of a run in single precision; its places are of double precision all the same.
+bool is_single(const Quantity& q) {
+  return q.name != "x" && std::all_of(q.values.begin(), q.values.end(), [](double value) {
+           return std::isnan(value) || static_cast<double>(static_cast<float>(value)) == value;
+         });
 }
 
 std::string value_text(const Quantity& q, double value) {
@@ -83,15 +90,18 @@ std::string to_table(const Listing& listing, const std::vector<std::string>& hea
   text += "\n";
   for (const std::string& line : heading) text += "# " + line + "\n";
   for (const std::string& line : summary_lines(listing)) text += "# " + line + "\n";
+  std::vector<bool> are_single;
+  for (const Quantity& q : listing.quantities) are_single.push_back(is_single(q));
   for (std::size_t row = 0; row < listing.place.size(); ++row) {
-    bool is_first = true;
-    for (const Quantity& q : listing.quantities)
-      for (int c = 0; c < q.components; ++c) {
-        if (!is_first) text += '\t';
-        is_first = false;
-        text += digits(
-            q.values[row * static_cast<std::size_t>(q.components) + static_cast<std::size_t>(c)]);
+    const std::size_t begin = text.size();
+    for (std::size_t k = 0; k < listing.quantities.size(); ++k) {
+      const Quantity& q = listing.quantities[k];
+      const auto width = static_cast<std::size_t>(q.components);
+      for (std::size_t at = row * width; at < (row + 1) * width; ++at) {
+        if (text.size() > begin) text += '\t';
+        text += are_single[k] ? digits(static_cast<float>(q.values[at])) : digits(q.values[at]);
       }
+    }
     text += '\n';
   }
   return text;

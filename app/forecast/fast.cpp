@@ -7,6 +7,7 @@
 #include <future>
 
 #include "app/forecast/forecast.h"
+#include "app/scene/coarsen.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/curves.h"
@@ -77,7 +78,7 @@ class Candidate {
 
   void limit_hardening() {
     for (sim::Material& m : scene_.materials)
-      if (m.hardening > 0 && sim::laws::of(m).is_snow && sim::laws::of(m).hardens)
+      if (scene::has_snow_of(scene_, m) && m.hardening > 0 && sim::laws::of(m).is_snow && sim::laws::of(m).hardens)
         set("material." + m.name + ".max_hardening", m.max_hardening,
             std::min(m.max_hardening, hardening_ceiling));
   }

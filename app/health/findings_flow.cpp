@@ -60,6 +60,16 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
          "lower the rate, or make the velocity or the shape larger"});
   const double last = std::min(end, emitter.end.value_or(end));
   const double mass = emitter.rate * (last - emitter.start);
+  const double of_one = density_at_birth(emitter, material) * spacing * spacing * spacing;
+  if (sim::seeding::count_emitted(emitter, material, h, end) == 0)
+    findings.push_back(
+        {Severity::warning, at + ".rate",
+         fmt::format("no snow comes: it emits {} kg, and a particle has {} kg", rough_text(mass),
+                     rough_text(of_one)),
+         fmt::format(
+             "a rate of {} kg/s, a longer time, or smaller particles ({})",
+             rough_text(emitter.rate * of_one / mass),
+             scene::setting_text("solver.cell_size", h * std::cbrt(mass / of_one), coarsening))});
   const bool is_filled =
       mass > density_at_birth(emitter, material) * sim::shapes::volume(emitter.shape);
   if (carried == 0 && is_filled && emitter.rate > max_packing * falling)

@@ -6,11 +6,14 @@
 #include <initializer_list>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/flat.h"
 #include "app/scene/names.h"
+#include "app/scene/presets.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/curves.h"
 #include "app/support/text.h"
@@ -197,6 +200,24 @@ std::optional<Idle> idle_in_material(const sim::Material& m, const std::string& 
       "neve params --wishes names parameters by what they do"};
 }
 
+/// Of a collider whose other settings switch it off.
+std::optional<Idle> idle_in_collider(const scene::Collider& collider, const std::string& key) {
+  using sim::shapes::Joint;
+  const auto& body = collider.body;
+  const bool has_axis = body.joint == Joint::hinge || body.joint == Joint::slider,
+             has_point = body.joint == Joint::hinge || body.joint == Joint::ball;
+  if (key == "joint_axis" && !has_axis)
+    return Idle{"only a hinge or a slider has an axis", "give joint = \"hinge\" or \"slider\""};
+  if (key == "joint_point" && !has_point)
+    return Idle{"only a hinge or a ball joint has a point", "give joint = \"hinge\" or \"ball\""};
+  if (key == "spring_place" && body.spring_stiffness == 0 && body.spring_damping == 0)
+    return Idle{"the spring has no stiffness", "give spring_stiffness, in N/m"};
+  if (key == "friction" && collider.contact != sim::shapes::Contact::separate)
+    return Idle{fmt::format("contact = \"{}\" has no friction", scene::name(collider.contact)),
+                "set contact = \"separate\""};
+  return std::nullopt;
+}
+
 /// Snow that a curve makes dusty is dusty.
 bool sheds_dust(const scene::Scene& scene) {
   return scene::dusty_material(scene) ||
@@ -214,6 +235,9 @@ std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& addres
   for (const sim::Material& m : scene.materials)
     if (const std::string key = key_in("material." + m.name + "."); !key.empty())
       return idle_in_material(m, key);
+  for (const scene::Collider& collider : scene.colliders)
+    if (const std::string key = key_in("collider." + collider.name + "."); !key.empty())
+      return idle_in_collider(collider, key);
   if (address.starts_with("dust.") && !sheds_dust(scene))
     return Idle{"no snow of the scene sheds dust",
                 "material." + scene.materials.front().name + ".dust = 0.02"};
@@ -231,12 +255,20 @@ bool is_usual(const scene::FlatParam& param, double coarsening) {
   return value && *value > 0.999 * meant && *value < 1.001 * meant;
 }
 
+bool is_set_by_preset(const scene::Scene& scene, const std::string& address) {
+  return std::ranges::any_of(scene.materials, [&](const sim::Material& m) {
+    const std::string at = "material." + m.name + ".";
+    return address.starts_with(at) && scene::is_number_of_its_preset(m, address.substr(at.size()));
+  });
+}
+
 /// Settings of the scene that others switch off.
 void check_switched_off(const scene::Scene& scene, double coarsening,
                         std::vector<Finding>& findings) {
   for (const scene::FlatParam& param : scene::flatten(scene)) {
     if (is_usual(param, coarsening) || setup::curve_of(scene, param.address)) continue;
-    if (!param.address.starts_with("solver.") && !param.address.starts_with("material.")) continue;
+    if (param.address.starts_with("dust.")) continue;  // told with the dust
+    if (is_set_by_preset(scene, param.address)) continue;
     if (const std::optional<Idle> idle = idle_at(scene, param.address))
       findings.push_back(
           {Severity::warning, param.address,

@@ -112,10 +112,15 @@ render::Image read_plate(const RenderJob& job, int frame, const std::string& vie
     record::require_listed(*job.picture, file.string(), job.scene_file);
   std::error_code error;
   const int first = std::filesystem::exists(file, error) ? -1 : first_plate(job);
-  if (first > frame)
-    throw UsageError("--plate", file.string() + " is missing",
-                     fmt::format("the plates begin with {}: --set first_frame={}",
-                                 plate_path(job.plate, first).string(), first));
+  if (first > frame) {
+    const bool has_its_number = job.scene.first_frame == first;
+    const int last = scene::number_of(job.scene, job.frames.last);
+    throw UsageError(
+        "--plate", file.string() + " is missing",
+        fmt::format("the plates begin with {}: {}", plate_path(job.plate, first).string(),
+                    has_its_number ? fmt::format("--frames {}-{}, or --set handles=0", first, last)
+                                   : fmt::format("--set first_frame={}", first)));
+  }
   const render::Image image = rgb_of(output::read_file(file), file);
   const std::string advice = std::min(image.width, image.height) < scene::min_side
                                  ? fmt::format("pictures are at least {0}x{0}", scene::min_side)

@@ -113,13 +113,15 @@ Scene without_dust(Scene scene) {
   return scene;
 }
 
+bool has_snow_of(const Scene& scene, const sim::Material& material) {
+  const auto is_of = [&](const auto& source) { return source.material == material.name; };
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), is_of) ||
+         std::any_of(scene.emitters.begin(), scene.emitters.end(), is_of);
+}
+
 const sim::Material* dusty_material(const Scene& scene) {
-  for (const sim::Material& material : scene.materials) {
-    const auto is_of = [&](const auto& source) { return source.material == material.name; };
-    if (material.dust > 0 && (std::any_of(scene.bodies.begin(), scene.bodies.end(), is_of) ||
-                              std::any_of(scene.emitters.begin(), scene.emitters.end(), is_of)))
-      return &material;
-  }
+  for (const sim::Material& material : scene.materials)
+    if (material.dust > 0 && has_snow_of(scene, material)) return &material;
   return nullptr;
 }
 

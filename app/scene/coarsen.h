@@ -22,6 +22,8 @@ std::vector<std::string> coarsen(Scene& scene, double factor);
 
 /// The same snow without its dust, for copies that nobody looks at.
 Scene without_dust(Scene scene);
+/// Whether a body or an emitter is of this material of the scene.
+bool has_snow_of(const Scene& scene, const sim::Material& material);
 /// A material of bodies or emitters that sheds dust; null: none does.
 const sim::Material* dusty_material(const Scene& scene);
 

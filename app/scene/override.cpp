@@ -281,7 +281,10 @@ bool takes_away(const Override& change) {
   const std::string text = trimmed(change.value);
   if (text != "none" && text != "\"none\"") return false;
   const std::optional<ParamInfo> info = param_at(change.address);
-  return !info || !info->default_value;
+  if (!info || !info->default_value) return true;
+  // Without quotes: a text of nothing is what it is by default.
+  const auto* words = std::get_if<std::string>(&info->default_value->data);
+  return words && words->empty() && text == "none";
 }
 
 bool takes_item_away(const Override& change) {

@@ -58,6 +58,24 @@ double& number_of(sim::Material& m, std::size_t k) {
   return k == 0 ? m.density : k == 1 ? m.youngs_modulus : k == 2 ? m.poisson_ratio : m.dust;
 }
 
+bool is_read(const sim::Material& material, std::size_t k) {
+  return k < of_any_law || parameter(sim::laws::of(material).parameters, keys[k]);
+}
+
+/// All that the law of the material reads.
+bool has_numbers_of(const Row& row, sim::Material material) {
+  for (std::size_t k = 0; k < std::size(keys); ++k)
+    if (is_read(material, k) && number_of(material, k) != row.numbers[k]) return false;
+  return true;
+}
+
+std::size_t count_equal(const Row& row, sim::Material material) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < std::size(keys); ++k)
+    count += number_of(material, k) == row.numbers[k];
+  return count;
+}
+
 }  // namespace
 
 void use_preset(sim::Material& material, Preset preset) {
@@ -73,16 +91,23 @@ sim::Material snow_of(Preset preset) {
 }
 
 std::optional<Preset> preset_of(const sim::Material& material) {
-  const std::span<const sim::laws::Parameter> read = sim::laws::of(material).parameters;
-  sim::Material copy = material;
-  for (const Row& row : rows) {
-    bool is_same = true;
-    for (std::size_t k = 0; k < std::size(keys); ++k)
-      if (k < of_any_law || parameter(read, keys[k]))
-        is_same = is_same && number_of(copy, k) == row.numbers[k];
-    if (is_same) return row.preset;
-  }
+  for (const Row& row : rows)
+    if (has_numbers_of(row, material)) return row.preset;
   return std::nullopt;
+}
+
+bool is_number_of_its_preset(const sim::Material& material, std::string_view key) {
+  sim::Material usual = snow_of(Preset::paper);
+  usual.model = material.model;
+  const Row* nearest = nullptr;
+  for (const Row& row : rows)
+    if (!has_numbers_of(row, usual) &&
+        (!nearest || count_equal(row, material) > count_equal(*nearest, material)))
+      nearest = &row;
+  sim::Material copy = material;
+  for (std::size_t k = 0; nearest && k < std::size(keys); ++k)
+    if (keys[k] == key) return number_of(copy, k) == nearest->numbers[k];
+  return false;
 }
 
 bool is_preset_address(std::string_view address) {

@@ -38,6 +38,10 @@ void use_preset(sim::Material& material, Preset preset);
 /// The preset whose numbers these are, all that the law of the material reads.
 std::optional<Preset> preset_of(const sim::Material& material);
 
+/// True if the preset that the material has most numbers of sets this one as it is, so that nobody
+/// typed it. Presets that the law of the material does not tell from the default are none.
+bool is_number_of_its_preset(const sim::Material& material, std::string_view key);
+
 /// True for the address of a material's preset: "material.snow.preset".
 bool is_preset_address(std::string_view address);
 

@@ -118,10 +118,10 @@ void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArra
     if (!seeded.v.empty()) v_p += seeded.v[p];
     particles.x.push_back(x_p);
     particles.v.push_back(v_p);
-    // A share of the body's space is a volume as it is now; columns of J_P and of volumes are of
-    // the snow before it was packed or loosened.
-    const double J_P = seeded.J_P.empty() ? body.J_P : seeded.V.empty() ? seeded.J_P[p] : 1.0;
-    const double V0 = volume / J_P;
+    // A share of the body's space is a volume as it is now; columns of volumes are of the snow
+    // before it was packed or loosened.
+    const double J_P = seeded.J_P.empty() ? body.J_P : seeded.J_P[p];
+    const double V0 = seeded.V.empty() ? volume / J_P : volume;
     particles.m.push_back(seeded.m.empty() ? scene.materials[material].density * V0 : seeded.m[p]);
     particles.V0.push_back(is_given ? V0 : 0.0);
     particles.material.push_back(static_cast<int>(material));

@@ -40,7 +40,8 @@ std::vector<SnowPiece> snow_pieces(const scene::Scene& scene) {
   for (const sim::seeding::Body& body : scene.bodies) {
     const sim::seeding::SeedingPlan plan = sim::seeding::plan_seeding(body, h);
     piece->volume = plan.volume;
-    piece->mass = plan.mass > 0 ? plan.mass : piece->material->density / body.J_P * plan.volume;
+    const double V0 = plan.V0 > 0 ? plan.V0 : plan.volume / body.J_P;
+    piece->mass = plan.mass > 0 ? plan.mass : piece->material->density * V0;
     piece->particles = sim::seeding::expected_particles(body, h);
     ++piece;
   }

@@ -241,9 +241,9 @@ void require_before_end(const char* flag, double time, const Origin& origin) {
                                 scene::number_of(scene, wanted))
                   : fmt::format("; --set frames={} makes it longer", wanted - 2 * scene.handles);
   throw UsageError(flag,
-                   fmt::format("{} s is after the end of the {}, {} s (frame {})", rough_text(time),
-                               is_run ? "run" : "scene", rough_text(end / scene.fps),
-                               scene::number_of(scene, end)),
+                   fmt::format("{} s is after the end of the {}, {} s (frame {})",
+                               scene::toml::number_text(time), is_run ? "run" : "scene",
+                               rough_text(end / scene.fps), scene::number_of(scene, end)),
                    "expected an earlier time" + frame + more);
 }
 

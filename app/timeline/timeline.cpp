@@ -27,6 +27,18 @@ std::vector<picture::BodySample> body_samples(const sim::Simulation& simulation)
   return picture::body_samples(simulation.colliders(), simulation.time());
 }
 
+/// The loads of a frame go with their colliders: those of one that is gone are gone.
+std::vector<sim::ColliderLoad> with_colliders(const std::vector<sim::ColliderLoad>& loads,
+                                              const std::vector<scene::Collider>& before,
+                                              const std::vector<scene::Collider>& after) {
+  if (loads.empty()) return {};
+  std::vector<sim::ColliderLoad> list(after.size());
+  for (std::size_t k = 0; k < after.size(); ++k)
+    for (std::size_t b = 0; b < std::min(before.size(), loads.size()); ++b)
+      if (before[b].name == after[k].name) list[k] = loads[b];
+  return list;
+}
+
 }  // namespace
 
 Watch watched_by(Progress& progress, const scene::Scene& scene) {
@@ -97,6 +109,9 @@ void Timeline::use(const std::shared_ptr<const scene::Scene>& scene) {
     simulation_ = setup::make_simulation(*scene, seeded_->particles, threads_);
   else
     simulation_.apply(scene->solver, scene->materials, scene::sim_colliders(*scene));
+  if (here_.scene)
+    here_.advance.loads =
+        with_colliders(here_.advance.loads, here_.scene->colliders, scene->colliders);
   here_.scene = scene;
   summary_.reset();
   if (watch_.after_change) watch_.after_change(*scene);

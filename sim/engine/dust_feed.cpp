@@ -19,7 +19,8 @@ constexpr double spray_fill = 0.1;
 /// The colliders as the kernels have them.
 class ColliderSolids final : public dust::Solids {
  public:
-  ColliderSolids(const MovingColliders& colliders, const Lattice& lattice) {
+  ColliderSolids(const MovingColliders& colliders, const Lattice& lattice)
+      : deforms_(colliders.deform()) {
     constexpr int cell_0[3] = {0, 0, 0};
     to_cell_0_ = kernels::block_side * lattice.cell_size * lattice.origin.cast<double>();
     for (const kernels::ColliderPose& pose : colliders.poses()) {
@@ -49,7 +50,6 @@ class ColliderSolids final : public dust::Solids {
 
  private:
   void add_key(const kernels::ColliderPose& pose) {
-    deforms_ = deforms_ || pose.shape_speed > 0;
     const auto add = [&](const auto& numbers) { key_ = hash_bytes(numbers, sizeof numbers, key_); };
     add(pose.cell);
     add(pose.offset);
@@ -67,7 +67,7 @@ class ColliderSolids final : public dust::Solids {
   std::vector<kernels::LocalCollider<double>> seen_;
   Vec3d to_cell_0_;
   std::uint64_t key_ = 0x2545f4914f6cdd1dull;
-  bool deforms_ = false;
+  bool deforms_;  ///< also of one that rests now: it may have moved since the air saw it
 };
 
 template <class Real>

@@ -101,11 +101,16 @@ class MeshPly {
     }
   }
 
+  static bool is_place(const PlyProperty& property) {
+    return property.name.size() == 1 &&
+           std::string_view("xyzXYZ").find(property.name) != std::string_view::npos;
+  }
+
   void read_property(const PlyElement& element, const PlyProperty& property, PlyNumbers& numbers) {
     if (!property.count) {
       const double value = numbers.next(property.type);
-      const std::size_t axis = std::string_view("xyz").find(property.name);
-      if (element.name == "vertex" && property.name.size() == 1 && axis < 3)
+      const std::size_t axis = std::string_view("xyzXYZ").find(property.name) % 3;
+      if (element.name == "vertex" && is_place(property))
         mesh_.vertices.back()[static_cast<Eigen::Index>(axis)] = value;
       return;
     }

@@ -65,6 +65,7 @@ SeedingPlan plan_seeding(const Body& body, double cell_size) {
             p.count,
             {points->center + p.bounds.min, points->center + p.bounds.max},
             p.max_speed,
+            p.V0,
             p.mass};
   }
   const shapes::Solid solid(body.shape);

@@ -37,6 +37,7 @@ struct SeedingPlan {
                                    ///< the largest size_t where it would overflow
   shapes::Bounds bounds{Vec3d::Zero(), Vec3d::Zero()};
   double max_speed = 0;  ///< m/s, of the points' own velocities
+  double V0 = 0;         ///< m3, before deformation, by the points' own columns; 0: they have none
   double mass = 0;       ///< kg, of the points' own masses; 0: density times volume
 };
 /// Reads the mesh of a mesh shape, allocates nothing for particles.

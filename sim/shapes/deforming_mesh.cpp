@@ -259,10 +259,9 @@ namespace {
 std::string name_of(const MeshSequence& sequence) {
   std::ostringstream name;
   name.precision(17);
-  name << file_stamp(numbered_file(sequence.files, sequence.first)) << "|"
-       << file_stamp(numbered_file(sequence.files, sequence.last)) << "|"
-       << file_stamp(std::filesystem::path(sequence.files).parent_path().string()) << "|"
-       << sequence.first << "|" << sequence.last << "|" << sequence.rate << "|" << sequence.start
+  for (int number = sequence.first; number <= sequence.last; ++number)
+    name << file_stamp(numbered_file(sequence.files, number)) << "|";
+  name << sequence.first << "|" << sequence.last << "|" << sequence.rate << "|" << sequence.start
        << "|" << sequence.scale;
   return name.str();
 }

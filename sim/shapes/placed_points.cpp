@@ -56,7 +56,7 @@ class PointsSolid final : public Form {
 
 PointsSummary summarize(const PlacedPoints& placed, const Mat3d& rotation) {
   PointsSummary summary{
-      placed.x.size(),  placed.expected_count,        placed.volume, sum(placed.m), 0,
+      placed.x.size(),  placed.expected_count,        placed.volume, placed.V0, sum(placed.m), 0,
       placed.x.front(), placed.bounds_after(rotation)};
   for (const Vec3d& v : placed.v) summary.max_speed = std::max(summary.max_speed, v.norm());
   return summary;
@@ -136,10 +136,15 @@ PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const 
                      ": it has no column volume; give spacing, the distance between neighbouring "
                      "points in metres");
   volume = V.empty() ? count * std::pow(points.spacing, 3) : sum(V);
+  V0 = sum(V);
+  if (V.empty())
+    for (const double packed : J_P) V0 += std::pow(points.spacing, 3) / packed;
   expected_count = count / points.thinning;
   if (points.thinning == 1) return;
   // The remaining points represent all: total mass and volume stay the same.
   const double mass = sum(m);
+  if (V.empty())
+    for (const double packed : J_P) V.push_back(1 / packed);
   thin(x, points.thinning);
   thin(v, points.thinning);
   thin(m, points.thinning);
@@ -147,7 +152,7 @@ PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const 
   for (std::vector<double>* list : {&J_P, &stiffness, &threshold}) thin(*list, points.thinning);
   for (std::vector<Mat3d>* list : {&F_E, &C}) thin(*list, points.thinning);
   scale_to(mass, m);
-  scale_to(volume, V);
+  scale_to(V0, V);
 }
 
 Bounds PlacedPoints::bounds_after(const Mat3d& rotation) const {

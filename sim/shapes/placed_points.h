@@ -20,11 +20,12 @@ struct PlacedPoints {
   std::vector<Vec3d> x;   ///< m, about the file's origin; at least one
   std::vector<Vec3d> v;   ///< m/s; empty: the file has none
   std::vector<double> m;  ///< kg; empty: the file has none
-  std::vector<double> V;  ///< m3; empty: all have the same share of the volume
+  std::vector<double> V;  ///< m3, before deformation; empty: equal shares of the volume
   // As in the file, each empty or as long as x.
   std::vector<double> J_P, stiffness, threshold;
   std::vector<Mat3d> F_E, C;
   double volume = 0;          ///< m3, of all
+  double V0 = 0;              ///< m3, of all before deformation; 0: no column says it
   double expected_count = 0;  ///< points over thinning, which may be less than the one there is
 };
 
@@ -44,6 +45,7 @@ struct PointsSummary {
   std::size_t count = 0;
   double expected_count = 0;                    ///< see PlacedPoints
   double volume = 0;                            ///< m3, of all
+  double V0 = 0;                                ///< see PlacedPoints
   double mass = 0;                              ///< kg, of all; 0: the file has none
   double max_speed = 0;                         ///< m/s
   Vec3d first{0, 0, 0};                         ///< m, the first point, not turned

@@ -122,6 +122,11 @@ MovingColliders::Field MovingColliders::make_field(const shapes::Collider& colli
   return {};
 }
 
+bool MovingColliders::deform() const {
+  return std::any_of(fields_.begin(), fields_.end(),
+                     [](const Field& field) { return field.deforming.has_value(); });
+}
+
 shapes::DistanceSamples MovingColliders::Field::samples() const {
   if (rigid) return rigid->samples();
   if (deforming) return deforming->samples();

@@ -53,6 +53,8 @@ class MovingColliders {
   const std::vector<shapes::Collider>& list() const { return list_; }
   /// Poses of the colliders in reach of the lattice.
   const std::vector<kernels::ColliderPose>& poses() const { return poses_; }
+  /// Whether one of them has a mesh that may deform.
+  bool deform() const;
   std::uint64_t memory_bytes() const;
 
  private:

@@ -268,6 +268,13 @@ TEST(Curves, WithoutEffectAreTold) {
   // Dust is made by a material, or by the curve of one.
   scene::Scene dustless = falling(curve("dust.speed"));
   EXPECT_NE(health::why_idle(dustless, "dust.speed"), "");
+  const scene::Scene still = falling(
+      "[[collider]]\nname = \"sign\"\ncontact = \"slip\"\n"
+      "shape = { sphere = { radius = 0.1 } }\ndensity = 300\n"
+      "joint = \"slider\"\njoint_axis = [0, 1, 0]\n");
+  for (const char* const key : {"joint_point", "spring_place", "friction"})
+    EXPECT_NE(health::why_idle(still, std::string("collider.sign.") + key), "") << key;
+  EXPECT_EQ(health::why_idle(still, "collider.sign.joint_axis"), "");
   EXPECT_EQ(health::why_idle(falling(curve("material.snow.dust")), "dust.speed"), "");
 }
 

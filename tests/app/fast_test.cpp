@@ -57,6 +57,13 @@ TEST(Fast, StepsGrowAndHardeningGetsACeiling) {
       << look.sentence();
 }
 
+TEST(Fast, SnowThatNobodyUsesIsLeftAlone) {
+  std::string rubber = falling_ball("", "") + "[material.rubber]\nmodel = \"neo_hookean\"\n";
+  rubber.replace(rubber.find("velocity ="), 0, "material = \"rubber\"\n");
+  for (const std::string& line : look_at(rubber).overrides)
+    EXPECT_EQ(line.find("hardening"), std::string::npos) << line;
+}
+
 TEST(Fast, TransfersThatDampByTheStepTakeShorterOnesBecauseTheyDriftMore) {
   for (const char* transfer : {"apic", "mls"}) {
     const forecast::FastLook look =

@@ -6,7 +6,10 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "app/health/findings.h"
 #include "app/scene/describe.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/flat.h"
@@ -100,6 +103,21 @@ TEST(Preset, PresetOfTheCommandLineOverridesTheFile) {
   const app::scene::Scene again = app::scene::read_scene_text(
       kept, "s.toml", "", {app::scene::parse_override("material.snow.preset=\"packed\"")});
   EXPECT_EQ(app::scene::preset_of(again.materials[0]), app::scene::Preset::packed);
+}
+
+/// A preset sets the numbers of all laws; one that a person types and the law does not read is
+/// told.
+TEST(Preset, NumbersThatTheLawDoesNotReadAreNoMistakeOfAnyone) {
+  const auto findings = [](const std::string& more) {
+    std::vector<app::health::Finding> found;
+    app::health::check_unused(
+        preset_scene("[material.snow]\nmodel = \"cam_clay\"\npreset = \"wet\"\n" + more), 1, found);
+    return found;
+  };
+  EXPECT_TRUE(findings("").empty());
+  EXPECT_TRUE(findings("cohesion = 0.3\n").empty());
+  ASSERT_EQ(findings("hardening = 3\n").size(), 1u);
+  EXPECT_EQ(findings("hardening = 3\n")[0].address, "material.snow.hardening");
 }
 
 TEST(Preset, ARemovedPresetLeavesTheNumbersOfTheFile) {

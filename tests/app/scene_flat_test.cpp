@@ -211,7 +211,9 @@ TEST(SetNone, SettingNoneRemovesOptionalValuesOnly) {
   EXPECT_FALSE(read({"camera.orbit=90", "camera.orbit=none"}).camera->orbit);
   EXPECT_FALSE(read({"camera=none"}).camera);
   EXPECT_EQ(read({"solver=none"}).solver.cfl, 0.4);
-  EXPECT_EQ(read({"title=none"}).title, "none");
+  EXPECT_EQ(read({"title=none"}).title, "");
+  EXPECT_EQ(read({"title=\"none\""}).title, "none");
+  EXPECT_EQ(read({"burn_in.top_left=A", "burn_in.top_left=none"}).burn_in.top_left, "");
   EXPECT_THROW(read({"solver.cfl=none"}), app::UsageError);
   EXPECT_THROW(read({"body.ball.shape=none"}), std::runtime_error);
   EXPECT_THROW(read({"body=none"}), app::UsageError);

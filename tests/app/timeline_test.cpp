@@ -177,6 +177,21 @@ TEST(Timeline, PlaysAgainTheChangesThatItMadeBetweenSteps) {
   EXPECT_EQ(hash_after(2, scene, timeline.changes()), live.simulation().state_hash());
 }
 
+TEST(Timeline, LoadsStayWithTheirColliders) {
+  Counted live(test::changed_scene());
+  Timeline& timeline = live.timeline;
+  const auto loads = [&] { return timeline.here().advance.loads; };
+  // It touches the floor after half of the first frame.
+  do timeline.advance_step();
+  while (!timeline.here().is_frame_end() && loads().at(0).impulse.norm() == 0);
+  ASSERT_FALSE(timeline.here().is_frame_end());
+  const sim::ColliderLoad of_ball = loads().at(1);
+  ASSERT_LT(of_ball.impulse.norm(), loads().at(0).impulse.norm());
+  timeline.change(timeline::with_changes(*timeline.here().scene, {{0, "collider.floor", "none"}}));
+  ASSERT_EQ(loads().size(), 1u) << "the floor is gone, and what it bore";
+  EXPECT_EQ(loads()[0].impulse, of_ball.impulse);
+}
+
 TEST(Timeline, ContinuesFromAMomentAtAnyStep) {
   Session session;
   play(session);

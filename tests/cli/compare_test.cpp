@@ -237,6 +237,24 @@ TEST_F(Compare, FramesOfOneMomentAreComparedWhateverTheirNumber) {
   EXPECT_TRUE(contains(other.output, " of A, 10")) << other.output;
 }
 
+/// Hashes are of the snow, which dust leaves as it is.
+TEST_F(Compare, OtherDustOfTheSameSnowIsTold) {
+  const std::vector<std::string> dusty{"--set", "material.snow.dust=0.3",
+                                       "--set", "dust.speed=0.01",
+                                       "--set", "dust.strain_rate=0.01"};
+  const auto with_life = [&](const char* life) {
+    std::vector<std::string> all = dusty;
+    all.insert(all.end(), {"--set", std::string("dust.life=") + life});
+    return all;
+  };
+  ASSERT_NO_FATAL_FAILURE(render("a", with_life("0.01")));
+  ASSERT_NO_FATAL_FAILURE(render("b", with_life("9")));
+  const auto other = compare("a", "b", {});
+  EXPECT_EQ(other.exit_code, app::exit_check_failed) << other.output;
+  EXPECT_TRUE(contains(other.output, "the snow has the same states in 5 frames; its dust differs"))
+      << other.output;
+}
+
 TEST_F(Compare, RunsThatCannotBeComparedAreRefusedWithTheReason) {
   ASSERT_NO_FATAL_FAILURE(render("a"));
   ASSERT_NO_FATAL_FAILURE(render("slow", {"--set", "fps=12"}));

@@ -82,6 +82,19 @@ TEST(DeformingMesh, VerticesMoveOnStraightLinesAndRestBeforeAndAfter) {
   EXPECT_NEAR(mesh.mesh_at(0.6).volume, 2 * 0.4 * 2, 1e-12) << "a shear keeps it";
 }
 
+TEST(DeformingMesh, AnyFileThatIsWrittenAnewIsReadAnew) {
+  const TemporaryFolder folder;
+  const auto lifted = [](double way) {
+    return test::plate_obj({1, 0.2, 1}, 1, [&](double) { return Vec3d(0, way, 0); });
+  };
+  const MeshSequence sequence =
+      test::written_sequence(folder, "plate", 3, 10, [&](int k) { return lifted(k); });
+  EXPECT_NEAR(deforming_mesh(sequence)->mesh_at(0.1).vertices[0].y(), 1 - 0.1, 1e-12);
+  // In its place, as an editor may: neither its neighbours nor the folder change.
+  std::ofstream(folder / "plate_0001.obj") << lifted(1.25);
+  EXPECT_NEAR(deforming_mesh(sequence)->mesh_at(0.1).vertices[0].y(), 1.25 - 0.1, 1e-12);
+}
+
 TEST(DeformingMesh, WhatIsWrongWithNumberedFilesIsNamedWithFileAndLine) {
   const TemporaryFolder folder;
   const std::string box = test::box_obj({1, 1, 1});

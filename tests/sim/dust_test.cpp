@@ -12,6 +12,7 @@
 #include "sim/dust_grid.h"
 #include "sim/shapes/collider.h"
 #include "sim/simulation.h"
+#include "tests/support/meshes.h"
 #include "tests/support/snow.h"
 
 namespace {
@@ -370,6 +371,34 @@ TEST(DustOfARun, ContinuesWithTheSameBitsFromASavedState) {
   ASSERT_GT(whole.dust().x.size(), 500u);
   expect_same_dust(again.dust(), whole.dust());
   EXPECT_EQ(again.save(), whole.save());
+}
+
+/// A lift that rises and rests within a step of the dust: at the moments when the dust looks at it,
+/// it is still.
+TEST(DustOfARun, SeesAMeshThatDeformedBetweenItsSteps) {
+  TemporaryFolder folder;
+  shapes::Collider lift;
+  shapes::MeshSequence sequence = written_sequence(folder, "lift", 2, 50, [&](int k) {
+    return plate_obj(Vec3d(0.4, 0.2, 0.3), 1,
+                     [&](double) { return Vec3d(0.25, 0.1 * k - 0.1, 0); });
+  });
+  sequence.start = 0.05;
+  lift.name = "lift";
+  lift.shape.form = sequence;
+  const auto simulate = [&] {
+    return Simulation(dusty(), {powder()}, {plane({0, 0, 0}, {0, 1, 0}, 0.5), lift},
+                      ball_of_snow({-0.05, 0.16, 0}, 0.1, 0.009, {6, -2, 0}), 1);
+  };
+  Simulation whole = simulate(), again = simulate();
+  whole.advance_to(0.04);
+  whole.advance_to(0.08);
+  again.restore(whole.save());
+  whole.advance_to(0.1);
+  again.advance_to(0.1);
+  ASSERT_GT(whole.dust().x.size(), 500u);
+  expect_same_dust(again.dust(), whole.dust());
+  for (const Vec3d& x : whole.dust().x)
+    ASSERT_GE(shapes::signed_distance(whole.colliders().back(), whole.time(), x), -1e-9);
 }
 
 TEST(DustOfARun, StateWithoutItIsTakenAndItStartsThere) {

@@ -162,6 +162,14 @@ TEST(MeshReader, APlyThatNeveHasTurnedAndScaledIsTurnedAndScaledBack) {
   EXPECT_EQ(vertex("comment up z, units per metre 100\n"), Vec3d(100, -300, 200));
 }
 
+TEST(MeshReader, NamesOfAPlyMayBeCapitals) {
+  std::string capitals = ply("ascii");
+  for (const char* const axis : {"double x", "double y", "double z"})
+    capitals[capitals.find(axis) + 7] -= 'a' - 'A';
+  const files::PolygonMesh mesh = files::parse_mesh(capitals, "m.ply");
+  EXPECT_EQ(mesh.vertices, files::parse_mesh(ply("ascii"), "m.ply").vertices);
+}
+
 TEST(MeshReader, AByteOrderMarkShiftsNoIndex) {
   const std::string text =
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 9 9 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n"

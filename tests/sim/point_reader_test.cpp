@@ -391,5 +391,24 @@ TEST(Points, ThinnedPointsKeepMassAndVolume) {
   }
 }
 
+/// Snow that was packed by half in every second point: what it was before stays, however thin.
+TEST(PlacedPoints, ThinPointsKeepTheVolumeBeforePacking) {
+  sim::files::PointCloud cloud;
+  for (int k = 0; k < 1000; ++k) {
+    cloud.x.emplace_back(k, 0, 0);
+    cloud.J_P.push_back(k % 2 == 0 ? 1 : 0.5);
+  }
+  for (const double thinning : {2.0, 3.0, 8.0}) {
+    const sim::shapes::PlacedPoints points(
+        cloud, sim::shapes::Points{.file = "", .spacing = 0.1, .thinning = thinning}, "p");
+    EXPECT_NEAR(points.volume, 1, 1e-12);
+    EXPECT_NEAR(points.V0, 1.5, 1e-12);
+    ASSERT_EQ(points.V.size(), points.x.size());
+    double kept = 0;
+    for (const double V : points.V) kept += V;
+    EXPECT_NEAR(kept, 1.5, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace neve::sim
