@@ -450,9 +450,8 @@ struct Renderer::Impl {
     cpu::LinearSamples shadow, front;
     with_lit_surfaces(drawn, view, [&](const channels::LitSurfaces& lit) {
       shadow = channels::ground_shadow(lit);
-    });
-    drawn.grounds.clear();
-    with_lit_surfaces(drawn, view, [&](const channels::LitSurfaces& lit) {
+      // They still hide what is below them.
+      surfaces.uncover_grounds();
       lit.surfaces.shade_linear(lit.light, lit.smoke, {}, front);
     });
     Frame words = frame;

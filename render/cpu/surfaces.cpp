@@ -126,6 +126,15 @@ void Surfaces::keep_solids() {
                        [&](int tile) { add_solids(tile, kept_[static_cast<std::size_t>(tile)]); });
 }
 
+void Surfaces::uncover_grounds() {
+  constexpr unsigned color = 0xffffff;  // without the cover
+  light::for_each_task(splatter_.columns() * splatter_.rows(), pool_, [&](int task) {
+    light::GBufferTile& tile = kept_[static_cast<std::size_t>(task)];
+    for (int at = 0; at < light::tile_samples; ++at)
+      if (tile.kind[at] == light::kind_ground) tile.albedo[at] &= color;
+  });
+}
+
 /// Index of the tile's lower left sample in the picture.
 std::size_t Surfaces::corner_of(int tile) const {
   const int columns = splatter_.columns();

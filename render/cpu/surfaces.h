@@ -57,6 +57,8 @@ class Surfaces {
   void keep_points(bool has_parts = false);
   void keep_grounds();
   void keep_solids();
+  /// Lets the background through where a kept tile shows a ground, which keeps its depth.
+  void uncover_grounds();
   /// Tile after tile, row by row from the lower left one.
   const light::GBufferTile* kept() const { return kept_.get(); }
   /// Parts of the light in a kept tile; null if nothing is lit already, or they are not kept.

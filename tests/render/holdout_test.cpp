@@ -128,6 +128,37 @@ TEST(Holdouts, LetAPlateThroughWithTheShadowOfTheSnow) {
   EXPECT_LT(count(image, 1), count(open, 1) / 2) << "the ball before the snow hides it";
 }
 
+/// What lies below a plane is hidden by it, over a plate as over nothing.
+TEST(Holdouts, GroundsOfAPlateHideWhatIsBelowThem) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context, {}, nullptr, ParticlePath::cpu);
+  Frame frame = ball_of_snow();
+  frame.has_snow_surface = true;
+  frame.camera.eye = {0, 0.9f, 2};
+  frame.meshes = {shapes::box_mesh({0.4f, -0.1f, 0}, {0.2f, 0.6f, 0.2f})};
+  frame.grounds.push_back({.point = {0, -0.1f, 0}, .is_holdout = true});
+  const Image plate{160, 120, 3, std::vector<std::uint8_t>(160 * 120 * 3, 180)};
+  const Image drawn = renderer.draw_on_plate(frame, plate);
+  frame.is_transparent = true;
+  const Image front = renderer.draw(frame);
+  int open = 0, solid = 0, others = 0;
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      const int alpha = alpha_at(front, x, y);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto at = static_cast<std::size_t>(y * 160 + x);
+        const int over = alpha == 0 ? 180 : front.pixels[4 * at + c];
+        if (alpha > 0 && alpha < 255) continue;
+        others += std::abs(drawn.pixels[3 * at + c] - over) > 8;
+      }
+      open += alpha == 0;
+      solid += alpha == 255;
+    }
+  EXPECT_LE(others, 12) << "where a faint shadow is rounded to none";
+  EXPECT_GT(open, 5000);
+  EXPECT_GT(solid, 1000);
+}
+
 /// A ground that is a holdout takes shadows only, also without a plate.
 TEST(Holdouts, MayBeGrounds) {
   OPEN_OR_SKIP(context, "auto");
