@@ -88,9 +88,14 @@ class LevelSearch {
     const V ahead = per_node_ * larger_lanes(2.0f * (job_.level - value_), all<V>(0.35f));
     const V next = smaller_lanes(t_ + ahead, leave_);
     const V next_value = block_value(job_.padded, rays_, next);
-    const I crosses = marching_ & (next_value >= all<V>(job_.level));
+    // The cells behind have no surface where the level lies on their face: rounding must not let a
+    // ray pass just before it.
+    constexpr float rounding = 1e-4f;
+    const V level = next < leave_ ? all<V>(job_.level) : all<V>(job_.level - rounding);
+    const I crosses = marching_ & (next_value >= level);
     bracket_ = {crosses ? t_ : bracket_.a, crosses ? next : bracket_.b,
-                crosses ? value_ : bracket_.value_a, crosses ? next_value : bracket_.value_b};
+                crosses ? value_ : bracket_.value_a,
+                crosses ? larger_lanes(next_value, all<V>(job_.level)) : bracket_.value_b};
     found_ |= crosses;
     marching_ &= ~crosses & (next < leave_);
     t_ = next;

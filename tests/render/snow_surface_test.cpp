@@ -108,6 +108,22 @@ TEST(Snow, ACutIsFlatAndLiesInItsPlane) {
   EXPECT_GT(most, 0.1f * spacing);
 }
 
+/// Nodes of the field lie on such a plane, and rounding decides whether a ray has met it.
+TEST(Snow, ACutThroughNodesHasNoHoles) {
+  Points points = slab(0.02f, 40, 40);
+  cut_open({}, {0, 0, 1}, points);
+  const Body body = snow::make_body(points, {}, nullptr);
+  const Camera camera{
+      .eye = {0.003f, -0.2f, 1}, .target = {0.003f, -0.39f, 0}, .up = {0, 1, 0}, .fov = 14};
+  const View view = make_view(camera, 256, 128);
+  const std::vector<TileHits> hits = march(body, view, cpu::chosen_draw_kernels());
+  const Marcher marcher(body, view, cpu::chosen_draw_kernels());
+  for_samples(view, [&](std::size_t tile, int at, int x, int y) {
+    const Vec3f place = marcher.ray(x, y) * hits[tile].distance[at];
+    EXPECT_NEAR((camera.eye + place).z, 0, 0.001f) << x << ", " << y;
+  });
+}
+
 /// Place of the side of a body towards +x at a height, m.
 float side_at(const Body& body, float height) {
   for (float x = 0;; x += 0.0005f) {
