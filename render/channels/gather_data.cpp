@@ -4,6 +4,7 @@
 #include "render/channels/gather.h"
 #include "render/light/light_fields.h"
 #include "render/light/shading_constants.h"
+#include "render/surface/nearby.h"
 
 namespace neve::render::channels {
 namespace {
@@ -23,13 +24,21 @@ class Gatherer {
   Gatherer(const LitSurfaces& lit, const Request& request, const View& view,
            const cpu::SolidSamples* meshes, cpu::Splatter& points, DataPlanes& out);
   void take_tile(int tile);
+  /// Gives what has no sphere the particle that is nearest to it.
+  void take_bare(ThreadPool* pool);
 
  private:
+  /// A place of the snow surface without the sphere of a particle there, and its pixel.
+  struct Bare {
+    SeenSurface surface;
+    std::size_t pixel;
+  };
   void make_planes();
   /// @param at in the tile @param x, y  sample of the picture
   SeenSurface surface(const light::GBufferTile& tile, const light::GBufferTile& points, int at,
                       int x, int y) const;
   static Vec3f albedo_of(unsigned word);
+  bool is_near(std::int64_t point, Vec3f position) const;
   std::int64_t mesh_at(int x, int y, float inverse) const;
   std::int64_t ground_at(Vec3f position) const;
   void write(const SeenSurface& surface, std::size_t pixel);
@@ -45,6 +54,9 @@ class Gatherer {
   const cpu::SolidSamples* meshes_;
   cpu::Splatter& points_;
   DataPlanes& out_;
+  /// m: the surface lies about a spacing around its particles.
+  const float reach_;
+  std::vector<std::vector<Bare>> bare_;  ///< of each tile
 };
 
 Gatherer::Gatherer(const LitSurfaces& lit, const Request& request, const View& view,
@@ -57,7 +69,9 @@ Gatherer::Gatherer(const LitSurfaces& lit, const Request& request, const View& v
       after_(make_view(request.after, view.width, view.height)),
       meshes_(meshes),
       points_(points),
-      out_(out) {
+      out_(out),
+      reach_(1.5f * lit.frame.points.spacing),
+      bare_(static_cast<std::size_t>(points.columns() * points.rows())) {
   make_planes();
 }
 
@@ -100,11 +114,35 @@ void Gatherer::take_tile(int tile) {
       const int row = frame_.height - 1 - (low + y) / ss, column = (left + x) / ss;
       SeenSurface seen = surface(drawn, points, nearest, left + nearest % light::tile_width,
                                  low + nearest / light::tile_width);
-      if (lit && drawn.kind[nearest] == light::kind_lit)
-        seen.albedo = albedo_of(lit->albedo[nearest]);
-      write(seen, static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.width) +
-                      static_cast<std::size_t>(column));
+      const bool is_snow = drawn.kind[nearest] == light::kind_lit;
+      if (lit && is_snow) seen.albedo = albedo_of(lit->albedo[nearest]);
+      const std::size_t pixel =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.width) +
+          static_cast<std::size_t>(column);
+      if (is_snow && !is_near(seen.point, seen.position))
+        bare_[static_cast<std::size_t>(tile)].push_back({seen, pixel});
+      else
+        write(seen, pixel);
     }
+}
+
+void Gatherer::take_bare(ThreadPool* pool) {
+  std::vector<Bare> all;
+  std::vector<Vec3f> place;
+  for (const std::vector<Bare>& some : bare_) all.insert(all.end(), some.begin(), some.end());
+  for (const Bare& one : all) place.push_back(one.surface.position);
+  const surface::Shares near =
+      surface::shares_of(place, {frame_.points.position, {}}, {}, reach_, pool);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const std::uint32_t first = near.first[n];
+    all[n].surface.point = first < near.first[n + 1] ? std::int64_t{near.grain[first]} : -1;
+    write(all[n].surface, all[n].pixel);
+  }
+}
+
+bool Gatherer::is_near(std::int64_t point, Vec3f position) const {
+  if (point < 0) return false;
+  return length(frame_.points.position[static_cast<std::size_t>(point)] - position) <= reach_;
 }
 
 SeenSurface Gatherer::surface(const light::GBufferTile& tile, const light::GBufferTile& points,
@@ -224,6 +262,7 @@ DataPlanes gather_data(const LitSurfaces& lit, const Request& request, const Vie
   Gatherer gatherer(lit, request, view, meshes, points, out);
   light::for_each_task(points.columns() * points.rows(), pool,
                        [&](int tile) { gatherer.take_tile(tile); });
+  gatherer.take_bare(pool);
   return out;
 }
 

@@ -142,6 +142,29 @@ TEST(Channels, NumbersAreThoseOfTheParticleInThePixel) {
 }
 
 TEST(Channels, MotionIsTheProjectedDisplacement) {
+/// Small spheres do not cover the surface of the snow: those behind it are others.
+TEST(Channels, NumbersOfTheSnowSurfaceAreThoseOfAParticleThere) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = rough_ball(160, 100);
+  frame.has_snow_surface = true;
+  frame.points.radius = 0.3f * frame.points.spacing;
+  const Drawn drawn(*context, frame, request_for(frame));
+  const std::vector<float> id = drawn.all("id.Y"), body = drawn.all("body.Y"),
+                           height = drawn.all("position.Y"), depth = drawn.all("depth.Z");
+  const std::array position = drawn.vectors("position");
+  int seen = 0;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    if (depth[i] == channels::nothing_depth || height[i] < -0.415f) continue;
+    ASSERT_NE(id[i], channels::no_number);
+    EXPECT_EQ(body[i], 0);
+    const Vec3f p = {position[0][i], position[1][i], position[2][i]};
+    const auto point = static_cast<std::size_t>(id[i]);
+    EXPECT_LE(length(p - frame.points.position.at(point)), 1.6f * frame.points.spacing);
+    ++seen;
+  }
+  EXPECT_GT(seen, 1000);
+}
+
   OPEN_OR_SKIP(context, "auto");
   Frame frame = one_sphere();
   frame.meshes.push_back(shapes::box_mesh({0.4f, 0, 0}, {0.1f, 0.3f, 0.02f}));

@@ -48,7 +48,8 @@ inline constexpr Folder folders[] = {
     {"render/overlay", "sim/base render/frame render/gl"},
     {"render/snow", "sim/base render/frame render/surface render/light render/cpu"},
     {"render/passes", "sim/base render/frame render/light render/gl render/cpu"},
-    {"render/channels", "sim/base render/image render/frame render/light render/cpu"},
+    {"render/channels",
+     "sim/base render/surface render/image render/frame render/light render/cpu"},
     {"render",
      "sim/base render/image render/frame render/light render/gl render/cpu render/overlay "
      "render/snow render/passes render/channels",
