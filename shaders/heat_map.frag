@@ -25,6 +25,8 @@ void main() {
     float pixels = abs(fract(steps - 0.5) - 0.5) / span;
     float cover = clamp(0.5 * isoline_width + 0.5 - pixels, 0.0, 1.0);
     cover *= 1.0 - smoothstep(0.15, 0.4, span);  // closer than that they are a veil
+    // Where a field is constant it has no lines, but it may be the value of one all over.
+    cover *= smoothstep(1e-5, 5e-5, span);
     // Beyond the range colours do not change, and no line has its value on the legend.
     float last = (range_max - range_min) / isoline_step;
     cover *= step(-0.5, steps) * step(steps, last + 0.5);

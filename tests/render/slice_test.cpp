@@ -102,6 +102,23 @@ TEST(HeatMapPass, IsolinesLieOnTheirValues) {
   }
 }
 
+/// Snow at rest has one value all over, often that of a line.
+TEST(HeatMapPass, AConstantFieldHasNoIsolines) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame();
+  frame.heat_maps = {full_map({0.5f, 0.5f, 0.5f, 0.5f}, 2, 2)};
+  const Image plain = renderer.draw(frame);
+  frame.heat_maps[0].isoline_step = 0.25f;
+  EXPECT_EQ(count_changed(plain, renderer.draw(frame), 0, 120), 0);
+  // A field that hardly changes over the picture has its line.
+  frame.heat_maps[0].value = {0.49f, 0.51f, 0.49f, 0.51f};
+  frame.heat_maps[0].isoline_step = 0;
+  const Image slope = renderer.draw(frame);
+  frame.heat_maps[0].isoline_step = 0.25f;
+  EXPECT_GT(count_changed(slope, renderer.draw(frame), 55, 65), 90);
+}
+
 TEST(ArrowPass, PointsWhereItsVectorDoesAndIsAsLong) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
