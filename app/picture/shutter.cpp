@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/picture/collider_looks.h"
+#include "render/frame/ground_place.h"
 #include "render/frame/view.h"
 #include "sim/base/hash.h"
 
@@ -109,6 +110,34 @@ class Ends {
   render::View before_, after_;
 };
 
+/// Pixels that what is seen of a ground moves by, where it has not faded out.
+float ground_motion(const Ends& ends, const render::Frame& frame, const render::GroundPlane& ground,
+                    const Thing& thing) {
+  constexpr int parts = 16;       // of each side of the picture
+  constexpr float has_faded = 2;  // fade distances
+  const render::View view = make_view(frame.camera, frame.width, frame.height);
+  if (!render::is_seen_from_above(ground, view)) return 0;
+  const render::GroundPlace place = place_ground(ground, frame, view);
+  const float height = dot(place.point, place.normal);
+  const auto slope = [&](int part, int side) {
+    return (static_cast<float>(part) / parts - 0.5f) * static_cast<float>(side) /
+           view.pixels_per_slope;
+  };
+  float largest = 0;
+  for (int j = 0; j <= parts; ++j)
+    for (int i = 0; i <= parts; ++i) {
+      const Vec3f ray =
+          view.forward + view.right * slope(i, view.width) + view.up * slope(j, view.height);
+      const float distance = height / dot(ray, place.normal);
+      if (!(distance > view.near_distance) ||
+          !(length(ray * distance - place.fade_center) < has_faded * place.fade_distance))
+        continue;
+      const Vec3f p = view.eye + ray * distance;
+      largest = std::max(largest, ends.way(thing.before(p), thing.after(p)).pixels);
+    }
+  return largest;
+}
+
 /// Pixels that anything moves by in the picture while the shutter is open.
 float largest_motion(const MotionSource& source, const Ends& ends, const render::Frame& frame,
                      const std::vector<Vec3f>& velocity, double open) {
@@ -119,6 +148,9 @@ float largest_motion(const MotionSource& source, const Ends& ends, const render:
   for (std::size_t m = 0; m < things.size(); ++m)
     for (const Vec3f& p : frame.meshes[m].position)
       largest = std::max(largest, ends.way(things[m].before(p), things[m].after(p)).pixels);
+  const std::vector<Thing> grounds = moving_grounds(source, 0.5 * open);
+  for (std::size_t g = 0; g < grounds.size(); ++g)
+    largest = std::max(largest, ground_motion(ends, frame, frame.grounds[g], grounds[g]));
   return largest;
 }
 

@@ -79,6 +79,31 @@ TEST_F(Plates, AnOpenShutterSmearsByTheWayOfTheSnow) {
   EXPECT_LT(usual_solid, sharp_solid);
 }
 
+/// Nothing but a ground moves in these: it tilts, or the camera flies over it.
+TEST_F(Plates, GroundsAreBlurredByTheirWayAndByThatOfTheCamera) {
+  const std::string still =
+      "frames = 2\n[solver]\ncell_size = 0.08\ngravity = [0, 0, 0]\n[output]\nsize = [160, 90]\n"
+      "[[view]]\nname = \"p\"\nlayers = [\"ground\", \"particles\"]\n"
+      "[[body]]\nshape = { sphere = { center = [0, 9, 0], radius = 0.1 } }\n"
+      "[[collider]]\nname = \"floor\"\nshape = { plane = { normal = [0, 1, 0] } }\n";
+  folder.write("tilts.toml",
+               still +
+                   "keyframes = [{ time = 0 }, { time = 0.1, rotation = [0, 0, 30] }]\n"
+                   "[camera]\neye = [0, 1.2, 5]\ntarget = [0, 0.5, 0]\n");
+  folder.write("flown.toml", still +
+                                 "[camera]\neye = [0, 0.6, 1.5]\ntarget = [0, 0, 0]\n"
+                                 "keyframes = [{ time = 0 }, { time = 0.1, "
+                                 "eye = [0.5, 0.6, 1.5], target = [0.5, 0, 0] }]\n");
+  for (const std::string scene : {"tilts", "flown"}) {
+    const auto drawn = [&](const std::string& shutter) {
+      const std::string out = scene + shutter;
+      render({scene + ".toml", "--frames", "1-1", "--shutter", shutter, "--out", out});
+      return picture(out + "/p/0001.png");
+    };
+    EXPECT_GT(render::compare(drawn("0"), drawn("360")).local, 2) << scene;
+  }
+}
+
 TEST_F(Plates, ABlurredPictureMakesItselfAgain) {
   render({"flying.toml", "--frames", "0-0", "--shutter", "180", "--out", "first"});
   render({"first/particles/0000.png", "--out", "again"});
