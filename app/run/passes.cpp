@@ -6,6 +6,7 @@
 #include "app/advice/suggest.h"
 #include "app/exports/columns.h"
 #include "app/picture/attributes.h"
+#include "app/scene/burn_in.h"
 #include "app/scene/check.h"
 #include "app/scene/names.h"
 #include "app/scene/toml/value.h"
@@ -206,6 +207,9 @@ render::ExrHeader PassReader::header(const record::PictureRecord& record,
   render::ExrHeader header = render::channels::camera_header(frame);
   header.text = record::to_png_text(record);
   header.fps = scene_.fps;
+  constexpr double fastest = 30;  // frames a second that the attribute has digits for
+  if (!scene_.shot.time_code.empty() && scene_.fps <= fastest)
+    header.time_code = scene::time_code_of(scene_, record.frame, scene_.fps);
   header.text["neve:time"] =
       scene::toml::number_text(scene::frame_of(scene_, record.frame) / scene_.fps);
   header.text["neve:bodies"] = numbered(scene::snow_sources(scene_));

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -59,16 +60,24 @@ render::Image rgb_of_exr(const std::vector<std::uint8_t>& bytes) {
   render::Image out{picture.width, picture.height, 3, {}};
   out.pixels.resize(3 * static_cast<std::size_t>(picture.width) *
                     static_cast<std::size_t>(picture.height));
+  std::array<std::vector<float>, 3> light;
   const char* const names[] = {"R", "G", "B"};
   for (std::size_t c = 0; c < 3; ++c) {
     const render::ExrChannel* channel = picture.find(names[c]);
     if (!channel) channel = picture.find("Y");
     if (!channel)
       throw render::ImageError(std::string("the OpenEXR file has no channel ") + names[c]);
-    const std::vector<float> light = render::numbers_of(*channel);
-    for (std::size_t i = 0; i < light.size(); ++i)
-      out.pixels[3 * i + c] = std::isfinite(light[i]) ? srgb_of(light[i]) : 255;
+    light[c] = render::numbers_of(*channel);
   }
+  const bool is_rec709 = picture.to_rec709 == render::ExrPicture{}.to_rec709;
+  for (std::size_t i = 0; i < light[0].size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::array<float, 3>& row = picture.to_rec709[c];
+      const float own = is_rec709
+                            ? light[c][i]
+                            : row[0] * light[0][i] + row[1] * light[1][i] + row[2] * light[2][i];
+      out.pixels[3 * i + c] = std::isfinite(own) ? srgb_of(own) : 255;
+    }
   return out;
 }
 

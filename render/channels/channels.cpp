@@ -30,6 +30,7 @@ ExrHeader camera_header(const Frame& frame) {
   };
   ExrHeader header;
   header.to_camera = columns({axes[0], axes[1], axes[2], Vec3f{}}, {0, 0, 0, 1});
+  header.screen_width = static_cast<float>(frame.width) / view.pixels_per_slope;
   const float across = view.pixels_per_slope / static_cast<float>(frame.width);
   const float down = view.pixels_per_slope / static_cast<float>(frame.height);
   header.to_ndc = columns(

@@ -1,6 +1,8 @@
 #include "render/image/exr.h"
 
 #include <ImfChannelList.h>
+#include <ImfChromaticities.h>
+#include <ImfChromaticitiesAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfFramesPerSecond.h>
 #include <ImfHeader.h>
@@ -11,9 +13,12 @@
 #include <ImfRational.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
+#include <ImfTimeCode.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "render/image/exr_header.h"
 
@@ -82,8 +87,15 @@ const void* data_of(const ExrChannel& channel) {
                     channel.numbers);
 }
 
+/// Of "HH:MM:SS:FF", or with ";" before FF where numbers are dropped.
+Imf::TimeCode time_code(const std::string& text) {
+  const auto two_digits = [&](std::size_t at) { return std::stoi(text.substr(at, 2)); };
+  return {two_digits(0), two_digits(3), two_digits(6), two_digits(9), text.at(8) == ';'};
+}
+
 Imf::Header header_of(const ExrPicture& picture, const ExrHeader& from) {
   Imf::Header header(picture.width, picture.height);
+  header.screenWindowWidth() = from.screen_width;
   header.compression() = Imf::ZIP_COMPRESSION;
   header.zipCompressionLevel() = zip_level;
   for (const ExrChannel& channel : picture.channels)
@@ -94,6 +106,7 @@ Imf::Header header_of(const ExrPicture& picture, const ExrHeader& from) {
   Imf::addChromaticities(header, Imf::Chromaticities());
   header.insert("oiio:ColorSpace", Imf::StringAttribute("lin_rec709"));
   if (from.fps > 0) Imf::addFramesPerSecond(header, Imf::guessExactFps(from.fps));
+  if (!from.time_code.empty()) Imf::addTimeCode(header, time_code(from.time_code));
   if (from.to_camera) Imf::addWorldToCamera(header, matrix(*from.to_camera));
   if (from.to_ndc) Imf::addWorldToNDC(header, matrix(*from.to_ndc));
   return header;
@@ -116,24 +129,45 @@ auto reading(std::span<const std::uint8_t> bytes, double room, const Read& read)
   }
 }
 
-/// Channels of whole numbers are read in single precision.
-ExrPicture empty_picture(const Imf::Header& header, std::size_t packed, double room) {
-  const Imath::Box2i& window = header.dataWindow();
-  const double width = 1.0 + window.max.x - window.min.x;
-  const double height = 1.0 + window.max.y - window.min.y;
-  constexpr double best_deflate = 1032;  // bytes that one byte of it can become
-  double count = 0;
-  const Imf::ChannelList& channels = header.channels();
+double width_of(const Imath::Box2i& window) {
+  return 1.0 + window.max.x - window.min.x;
+}
+
+double height_of(const Imath::Box2i& window) {
+  return 1.0 + window.max.y - window.min.y;
+}
+
+/// Bytes of the numbers of all channels.
+double bytes_of(const Imf::ChannelList& channels, const Imath::Box2i& window) {
+  double pixel = 0;
   for (auto c = channels.begin(); c != channels.end(); ++c)
-    count += width * height * (c.channel().type == Imf::HALF ? 2 : 4);
+    pixel += c.channel().type == Imf::HALF ? 2 : 4;
+  return width_of(window) * height_of(window) * pixel;
+}
+
+void check_windows(const Imf::Header& header, std::size_t packed, double room) {
+  constexpr double best_deflate = 1032;  // bytes that one byte of it can become
+  const double count = bytes_of(header.channels(), header.dataWindow());
   if (!(count <= best_deflate * static_cast<double>(packed)))
     throw ImageError("the picture has more numbers than its bytes can hold");
-  if (count > room)
+  const Imath::Box2i& display = header.displayWindow();
+  constexpr double largest_side = 1 << 20;
+  const double width = width_of(display), height = height_of(display);
+  if (!(width >= 1 && height >= 1 && width <= largest_side && height <= largest_side))
+    throw ImageError("no OpenEXR file: its display window is none");
+  const double needed =
+      display == header.dataWindow() ? count : count + bytes_of(header.channels(), display);
+  if (needed > room)
     throw ImageSizeError("a picture of " + std::to_string(static_cast<std::int64_t>(width)) + "x" +
                              std::to_string(static_cast<std::int64_t>(height)) + " pixels",
-                         count);
-  ExrPicture picture{static_cast<int>(width), static_cast<int>(height), {}};
-  const auto pixels = static_cast<std::size_t>(width * height);
+                         needed);
+}
+
+/// Channels of whole numbers are read in single precision.
+ExrPicture empty_picture(const Imf::ChannelList& channels, const Imath::Box2i& window) {
+  ExrPicture picture{static_cast<int>(width_of(window)), static_cast<int>(height_of(window)), {}};
+  const auto pixels =
+      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   for (auto c = channels.begin(); c != channels.end(); ++c) {
     if (c.channel().type == Imf::HALF)
       picture.channels.push_back({c.name(), HalfNumbers(pixels)});
@@ -141,6 +175,66 @@ ExrPicture empty_picture(const Imf::Header& header, std::size_t packed, double r
       picture.channels.push_back({c.name(), std::vector<float>(pixels)});
   }
   return picture;
+}
+
+/// The numbers of the data window at their place in the display window.
+ExrPicture placed(const ExrPicture& data, const Imf::Header& header) {
+  const Imath::Box2i& from = header.dataWindow();
+  const Imath::Box2i& to = header.displayWindow();
+  ExrPicture picture = empty_picture(header.channels(), to);
+  const int left = std::max(from.min.x, to.min.x), right = std::min(from.max.x, to.max.x);
+  if (left > right) return picture;
+  const auto at = [](const Imath::Box2i& window, int x, int y) {
+    return (std::ptrdiff_t{y} - window.min.y) * static_cast<std::ptrdiff_t>(width_of(window)) +
+           (std::ptrdiff_t{x} - window.min.x);
+  };
+  for (std::size_t c = 0; c < picture.channels.size(); ++c)
+    std::visit(
+        [&](auto& numbers) {
+          const auto& all = std::get<std::decay_t<decltype(numbers)>>(data.channels[c].numbers);
+          for (int y = std::max(from.min.y, to.min.y); y <= std::min(from.max.y, to.max.y); ++y)
+            std::copy_n(all.begin() + at(from, left, y), std::ptrdiff_t{right} - left + 1,
+                        numbers.begin() + at(to, left, y));
+        },
+        picture.channels[c].numbers);
+  return picture;
+}
+
+/// Linear light of other primaries as that of BT.709. White stays white: cones see it as they see
+/// the other white. Source: Lam 1985, the matrix of Bradford, here for colours as rows.
+Imath::M44f to_rec709(const Imf::Chromaticities& from) {
+  const Imf::Chromaticities to;
+  const Imath::M44f cones(0.8951f, -0.7502f, 0.0389f, 0, 0.2664f, 1.7135f, -0.0685f, 0, -0.1614f,
+                          0.0367f, 1.0296f, 0, 0, 0, 0, 1);
+  const auto white = [&](const Imath::V2f& w) {
+    return Imath::V3f(w.x / w.y, 1, (1 - w.x - w.y) / w.y) * cones;
+  };
+  Imath::M44f adapt;
+  adapt.setScale(white(to.white) / white(from.white));
+  return Imf::RGBtoXYZ(from, 1) * cones * adapt * cones.inverse() * Imf::XYZtoRGB(to, 1);
+}
+
+/// Files that name no primaries have those of BT.709.
+void read_primaries(const Imf::Header& header, ExrPicture& picture) {
+  if (!Imf::hasChromaticities(header)) return;
+  const Imf::Chromaticities& from = Imf::chromaticities(header);
+  constexpr float same = 1e-4f;
+  const Imf::Chromaticities own;
+  const auto is_own = [&](const Imath::V2f Imf::Chromaticities::*of) {
+    return (from.*of).equalWithAbsError(own.*of, same);
+  };
+  if (is_own(&Imf::Chromaticities::red) && is_own(&Imf::Chromaticities::green) &&
+      is_own(&Imf::Chromaticities::blue) && is_own(&Imf::Chromaticities::white))
+    return;
+  const Imath::M44f matrix = to_rec709(from);
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column) {
+      const float number = matrix[static_cast<int>(column)][static_cast<int>(row)];
+      constexpr float largest = 1e3f;
+      if (!(std::abs(number) <= largest))
+        throw ImageError("an OpenEXR file with chromaticities that no colours have");
+      picture.to_rec709[row][column] = number;
+    }
 }
 
 }  // namespace
@@ -183,8 +277,10 @@ std::vector<std::uint8_t> encode_exr(const ExrPicture& picture, const ExrHeader&
 
 ExrPicture decode_exr(std::span<const std::uint8_t> bytes, double room) {
   return reading(bytes, room, [&](Imf::InputFile& file) {
-    ExrPicture picture = empty_picture(file.header(), bytes.size(), room);
-    const Imath::V2i corner = file.header().dataWindow().min;
+    const Imf::Header& header = file.header();
+    check_windows(header, bytes.size(), room);
+    ExrPicture picture = empty_picture(header.channels(), header.dataWindow());
+    const Imath::V2i corner = header.dataWindow().min;
     Imf::FrameBuffer buffer;
     for (const ExrChannel& channel : picture.channels) {
       const std::ptrdiff_t size = channel.numbers.index() == 0 ? 2 : 4;
@@ -195,6 +291,8 @@ ExrPicture decode_exr(std::span<const std::uint8_t> bytes, double room) {
     }
     file.setFrameBuffer(buffer);
     file.readPixels(corner.y, corner.y + picture.height - 1);
+    if (header.displayWindow() != header.dataWindow()) picture = placed(picture, header);
+    read_primaries(header, picture);
     return picture;
   });
 }

@@ -24,8 +24,10 @@ struct ExrChannel {
 };
 
 struct ExrPicture {
-  int width = 0, height = 0;
+  int width = 0, height = 0;  ///< of the display window; numbers beside the data window are 0
   std::vector<ExrChannel> channels;
+  /// Rows of the matrix that makes the linear light R, G, B that of the primaries of BT.709.
+  std::array<std::array<float, 3>, 3> to_rec709{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
   /// Null if there is none of this name.
   const ExrChannel* find(const std::string& name) const;
@@ -36,7 +38,9 @@ struct ExrPicture {
 struct ExrHeader {
   PngText text;                                                ///< string attributes
   double fps = 0;                                              ///< framesPerSecond; 0: none
+  std::string time_code{};                                     ///< "01:00:00:00"; empty: none
   std::optional<std::array<float, 16>> to_camera{}, to_ndc{};  ///< worldToCamera, worldToNDC
+  float screen_width = 1;  ///< screenWindowWidth: of the picture, at a distance of 1
 };
 
 /// Rounds to the nearest half float; beyond 65504 it becomes infinite.

@@ -8,6 +8,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/process.h"
 #include "render/image/exr.h"
+#include "render/image/exr_header.h"
 #include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/needs.h"
@@ -111,6 +112,20 @@ TEST_F(Shots, PassesHaveTheTimeOfTheRun) {
        "--passes", "depth"});
   const auto text = render::read_exr_text(app::output::read_file(folder / "a/particles/1001.exr"));
   EXPECT_NEAR(std::stod(text.at("neve:time")), 1.0 / 24, 1e-12);
+}
+
+/// As SMPTE 12M packs them: two digits in a byte, frames lowest.
+TEST_F(Shots, PassesHaveTheTimeCodeOfTheShot) {
+  run({"render", "shot.toml", "--out", "a", "--no-movie", "--quiet", "--frames", "1002-1002",
+       "--passes", "depth", "--set", "shot.time_code=10:20:30:11"});
+  const auto bytes = app::output::read_file(folder / "a/particles/1002.exr");
+  for (const render::ExrAttribute& attribute : render::read_exr_attributes(bytes)) {
+    if (attribute.name != "timeCode") continue;
+    EXPECT_EQ((std::vector<std::uint8_t>(attribute.bytes.begin(), attribute.bytes.begin() + 4)),
+              (std::vector<std::uint8_t>{0x12, 0x30, 0x20, 0x10}));
+    return;
+  }
+  ADD_FAILURE() << "no time code";
 }
 
 TEST_F(Shots, RefuseNumbersBeforeTheFirst) {

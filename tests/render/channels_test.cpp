@@ -10,6 +10,7 @@
 #include "both_ways.h"
 #include "render/frame/colormap.h"
 #include "render/image/exr.h"
+#include "render/image/exr_header.h"
 #include "render/image/jpeg.h"
 #include "render/image/mean_image.h"
 #include "render/shapes/mesh_shapes.h"
@@ -141,7 +142,6 @@ TEST(Channels, NumbersAreThoseOfTheParticleInThePixel) {
   EXPECT_GT(seen, 1000);
 }
 
-TEST(Channels, MotionIsTheProjectedDisplacement) {
 /// Small spheres do not cover the surface of the snow: those behind it are others.
 TEST(Channels, NumbersOfTheSnowSurfaceAreThoseOfAParticleThere) {
   OPEN_OR_SKIP(context, "auto");
@@ -165,6 +165,7 @@ TEST(Channels, NumbersOfTheSnowSurfaceAreThoseOfAParticleThere) {
   EXPECT_GT(seen, 1000);
 }
 
+TEST(Channels, MotionIsTheProjectedDisplacement) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = one_sphere();
   frame.meshes.push_back(shapes::box_mesh({0.4f, 0, 0}, {0.1f, 0.3f, 0.02f}));
@@ -486,6 +487,65 @@ TEST(Exr, TextAndMatricesComeBack) {
   EXPECT_EQ(numbers_of(*read.find("Z")), (std::vector<float>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(numbers_of(*read.find("R")), (std::vector<float>{0.5f, 0, -2, 65504, 1, 7}));
   EXPECT_EQ(read.find("G"), nullptr);
+}
+
+/// Writes numbers over those of an attribute of a file.
+template <class Number>
+void set_attribute(const std::string& name, const std::string& type,
+                   const std::vector<Number>& numbers, std::vector<std::uint8_t>& bytes) {
+  const std::string words = name + '\0' + type + '\0';
+  const auto found = std::search(bytes.begin(), bytes.end(), words.begin(), words.end());
+  ASSERT_NE(found, bytes.end()) << name;
+  const auto at = static_cast<std::size_t>(found - bytes.begin()) + words.size() + 4;
+  std::memcpy(bytes.data() + at, numbers.data(), numbers.size() * sizeof(Number));
+}
+
+TEST(Exr, DataLieAtTheirPlaceInTheDisplayWindow) {
+  const std::vector<float> numbers{1, 2, 3, 4, 5, 6};
+  std::vector<std::uint8_t> bytes = encode_exr({3, 2, {{"Z", numbers}}});
+  // x from -1 to 2, y from 1 to 3.
+  set_attribute<std::int32_t>("displayWindow", "box2i", {-1, 1, 2, 3}, bytes);
+  const ExrPicture read = decode_exr(bytes);
+  ASSERT_EQ(read.width, 4);
+  ASSERT_EQ(read.height, 3);
+  EXPECT_EQ(numbers_of(*read.find("Z")), (std::vector<float>{0, 4, 5, 6, 0, 0, 0, 0, 0, 0, 0, 0}));
+  set_attribute<std::int32_t>("displayWindow", "box2i", {0, 0, 1 << 19, 1 << 19}, bytes);
+  EXPECT_THROW(decode_exr(bytes, 1e8), ImageSizeError);
+  set_attribute<std::int32_t>("displayWindow", "box2i", {2, 2, 0, 0}, bytes);
+  EXPECT_THROW(decode_exr(bytes), ImageError);
+}
+
+TEST(Exr, PrimariesOfOthersBecomeThoseOfRec709) {
+  std::vector<std::uint8_t> bytes = encode_exr({1, 1, {{"R", std::vector<float>{1}}}});
+  const ExrPicture own = decode_exr(bytes);
+  EXPECT_EQ(own.to_rec709, ExrPicture{}.to_rec709);
+  set_attribute<float>("chromaticities", "chromaticities",
+                       {0.713f, 0.293f, 0.165f, 0.830f, 0.128f, 0.044f, 0.32168f, 0.33767f}, bytes);
+  // Source of the numbers: the config of OpenColorIO for ACES, "ACEScg to Linear Rec.709".
+  const float expected[3][3] = {{1.70505f, -0.62179f, -0.08326f},
+                                {-0.13026f, 1.14080f, -0.01055f},
+                                {-0.02400f, -0.12897f, 1.15297f}};
+  const ExrPicture read = decode_exr(bytes);
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      EXPECT_NEAR(read.to_rec709[row][column], expected[row][column], 2e-4f);
+  set_attribute<float>("chromaticities", "chromaticities", std::vector<float>(8, 0.3f), bytes);
+  EXPECT_THROW(decode_exr(bytes), ImageError);
+}
+
+TEST(Exr, TheScreenWindowIsThatOfTheCamera) {
+  const Frame frame = small_frame();
+  const std::vector<std::uint8_t> bytes =
+      encode_exr({1, 1, {{"R", std::vector<float>{1}}}}, channels::camera_header(frame));
+  for (const ExrAttribute& attribute : read_exr_attributes(bytes)) {
+    if (attribute.name != "screenWindowWidth") continue;
+    float width = 0;
+    std::memcpy(&width, attribute.bytes.data(), sizeof width);
+    // One unit at a distance of 2 is as high as the picture.
+    EXPECT_NEAR(width, 0.5f * 120 / 90, 1e-4f);
+    return;
+  }
+  ADD_FAILURE();
 }
 
 /// The library allocates rows, tiles and tables of what a header says before it reads a number.
