@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/scene/read.h"
+#include "app/support/film_rate.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "app/timeline/snapshot.h"
@@ -146,9 +147,8 @@ std::array<StripWords, 2> words_of(const Pair& pair) {
 }
 
 std::string PairPainter::line_for(Mode mode) const {
-  std::string line =
-      fmt::format("frame {}   t = {} s", scene::number_of(a_.scene, a_.snapshot.frame),
-                  fixed_text(a_.snapshot.time, 3));
+  std::string line = fmt::format("frame {}   t = {}", scene::number_of(a_.scene, a_.snapshot.frame),
+                                 time_text(a_.snapshot.time, a_.scene.fps));
   if (mode == Mode::displacement)
     line += fmt::format("   displaced by {} m on average, {} m at most",
                         rough_text(displacement_.mean), rough_text(displacement_.largest));

@@ -1,7 +1,10 @@
 #include "app/picture/frame_builder.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -313,10 +316,10 @@ std::vector<std::string> FrameBuilder::words(const scene::View& view,
   std::vector<std::string> lines;
   if (scene::has_layer(view, scene::Layer::caption)) lines = caption(snapshot);
   if (scene::has_layer(view, scene::Layer::counter)) {
-    const std::string last = std::to_string(scene::number_of(scene_, scene::last_frame(scene_)));
-    std::string now = std::to_string(scene::number_of(scene_, snapshot.frame));
-    now.insert(0, last.size() > now.size() ? last.size() - now.size() : 0, '0');
-    lines.push_back(now + " / " + last);
+    const int last = scene::number_of(scene_, scene::last_frame(scene_));
+    const int now = scene::number_of(scene_, snapshot.frame);
+    const std::size_t digits = std::to_string(std::abs(last)).size();
+    lines.push_back(fmt::format("{}{:0{}} / {}", now < 0 ? "-" : "", std::abs(now), digits, last));
   }
   if (scene::has_layer(view, scene::Layer::slate) && snapshot.frame == 0)
     for (std::string& line : slate()) lines.push_back(std::move(line));
@@ -341,7 +344,7 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
   std::vector<std::string> lines;
   if (!scene_.title.empty()) lines.push_back(scene_.title);
   lines.push_back("frame " + std::to_string(scene::number_of(scene_, snapshot.frame)) +
-                  "   t = " + fixed_text(snapshot.time, 3) + " s");
+                  "   t = " + time_text(snapshot.time, scene_.fps));
   const std::size_t count = snapshot.particles.x.size();
   lines.push_back(grouped(count) + (count == 1 ? " particle" : " particles") +
                   (options_.coarsening > 1

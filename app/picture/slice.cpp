@@ -1,6 +1,7 @@
 #include "app/picture/slice.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "app/picture/attributes.h"
@@ -29,10 +30,18 @@ SlicePlane snapped_to_nodes(SlicePlane plane, double h) {
   return plane;
 }
 
-/// So many digits after the point, and no minus before a zero.
-std::string short_number(double x, double parts = 1000) {
-  const double rounded = std::round(x * parts) / parts;
-  return scene::toml::number_text(rounded == 0 ? 0 : rounded);
+/// Digits after the point that tell places apart which are so many metres from each other.
+int digits_of(double apart, int least) {
+  constexpr double rounding = 1e-9;
+  return std::max(least, static_cast<int>(std::ceil(-std::log10(apart) - rounding)));
+}
+
+/// With so many digits after the point at most, and no minus before a zero.
+std::string short_number(double x, int digits) {
+  std::string text = fixed_text(x, digits);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
 }
 
 /// Ends of the scene are round; those of a frame are rounded for its words.
@@ -41,15 +50,18 @@ std::string longest_text(const scene::View& view, double value) {
                                                           : scene::toml::number_text(value);
 }
 
-std::string describe_place(const SlicePlane& plane) {
+/// @param h  m, side of a cell
+std::string describe_place(const SlicePlane& plane, double h) {
   const int axis = axis_along(plane.normal);
   if (axis >= 0)
-    return std::string(1, "xyz"[axis]) + " = " + short_number(plane.point[axis]) + " m";
-  const auto triple = [](const Vec3d& v) {
-    return "(" + short_number(v.x(), 100) + ", " + short_number(v.y(), 100) + ", " +
-           short_number(v.z(), 100) + ")";
+    return std::string(1, "xyz"[axis]) + " = " +
+           short_number(plane.point[axis], digits_of(0.1 * h, 3)) + " m";
+  const auto triple = [](const Vec3d& v, int digits) {
+    return "(" + short_number(v.x(), digits) + ", " + short_number(v.y(), digits) + ", " +
+           short_number(v.z(), digits) + ")";
   };
-  return "plane through " + triple(plane.point) + " m, normal " + triple(plane.normal);
+  return "plane through " + triple(plane.point, digits_of(h, 2)) + " m, normal " +
+         triple(plane.normal, 2);
 }
 
 void add_frame(const SlicePlane& plane, const Rectangle& r, render::Frame& frame) {
@@ -84,7 +96,7 @@ void add_slice(const scene::Scene& scene, const scene::View& view, const Snapsho
   if (!scene::shows_slice(view) || !snapshot.fields.lattice) return;
   const SlicePlane plane = snapped_to_nodes(wanted, scene.solver.cell_size);
   const SliceShape shape(scene, snapshot.particles, sight.spacing, plane);
-  frame.footnote = describe_place(plane);
+  frame.footnote = describe_place(plane, scene.solver.cell_size);
   if (shape.is_empty()) {
     frame.footnote += ": no snow here";
     return;

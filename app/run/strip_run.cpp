@@ -10,6 +10,7 @@
 #include "app/scene/read.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
+#include "app/support/film_rate.h"
 #include "app/support/text.h"
 #include "app/timeline/snapshot.h"
 #include "app/timeline/times.h"
@@ -123,7 +124,7 @@ class Strip {
     render::Frame frame = picture::FrameBuilder(scene, timeline.seeded(), options)
                               .build(scene.views.front(), snapshot);
     changes_ = snapshot.changes;
-    frame.caption = {"t = " + fixed_text(time, 3) + " s"};
+    frame.caption = {"t = " + time_text(time, fps)};
     frame.footnote.clear();
     if (!tiles_.empty()) frame.scale_bar.reset();  // all tiles have one scale
     const std::size_t at = tiles_.size();

@@ -30,7 +30,7 @@ Values values_of(const Scene& scene, const PictureWords& words) {
   for (const FlatParam& param : flatten(scene)) values[param.address] = plain_text(param);
   const int number = number_of(scene, words.frame);
   values["frame"] = fmt::format("{:04}", number);  // as in names of files
-  values["time"] = fixed_text(words.time, 3) + " s";
+  values["time"] = time_text(words.time, scene.fps);
   values["time_code"] = time_code_of(scene, number, scene.fps);
   values["range"] = range_text(scene);
   values["view"] = words.view;

@@ -1,7 +1,10 @@
 #include "app/support/film_rate.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "app/support/text.h"
 
 namespace neve::app {
 
@@ -27,6 +30,11 @@ std::string plain_rate(double fps) {
   char buffer[64];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, rounded > 0 ? rounded : fps);
   return {buffer, end.ptr};
+}
+
+std::string time_text(double seconds, double fps) {
+  constexpr int usual = 3;
+  return fixed_text(seconds, std::max(usual, static_cast<int>(std::ceil(std::log10(fps))))) + " s";
 }
 
 std::string rate_text(double fps) {

@@ -12,6 +12,9 @@ double exact_rate(double fps);
 /// "23.976", "24", "12.5": as people write it.
 std::string plain_rate(double fps);
 
+/// "0.042 s": the time of a frame, to as many digits as tell it from the next one, three at least.
+std::string time_text(double seconds, double fps);
+
 /// "24000/1001", "24", "12.5": as ffmpeg reads it.
 std::string rate_text(double fps);
 

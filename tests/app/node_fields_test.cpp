@@ -160,6 +160,26 @@ TEST(Slice, ArrowsLieOnNodesAndHaveTheirVelocity) {
   EXPECT_NE(frame.footnote.find("z = 0 m"), std::string::npos) << frame.footnote;
 }
 
+TEST(Slice, ItsPlaceHasTheDigitsThatItsCellsNeed) {
+  FieldMoment moment = moment_of(all_fields);
+  app::scene::SliceStyle slice = moment.scene.views[2].slice;
+  const auto footnote = [&](double cell, Vec3d point, Vec3d normal) {
+    moment.scene.solver.cell_size = cell;
+    slice.point = point;
+    slice.normal = normal;
+    render::Frame frame;
+    app::picture::add_slice(moment.scene, moment.scene.views[2], moment.snapshot,
+                            app::picture::slice_plane(slice, 0), {1000, 0.01}, frame);
+    return frame.footnote;
+  };
+  EXPECT_EQ(footnote(0.0004, {0, 0.5, 0.0004}, {0, 0, 1}).substr(0, 12), "z = 0.0004 m");
+  EXPECT_EQ(footnote(0.02, {0, 0.5, 0.02}, {0, 0, 1}).substr(0, 10), "z = 0.02 m");
+  EXPECT_EQ(footnote(0.0004, {0.0004, 0.5, 0.0012}, {1, 0.1, 0}).substr(0, 35),
+            "plane through (0.0004, 0.5, 0.0012)");
+  EXPECT_EQ(footnote(0.02, {0.0212, 0.5, 0}, {1, 0.1, 0}).substr(0, 28),
+            "plane through (0.02, 0.5, 0)");
+}
+
 TEST(Slice, SliceMarksPointsWithoutSnow) {
   const FieldMoment moment = moment_of(all_fields);
   app::scene::SliceStyle slice = moment.scene.views[2].slice;

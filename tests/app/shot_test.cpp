@@ -77,6 +77,16 @@ bottom = "{{{view}}} {changes}"
   EXPECT_EQ(words[4], "{snow} hardening = 7");
 }
 
+TEST(BurnIn, TimesHaveTheDigitsThatTellFramesApart) {
+  const auto time = [](const std::string& fps) {
+    const auto scene = scene_of("fps = " + fps + "\n[burn_in]\ntop = \"{time}\"\n");
+    return app::scene::burnt_in(scene, {3, 3 / scene.fps, "snow", ""})[1];
+  };
+  EXPECT_EQ(time("24"), "0.125 s");
+  EXPECT_EQ(time("1000"), "0.003 s");
+  EXPECT_EQ(time("10000"), "0.0003 s");
+}
+
 TEST(BurnIn, RefusesWhatNamesNothing) {
   try {
     scene_of("[burn_in]\ntop = \"{material.snow.hardning}\"\n");

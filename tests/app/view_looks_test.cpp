@@ -170,6 +170,15 @@ TEST(Background, BackgroundOfTheViewOverridesThatOfTheOutput) {
   EXPECT_TRUE(build(scene, {{0, 0, 0}}).is_transparent);
 }
 
+TEST(Counter, FramesBelowZeroAreWrittenAsInNamesOfFiles) {
+  const app::scene::Scene scene = app::scene::read_scene_text(
+      std::string("frames = 209\nfirst_frame = 0\nhandles = 8\n[[view]]\n"
+                  "layers = [\"counter\"]\n") +
+          looked_at,
+      "s.toml");
+  EXPECT_EQ(build(scene, {{0, 0, 0}}).caption, std::vector<std::string>{"-008 / 217"});
+}
+
 const char* const three_views = R"([[view]]
 name = "a"
 [[view]]
