@@ -21,22 +21,15 @@ std::vector<std::string> strip_caption(const std::vector<std::string>& lines, bo
     return text;
   };
   std::vector<std::string> strip;
+  if (lines.empty()) return strip;
   const std::size_t facts = has_title ? 1 : 0;
-  if (has_title && !lines.empty()) strip.push_back(lines.front());
+  if (has_title) strip.push_back(lines.front());
   strip.push_back(joined(facts, facts + 2));
   if (lines.size() > facts + 2) strip.push_back(joined(facts + 2, lines.size()));
   return strip;
 }
 
 }  // namespace
-
-render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
-                          const FrameBuilder& builder, const Snapshot& snapshot,
-                          render::Renderer& renderer, const DrawFrame& draw) {
-  return draw_mosaic(
-      scene, mosaic, [&](const scene::View& view) { return builder.build(view, snapshot); },
-      builder.caption(snapshot), renderer, draw);
-}
 
 render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
                           const BuildFrame& build, const std::vector<std::string>& lines,
@@ -47,7 +40,8 @@ render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic
   std::vector<render::Tile> tiles;
   for (const setup::MosaicTile& tile : layout.tiles) {
     render::Frame frame = build(tile.view);
-    frame.caption = {tile.view.name};
+    // Before its own words, the counter and the slate.
+    if (!lines.empty()) frame.caption.insert(frame.caption.begin(), tile.view.name);
     tiles.push_back({tile.x, tile.y, draw ? draw(tile.view, frame) : renderer.draw(frame)});
   }
   render::Frame strip;

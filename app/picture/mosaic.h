@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "app/picture/frame_builder.h"
 #include "app/scene/scene.h"
 #include "app/setup/mosaic_layout.h"
 #include "render/renderer.h"
@@ -18,12 +17,8 @@ using BuildFrame = std::function<render::Frame(const scene::View& view)>;
 /// Draws the frame of a view.
 using DrawFrame = std::function<render::Image(const scene::View& view, const render::Frame& frame)>;
 
+/// @param caption  of all views; empty: there is none, and views have no names
 /// @param draw  draws each tile
-render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
-                          const FrameBuilder& builder, const Snapshot& snapshot,
-                          render::Renderer& renderer, const DrawFrame& draw);
-
-/// The same with other frames and another caption.
 render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
                           const BuildFrame& build, const std::vector<std::string>& caption,
                           render::Renderer& renderer, const DrawFrame& draw = {});

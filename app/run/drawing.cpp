@@ -97,10 +97,12 @@ Drawing::Files Drawing::draw(const picture::Snapshot& snapshot) {
   const auto draw_tile = [&](const scene::View& view, const render::Frame& tile) {
     return draw_mean(tile, shutter_frames(view, tile, snapshot), std::nullopt);
   };
+  const auto build = [&](const scene::View& view) { return builder_.build(view, snapshot); };
+  const std::vector<std::string> caption =
+      job_.options.has_caption ? builder_.caption(snapshot) : std::vector<std::string>{};
   for (const scene::Mosaic& mosaic : scene_.mosaics)
-    files.pictures.push_back(
-        picture_of(mosaic.name,
-                   picture::draw_mosaic(scene_, mosaic, builder_, snapshot, renderer_, draw_tile)));
+    files.pictures.push_back(picture_of(
+        mosaic.name, picture::draw_mosaic(scene_, mosaic, build, caption, renderer_, draw_tile)));
   return files;
 }
 
@@ -158,9 +160,12 @@ std::vector<output::Picture> Drawing::draw_incident(const timeline::Timeline& ti
     pictures.back().file = output::diverged_path(job_.folder, name);
   };
   for (const scene::View& view : views) add(view.name, renderer_.draw(build(view)));
-  std::vector<std::string> caption = builder_.caption(snapshot);
-  for (std::string& line : picture::FrameBuilder::incident_lines(divergence, diagnosis))
-    caption.push_back(std::move(line));
+  std::vector<std::string> caption;
+  if (job_.options.has_caption) {
+    caption = builder_.caption(snapshot);
+    for (std::string& line : picture::FrameBuilder::incident_lines(divergence, diagnosis))
+      caption.push_back(std::move(line));
+  }
   for (const scene::Mosaic& mosaic : scene_.mosaics)
     add(mosaic.name, picture::draw_mosaic(scene_, mosaic, build, caption, renderer_));
   return pictures;

@@ -60,8 +60,9 @@ MosaicLayout layout_of(const scene::Scene& scene, const scene::Mosaic& mosaic, i
   MosaicLayout layout;
   layout.width = mosaic.width.value_or(scene.size.width);
   layout.font_size = std::clamp(static_cast<int>(std::lround(layout.width / 80.0)), 10, 160);
-  layout.caption_height =
-      static_cast<int>(std::lround(layout.font_size * (1.3 + 1.3 * caption_lines)));
+  if (caption_lines > 0)
+    layout.caption_height =
+        static_cast<int>(std::lround(layout.font_size * (1.3 + 1.3 * caption_lines)));
   const int columns = column_count(scene, mosaic), gap = std::max(2, layout.width / 400);
   // Shares of the width that add up to it: columns may differ by a pixel.
   const auto left_of = [&](int c) { return c * (layout.width + gap) / columns; };

@@ -1,6 +1,7 @@
 /// `neve render` from the outside: what it makes, and what it leaves alone.
 
 #include "app/output/atomic_file.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
@@ -108,6 +109,27 @@ TEST_F(Cli, AMosaicIsAFolderOfPicturesAndAMovieLikeAView) {
   ASSERT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_EQ(read_text(folder / "b/both/0002.png"),
             read_text(folder / "out/0002-again/both/0002.png"));
+}
+
+TEST_F(Cli, AMosaicHasTheCaptionThatIsAskedForAndTheCounterOfItsViews) {
+  folder.write("plain.toml", std::string(tiny_scene) +
+                                 "[[view]]\nname = \"snow\"\nlayers = [\"particles\"]\n"
+                                 "[[mosaic]]\nname = \"both\"\nviews = [\"snow\", \"snow\"]\n");
+  const auto drawn = [&](std::vector<std::string> more, const std::string& out) {
+    more.insert(more.begin(), {"render", "plain.toml", "--view", "both", "--frames", "0-0", "--out",
+                               out, "--quiet"});
+    EXPECT_EQ(neve(more).exit_code, 0);
+    return render::decode_png(app::output::read_file(folder / (out + "/both/0000.png")));
+  };
+  const render::Image with = drawn({}, "a"), without = drawn({"--no-caption"}, "b"),
+                      counted = drawn({"--no-caption", "--set",
+                                       "view.snow.layers=[\"particles\", \"counter\"]"},
+                                      "c");
+  EXPECT_GT(with.height, without.height + 20) << "the strip";
+  // Its views alone: nothing at their upper left corner, where their names were.
+  EXPECT_EQ(without.pixels[3 * (10 * static_cast<std::size_t>(without.width) + 10)],
+            without.pixels[3 * (10 * static_cast<std::size_t>(without.width) + 11)]);
+  EXPECT_GT(render::compare(without, counted).local, 20);
 }
 
 TEST_F(Cli, TransparentPicturesHaveAlphaAndTheirMovieHasNot) {
