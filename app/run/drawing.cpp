@@ -177,8 +177,10 @@ std::vector<output::Picture> Drawing::draw_slates(const record::RunRecord& recor
     const auto& part = record.view_records.at(view).frames;
     const int first = part ? part->first : record.frames.front().frame;
     const render::Image like = output::read_picture(output::frame_path(job_.folder, view, first));
-    slates.push_back({output::frame_path(job_.folder, view, first - 1),
-                      draw_slate(job_.scene, {first - 1, view, builder_.slate()}, like, renderer_),
+    render::Image slate =
+        draw_slate(job_.scene, {first - 1, view, builder_.slate()}, like, renderer_);
+    if (lut_) render::apply(*lut_, slate);
+    slates.push_back({output::frame_path(job_.folder, view, first - 1), std::move(slate),
                       slate_text(view, first - 1)});
   }
   return slates;

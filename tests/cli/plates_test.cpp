@@ -184,6 +184,13 @@ TEST_F(Plates, ALookChangesThePicturesAndIsKeptWithThem) {
   render({"graded/particles/0000.png", "--out", "again"});
   EXPECT_EQ(picture("again/particles/0000.png").pixels, graded.pixels);
   EXPECT_TRUE(contains(neve({"info", "graded/particles/0000.png"}).output, "negative.cube"));
+  with({"--set", "shot.slate=true", "--out", "plain_slate"});
+  with({"--set", "shot.slate=true", "--lut", "negative.cube", "--out", "slate"});
+  EXPECT_GT(render::compare(picture("plain_slate/particles/-001.png"),
+                            picture("slate/particles/-001.png"))
+                .mean,
+            100)
+      << "a slate has the look of its film";
   folder.write("wrong.cube", "LUT_1D_SIZE 2\n");
   const auto refused = neve({"render", "flying.toml", "--lut", "wrong.cube", "--out", "wrong"});
   EXPECT_EQ(refused.exit_code, 3) << refused.errors;
