@@ -201,6 +201,16 @@ bool Exporter::has_stage() const {
   return std::ranges::any_of(jobs_, is_stage);
 }
 
+bool Exporter::lacks_places(int frame) const {
+  if (!follows() && !scene::has_moving_bodies(scene_)) return false;
+  const auto has = [number = scene::number_of(scene_, frame)](const std::vector<Sample>& samples) {
+    return std::ranges::find(samples, number, &Sample::number) != samples.end();
+  };
+  return std::ranges::any_of(jobs_, [&](const Job& job) {
+    return is_stage(job) && !has(job.samples) && !has(job.between);
+  });
+}
+
 bool Exporter::is_stage(const Job& job) {
   return job.record.spec.format == scene::ExportFormat::usda;
 }

@@ -53,6 +53,8 @@ class Exporter {
   void add_between(const std::vector<scene::Collider>& colliders, const sim::Simulation& simulation,
                    int number, bool is_frame);
   bool has_stage() const;
+  /// True if a stage does not have the places of a frame yet, which the scene alone does not say.
+  bool lacks_places(int frame) const;
 
   /// Writes the series, as they are in the end. @return their files @throws IoError
   std::vector<output::WrittenFile> finish() const;

@@ -57,7 +57,7 @@ void Ledger::add_to(const EarlierRun& earlier) {
 }
 
 bool Ledger::is_made(int frame) const {
-  if (!earlier_ || exporter_.is_due(frame)) return false;
+  if (!earlier_ || exporter_.is_due(frame) || exporter_.lacks_places(frame)) return false;
   const int number = scene::number_of(job_.scene, frame);
   const auto has = [&](const std::string& name) {
     const auto file = record_.files.find(name);
