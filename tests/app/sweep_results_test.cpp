@@ -13,6 +13,7 @@
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/report.h"
 #include "app/sweep/sheet/sheet_layout.h"
+#include "app/sweep/store/stars.h"
 #include "tests/support/cinema.h"
 #include "tests/support/temporary_folder.h"
 
@@ -397,6 +398,61 @@ TEST(SweepReport, SweepReportKeepsParametersAsTheyWereWritten) {
       "out", m, results_of(m), app::sweep::sheet::layout_sheet(m, false, 8192), {});
   EXPECT_NE(html.find("\"texts\":{\"1\":\"0.123456789\"}"), std::string::npos);
   EXPECT_NE(html.find("\"texts\":{\"1\":\"1.40e5\"}"), std::string::npos);
+}
+
+/// A sweep whose axis has these values, made by a program that gives keys of this kind.
+app::sweep::store::Manifest sweep_over(const std::vector<std::string>& values,
+                                       const std::string& kind) {
+  app::sweep::store::Manifest m = manifest_of({static_cast<int>(values.size())});
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    m.runs[k].settings[0].value = values[k];
+    m.runs[k].key = kind + values[k];
+  }
+  m.varied = {"a.b0"};
+  return m;
+}
+
+TEST(Stars, StarsStayWithTheirRunWhenTheSweepHasOthers) {
+  using namespace app::sweep::store;
+  const test::TemporaryFolder folder;
+  const Manifest before = sweep_over({"0.3", "0.6", "0.9"}, "x");
+  write_marks(folder.path(), before, {{{1, {true, "wet"}}, {2, {true, ""}}}, {}});
+  for (const std::string kind : {"x", "another build "}) {
+    // It grows: what was run 1 is run 2. Of the run that it has no more the mark is kept and named.
+    const Manifest after = sweep_over({"0.3", "0.45", "0.6"}, kind);
+    const KeptMarks kept = read_marks(folder.path(), after);
+    ASSERT_EQ(kept.marks.size(), 1u);
+    EXPECT_EQ(kept.marks.begin()->first, 2);
+    EXPECT_EQ(kept.marks.at(2).note, "wet");
+    ASSERT_EQ(kept.lost.size(), 1u);
+    EXPECT_NE(lost_lines(kept.lost)[0].find("a.b0 = 0.9"), std::string::npos);
+    write_marks(folder.path(), after, kept);
+  }
+  const KeptMarks back = read_marks(folder.path(), before);
+  EXPECT_TRUE(back.lost.empty());
+  EXPECT_EQ(back.marks.at(1).note, "wet");
+  EXPECT_TRUE(back.marks.at(2).has_star);
+  write_marks(folder.path(), before, back);
+  // It gets seeds: the first of each point is the run that it was.
+  Manifest seeded = sweep_over({"0.3", "0.3", "0.6", "0.6"}, "x");
+  seeded.seeds = 2;
+  seeded.parameters.push_back({"seed", "seed", "", "integer"});
+  for (std::size_t k = 0; k < seeded.runs.size(); ++k) {
+    seeded.runs[k].settings.push_back({"seed", std::to_string(k % 2)});
+    if (k % 2 == 1) seeded.runs[k].key += " of another seed";
+  }
+  EXPECT_EQ(read_marks(folder.path(), seeded).marks.at(2).note, "wet");
+}
+
+TEST(Stars, ListsWithoutSettingsAreReadByNumber) {
+  using namespace app::sweep::store;
+  const test::TemporaryFolder folder;
+  folder.write("stars.json", R"({"format": "neve stars 1", "runs": [
+{"run": 1, "star": true, "note": "wet"}, {"run": 7, "star": true, "note": ""}]})");
+  const KeptMarks kept = read_marks(folder.path(), sweep_over({"0.3", "0.6"}, "x"));
+  EXPECT_EQ(kept.marks.at(1).note, "wet");
+  ASSERT_EQ(kept.lost.size(), 1u) << "the sweep has shrunk";
+  EXPECT_EQ(kept.lost[0].run, 7);
 }
 
 TEST(MetricPlots, PlotsHaveAPointForEachRunWithTheMetric) {

@@ -424,6 +424,22 @@ TEST_F(SweepCli, StarsAndNotesStayWithTheSweep) {
   ASSERT_EQ(neve({"sweep", "collect", "s.cdb", "--quiet"}).exit_code, 0);
   has_them();
   EXPECT_NE(read_text(folder / "s.cdb/sheet.png"), sheet);
+  // It grows, and shrinks: the star stays with its run, and is kept where there is none.
+  const auto grown = neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,6,7,9",
+                           "--frames", "1", "--quiet", "--out", "s.cdb"});
+  ASSERT_EQ(grown.exit_code, 0) << grown.errors;
+  EXPECT_TRUE(contains(neve({"sweep", "star", "s.cdb"}).output, "* run 3 (runs/0002): the edge"));
+  const auto shrunk = neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,6", "--frames",
+                            "1", "--quiet", "--out", "s.cdb"});
+  EXPECT_TRUE(contains(shrunk.errors, "material.snow.hardening = 9")) << shrunk.errors;
+  const auto listed = neve({"sweep", "star", "s.cdb"});
+  EXPECT_EQ(listed.exit_code, 0) << listed.errors;
+  EXPECT_FALSE(contains(listed.output, "the edge")) << listed.output;
+  ASSERT_EQ(neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,7,9", "--frames", "1",
+                  "--quiet", "--out", "s.cdb"})
+                .exit_code,
+            0);
+  has_them();
   // A list that the page has made.
   folder.write("stars.json",
                R"({"format": "neve stars 1", "runs": [{"run": 1, "star": true, "note": "wet"}]})");

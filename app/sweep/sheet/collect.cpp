@@ -256,7 +256,7 @@ void show_marks(const fs::path& folder, const store::Manifest& manifest, Progres
   if (fs::exists(folder / "report.html", error)) {
     const std::vector<std::uint8_t> bytes = output::read_file(folder / "report.html");
     output::write_file(folder / "report.html",
-                       report_with_marks({bytes.begin(), bytes.end()}, manifest.marks));
+                       report_with_marks({bytes.begin(), bytes.end()}, manifest));
   }
   try {
     const std::vector<render::Legend> legends = shared_legends(folder, manifest);
@@ -275,7 +275,8 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   const std::optional<output::FolderLock> lock = wait_for_turn(folder, progress);
   if (!lock) return;
   manifest = store::read_manifest(folder);
-  manifest.marks = store::read_marks(folder);
+  const store::KeptMarks kept = store::read_marks(folder, manifest);
+  manifest.marks = kept.marks;
   std::vector<store::RunResult> results = store::read_results(folder, manifest);
   for (store::RunResult& result : results)
     if (!result.flaws.empty()) result.warnings.push_back(result.flaws);
@@ -295,6 +296,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
     if (!line.empty()) progress.note(line);
 
   progress.clear();
+  for (const std::string& line : store::lost_lines(kept.lost)) progress.warning(line);
   for (const std::string& line : store::idle_lines(manifest, results)) progress.warning(line);
   for (const std::string& line : store::warning_lines(manifest, results)) progress.warning(line);
 

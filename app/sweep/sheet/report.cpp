@@ -155,18 +155,18 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
        {"style", std::string(find_embedded_report("style.css"))},
        {"script", script},
        {"data", script_json(report_data(folder, manifest, results, predictions))},
-       {"stars", script_json(store::to_json(manifest.marks))},
+       {"stars", script_json(store::to_json(manifest, manifest.marks))},
        {"effects", effects_section(manifest, results)},
        {"more", more_section(manifest, results, layout, sheet_png, pages)}});
 }
 
-std::string report_with_marks(std::string page, const store::Marks& marks) {
+std::string report_with_marks(std::string page, const store::Manifest& manifest) {
   const std::string begin = "<script type=\"application/json\" id=\"stars\">";
   const std::size_t at = page.find(begin), end = page.find("</script>", at);
   // A page of before there were stars has none until the next collect.
   if (at == std::string::npos || end == std::string::npos) return page;
   return page.replace(at + begin.size(), end - at - begin.size(),
-                      script_json(store::to_json(marks)));
+                      script_json(store::to_json(manifest, manifest.marks)));
 }
 
 }  // namespace neve::app::sweep::sheet

@@ -22,7 +22,7 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
                         const std::vector<predict::Prediction>& predictions = {});
 
 /// The same page with other stars.
-std::string report_with_marks(std::string page, const store::Marks& marks);
+std::string report_with_marks(std::string page, const store::Manifest& manifest);
 
 /// Files of the folder report, which are compiled in; see cmake/EmbedFiles.cmake.
 std::string_view find_embedded_report(std::string_view file_name);

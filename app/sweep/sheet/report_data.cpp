@@ -11,6 +11,7 @@
 #include "app/sweep/sheet/star.h"
 #include "app/sweep/store/points.h"
 #include "app/sweep/store/promote.h"
+#include "app/sweep/store/stars.h"
 
 namespace neve::app::sweep::sheet {
 
@@ -167,6 +168,8 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
   const std::optional<bool> broken = known.full ? known.full_broken : result.has_broken;
   const std::string pictures = "runs/" + shown.folder + "/" + manifest.view + "/";
   return {{"run", run.index},
+          {"key", run.key},
+          {"settings", store::settings_json(store::telling_settings(manifest, run))},
           {"label", run.label},
           {"state", store::name(result.status.state)},
           {"failed", store::has_failed(result.status.state)},

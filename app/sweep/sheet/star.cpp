@@ -20,12 +20,11 @@ namespace neve::app::sweep::sheet {
 
 namespace {
 
-void change(const StarOptions& options, const store::Manifest& manifest, store::Marks& marks) {
+void change(const StarOptions& options, const store::Manifest& manifest, store::KeptMarks& kept) {
   const int last = static_cast<int>(manifest.runs.size()) - 1;
-  if (!options.read.empty())
-    for (const auto& [run, mark] : store::read_marks_file(options.read, manifest))
-      marks[run] = mark;
+  if (!options.read.empty()) store::add_marks(store::read_marks_file(options.read, manifest), kept);
   if (options.runs.empty()) return;
+  store::Marks& marks = kept.marks;
   for (const int run : plan::parse_selection("RUNS", options.runs, last)) {
     if (options.is_removed) {
       marks.erase(run);
@@ -70,15 +69,17 @@ int run_star(const StarOptions& options) {
     throw UsageError("sweep star", "--remove takes the note away, --note gives one",
                      "give one of the two");
   store::Manifest manifest = store::read_manifest(options.folder);
-  manifest.marks = store::read_marks(options.folder);
-  change(options, manifest, manifest.marks);
+  store::KeptMarks kept = store::read_marks(options.folder, manifest);
+  change(options, manifest, kept);
+  manifest.marks = kept.marks;
+  Progress progress(std::cerr, Verbosity::quiet, can_update_lines(STDERR_FILENO));
   if (is_changed) {
-    store::write_marks(options.folder, manifest.marks);
-    Progress progress(std::cerr, Verbosity::quiet, can_update_lines(STDERR_FILENO));
+    store::write_marks(options.folder, manifest, kept);
     show_marks(options.folder, manifest, progress);
   }
+  for (const std::string& line : store::lost_lines(kept.lost)) progress.warning(line);
   if (options.is_json)
-    std::cout << to_text(store::to_json(manifest.marks)) << "\n";
+    std::cout << to_text(store::to_json(manifest, manifest.marks)) << "\n";
   else
     print(manifest, manifest.marks);
   return exit_ok;

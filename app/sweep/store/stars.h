@@ -1,22 +1,54 @@
 #pragma once
-/// Stars and notes that a person gave to runs of a sweep, in DIR/stars.json.
+/// Stars and notes that a person gave to runs of a sweep, in DIR/stars.json. A mark stays with its
+/// run when the sweep gets other runs and other numbers.
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "app/scene/override.h"
 #include "app/sweep/store/manifest.h"
 
 namespace neve::app::sweep::store {
 
-/// None where there is no such file. @throws Error if it is broken, IoError
-Marks read_marks(const std::filesystem::path& folder);
+/// A mark as a file has it, with what tells its run from others.
+struct KeptMark {
+  int run = 0;  ///< its number when the mark was written: all that files of earlier versions have
+  Mark mark;
+  std::string key{};                        ///< Run::key
+  std::vector<scene::Override> settings{};  ///< see telling_settings()
+  bool is_numbered = false;                 ///< has nothing but the number
+};
 
-/// Those of a file that the report has made. @throws Error if it is broken or names runs that the
-/// sweep does not have, IoError
-Marks read_marks_file(const std::filesystem::path& file, const Manifest& manifest);
+/// What a file has, by the runs that the sweep has now.
+struct KeptMarks {
+  Marks marks;
+  std::vector<KeptMark> lost;  ///< of runs that it has no more
+};
+
+/// Values of the parameters by which the sweep tells its runs apart.
+std::vector<scene::Override> telling_settings(const Manifest& manifest, const Run& run);
+/// As files and pages have them: an address and a value each.
+Json settings_json(const std::vector<scene::Override>& settings);
+
+/// None where there is no such file. @throws Error if it is broken, IoError
+KeptMarks read_marks(const std::filesystem::path& folder, const Manifest& manifest);
+
+/// Those of a file that the report has made. @throws Error if it is broken, or has no more than
+/// numbers, of runs that the sweep does not have; IoError
+KeptMarks read_marks_file(const std::filesystem::path& file, const Manifest& manifest);
+
+/// In the place of those that the same runs have.
+void add_marks(const KeptMarks& more, KeptMarks& kept);
 
 /// Removes the file where nothing is marked. @throws IoError
-void write_marks(const std::filesystem::path& folder, const Marks& marks);
+void write_marks(const std::filesystem::path& folder, const Manifest& manifest,
+                 const KeptMarks& kept);
 
-Json to_json(const Marks& marks);
+/// Of the runs, for pages and scripts.
+Json to_json(const Manifest& manifest, const Marks& marks);
+
+/// "the star of hardening = 5 ...": a line for each mark without a run.
+std::vector<std::string> lost_lines(const std::vector<KeptMark>& lost);
 
 }  // namespace neve::app::sweep::store

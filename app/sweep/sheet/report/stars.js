@@ -4,9 +4,12 @@
  * kept by the browser, and the command or the file that bring it to the folder are offered.
  */
 const starColumn = columns.findIndex(column => column.kind === 'star');
-const starKey = 'neve ' + study.star + ' ' + rows.length;
+const starKey = 'neve ' + study.star + ' by settings';
 const noMark = {star: false, note: ''};
 const isSame = (a, b) => a.star === b.star && a.note === b.note;
+
+/** A run's place in what the browser keeps: its number is another once the sweep has other runs. */
+const settingsKey = row => JSON.stringify(row.settings);
 
 function startMarks() {
   const saved = JSON.parse(by('stars').textContent).runs;
@@ -15,9 +18,10 @@ function startMarks() {
     given = JSON.parse(localStorage.getItem(starKey)) || {};
   } catch { /* a browser that keeps nothing */ }
   for (const row of rows) {
-    const found = saved.find(mark => mark.run === row.run);
+    const found = saved.find(mark => mark.run === row.run &&
+      JSON.stringify(mark.settings) === settingsKey(row));
     row.savedMark = found ? {star: found.star, note: found.note} : noMark;
-    const own = given[row.run];
+    const own = given[settingsKey(row)];
     row.mark = own && typeof own.note === 'string' ? {star: Boolean(own.star), note: own.note} : row.savedMark;
     showMark(row);
   }
@@ -36,7 +40,7 @@ function setMark(row, mark) {
   showMark(row);
   try {
     localStorage.setItem(starKey, JSON.stringify(Object.fromEntries(
-      unsavedRows().map(other => [other.run, other.mark]))));
+      unsavedRows().map(other => [settingsKey(other), other.mark]))));
   } catch { /* it is in the page as long as that is open */ }
   change('star');
 }
@@ -71,7 +75,7 @@ function starCommands() {
 
 function downloadStars() {
   const runs = rows.filter(row => row.mark.star || row.mark.note)
-    .map(row => ({run: row.run, ...row.mark}));
+    .map(row => ({run: row.run, ...row.mark, key: row.key, settings: row.settings}));
   const text = JSON.stringify({format: 'neve stars 1', runs}, null, 2) + '\n';
   const link = make('a', {download: 'stars.json',
     href: URL.createObjectURL(new Blob([text], {type: 'application/json'}))});
