@@ -64,6 +64,23 @@ TEST(ReviewTimeline, NamesLinksWhereThereAreSome) {
   EXPECT_EQ(media["name_suffix"], ".png");
 }
 
+TEST(ReviewTimeline, RunsThatDidNotEndHaveCostsAlone) {
+  app::sweep::store::Manifest manifest = two_runs();
+  std::vector<app::sweep::store::RunResult> results(2);
+  for (app::sweep::store::RunResult& result : results) {
+    result.frames = {1001, 1002};
+    result.metrics.assign(app::sweep::store::metric_infos().size(), 3);
+  }
+  results[0].status.state = app::sweep::store::RunState::ok;
+  results[1].status.state = app::sweep::store::RunState::interrupted;
+  const Json timeline =
+      app::parse_json(std::string_view(app::sweep::sheet::otio_timeline(manifest, results, false)));
+  const Json& clips = timeline["tracks"]["children"][0]["children"];
+  EXPECT_EQ(clips[0]["metadata"]["neve"]["metrics"]["spread"], 3.0);
+  EXPECT_TRUE(clips[1]["metadata"]["neve"]["metrics"]["spread"].is_null());
+  EXPECT_EQ(clips[1]["metadata"]["neve"]["metrics"]["steps"], 3.0);
+}
+
 TEST(ReviewTimeline, RunsHaveTheirOwnRates) {
   app::sweep::store::Manifest manifest = two_runs();
   EXPECT_TRUE(manifest.has_one_rate());

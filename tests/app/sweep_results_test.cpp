@@ -12,6 +12,7 @@
 #include "app/sweep/sheet/data_csv.h"
 #include "app/sweep/sheet/metric_plots.h"
 #include "app/sweep/sheet/report.h"
+#include "app/sweep/sheet/report_data.h"
 #include "app/sweep/sheet/sheet_layout.h"
 #include "app/sweep/store/stars.h"
 #include "tests/support/cinema.h"
@@ -398,6 +399,22 @@ TEST(SweepReport, SweepReportKeepsParametersAsTheyWereWritten) {
       "out", m, results_of(m), app::sweep::sheet::layout_sheet(m, false, 8192), {});
   EXPECT_NE(html.find("\"texts\":{\"1\":\"0.123456789\"}"), std::string::npos);
   EXPECT_NE(html.find("\"texts\":{\"1\":\"1.40e5\"}"), std::string::npos);
+}
+
+/// Those that are interrupted or in progress, too, which are no failures.
+TEST(SweepReport, SweepReportHasNoMetricsOfRunsThatDidNotEnd) {
+  const app::sweep::store::Manifest m = manifest_of({2});
+  std::vector<app::sweep::store::RunResult> results(2);
+  for (app::sweep::store::RunResult& result : results)
+    result.metrics.assign(app::sweep::store::metric_infos().size(), 0.123456);
+  results[0].status.state = app::sweep::store::RunState::ok;
+  results[1].status.state = app::sweep::store::RunState::interrupted;
+  const Json rows = app::sweep::sheet::report_data("out", m, results, {})["rows"];
+  std::vector<std::ptrdiff_t> told;
+  for (const Json& row : rows)
+    told.push_back(std::count(row["cells"].begin(), row["cells"].end(), Json(0.123456)));
+  EXPECT_GT(told[0], 10);
+  EXPECT_EQ(told[1], 2) << "steps and seconds";
 }
 
 /// A sweep whose axis has these values, made by a program that gives keys of this kind.

@@ -224,9 +224,7 @@ void add_row(const store::Manifest& manifest, const Run& run, const store::RunRe
   rows.add(std::to_string(result.frames.size()));
   for (const std::size_t k : listed) {
     const store::MetricInfo& metric = store::metric_infos()[k];
-    // Metrics of a diverged run are not comparable.
-    const bool is_told = metric.is_cost || store::is_whole(run, result);
-    const std::optional<double> value = is_told ? result.metrics[k] : std::nullopt;
+    const std::optional<double> value = store::told_metric(run, result, k);
     rows.add(!value ? "" : metric.is_whole ? whole_text(*value) : float_text(*value));
   }
   if (prediction) add_prediction(*prediction, manifest.seeds > 1, rows);

@@ -108,8 +108,10 @@ Json cells_of(const store::Manifest& manifest, const Run& run, const store::RunR
   cells.push_back(store::name(result.status.state));
   cells.push_back(result.warnings.size());
   if (prediction) add_prediction_cells(*prediction, cells);
-  for (const std::size_t k : metrics)
-    cells.push_back(result.metrics[k] ? Json(*result.metrics[k]) : Json());
+  for (const std::size_t k : metrics) {
+    const std::optional<double> value = store::told_metric(run, result, k);
+    cells.push_back(value ? Json(*value) : Json());
+  }
   cells.push_back(result.status.reason);
   return cells;
 }

@@ -69,12 +69,14 @@ Json media_json(const store::Manifest& manifest, const Run& run, const store::Ru
   return json;
 }
 
-Json metrics_json(const store::RunResult& result) {
+Json metrics_json(const Run& run, const store::RunResult& result) {
   Json json = Json::object();
   const std::vector<store::MetricInfo>& infos = store::metric_infos();
-  for (std::size_t k = 0; k < std::min(infos.size(), result.metrics.size()); ++k)
-    if (!infos[k].is_of_bodies || result.metrics[k])
-      json[infos[k].name] = result.metrics[k] ? number_or_null(*result.metrics[k]) : Json();
+  for (std::size_t k = 0; k < std::min(infos.size(), result.metrics.size()); ++k) {
+    const std::optional<double> value = store::told_metric(run, result, k);
+    if (!infos[k].is_of_bodies || value)
+      json[infos[k].name] = value ? number_or_null(*value) : Json();
+  }
   return json;
 }
 
@@ -93,7 +95,7 @@ Json clip_json(const store::Manifest& manifest, const Run& run, const store::Run
       json["markers"].push_back(marker_json(parameter, value, first, fps));
   json["metadata"]["neve"] = {{"run", run.index},
                               {"state", store::name(result.status.state)},
-                              {"metrics", metrics_json(result)}};
+                              {"metrics", metrics_json(run, result)}};
   return json;
 }
 

@@ -10,12 +10,6 @@ namespace neve::app::sweep::store {
 
 namespace {
 
-bool is_told(const Manifest& manifest, const std::vector<RunResult>& results, std::size_t run,
-             std::size_t metric) {
-  return results[run].metrics[metric] &&
-         (metric_infos()[metric].is_cost || is_whole(manifest.runs[run], results[run]));
-}
-
 /// a, b, ..., z, a2, b2, ...
 std::string letter(int group) {
   constexpr int letters = 26;
@@ -60,8 +54,8 @@ std::vector<Point> points_of(const Manifest& manifest, const std::vector<RunResu
     for (std::size_t metric = 0; metric < metric_infos().size(); ++metric) {
       std::vector<double> values;
       for (std::size_t run = first; run < first + count; ++run)
-        if (is_told(manifest, results, run, metric))
-          values.push_back(*results[run].metrics[metric]);
+        if (const auto value = told_metric(manifest.runs[run], results[run], metric))
+          values.push_back(*value);
       point.metrics.push_back(summary_of(values));
     }
   }

@@ -131,6 +131,11 @@ bool is_whole(const Run& run, const RunResult& result) {
          (!result.frames.empty() && result.frames.back() >= run.frames.last);
 }
 
+std::optional<double> told_metric(const Run& run, const RunResult& result, std::size_t metric) {
+  const bool is_told = metric_infos()[metric].is_cost || is_whole(run, result);
+  return is_told && metric < result.metrics.size() ? result.metrics[metric] : std::nullopt;
+}
+
 std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
                          const RunStatus& status) {
   if (!has_record(status)) return {};

@@ -34,7 +34,8 @@ struct SnowPlace {
 struct RunResult {
   RunStatus status;
   std::vector<int> frames;  ///< that have a picture, in order
-  /// One per metric_infos(), of the last frame; empty if there is no frame.
+  /// One per metric_infos(), of the last frame; empty if there is no frame. Those of the snow are
+  /// empty where none is left. See told_metric().
   std::vector<std::optional<double>> metrics;
   /// That the run ended with: its numbers may be misleading.
   std::vector<std::string> warnings{};
@@ -60,6 +61,10 @@ std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
 
 /// True if the metrics belong to the last frame, at which all runs are compared.
 bool is_whole(const Run& run, const RunResult& result);
+
+/// A metric as all tables and pages tell it: none of a run that is not comparable, unless it is a
+/// cost.
+std::optional<double> told_metric(const Run& run, const RunResult& result, std::size_t metric);
 
 /// @param folder of the sweep
 /// @param view   whose pictures count
