@@ -24,21 +24,29 @@ struct PairMetric {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+/// Snow that is not there has no shape and no density.
+double of_snow(const FrameRecord& frame, double value) {
+  return record::has_snow(frame) ? value : none;
+}
+
 constexpr PairMetric pair_metrics[] = {
-    {"spread", "spread", "m", [](const FrameRecord& f) { return f.metrics.spread; }},
-    {"height", "height", "m", [](const FrameRecord& f) { return f.metrics.height; }},
+    {"spread", "spread", "m", [](const FrameRecord& f) { return of_snow(f, f.metrics.spread); }},
+    {"height", "height", "m", [](const FrameRecord& f) { return of_snow(f, f.metrics.height); }},
     {"kinetic_energy", "kinetic energy", "J",
      [](const FrameRecord& f) { return f.summary.kinetic_energy; }},
     {"elastic_energy", "elastic energy", "J",
      [](const FrameRecord& f) { return f.summary.elastic_energy; }},
     {"max_speed", "largest speed", "m/s", [](const FrameRecord& f) { return f.summary.max_speed; }},
-    {"mean_J_P", "mean J_P", "", [](const FrameRecord& f) { return f.metrics.mean_J_P; }},
+    {"mean_J_P", "mean J_P", "",
+     [](const FrameRecord& f) { return of_snow(f, f.metrics.mean_J_P); }},
     {"fragments", "fragments", "",
      [](const FrameRecord& f) { return static_cast<double>(f.metrics.fragments); }},
     {"largest_fragment", "largest fragment", "",
-     [](const FrameRecord& f) { return f.metrics.largest_fragment; }},
-    {"powder", "share of powder", "", [](const FrameRecord& f) { return f.metrics.powder; }},
-    {"crumbs", "share of crumbs", "", [](const FrameRecord& f) { return f.metrics.crumbs; }},
+     [](const FrameRecord& f) { return of_snow(f, f.metrics.largest_fragment); }},
+    {"powder", "share of powder", "",
+     [](const FrameRecord& f) { return of_snow(f, f.metrics.powder); }},
+    {"crumbs", "share of crumbs", "",
+     [](const FrameRecord& f) { return of_snow(f, f.metrics.crumbs); }},
     {"max_depth_cells", "depth in colliders", "cells",
      [](const FrameRecord& f) { return f.metrics.max_depth_cells; }},
     {"steps", "steps a frame", "",

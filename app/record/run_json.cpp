@@ -84,6 +84,7 @@ Json start_json(const RunStart& start) {
   add_metrics(start.metrics, json);
   json["particles"] = start.metrics.particles;
   json["bodies"] = bodies_json(start.bodies);
+  if (start.before) json["before"] = to_json(*start.before);
   return json;
 }
 
@@ -285,6 +286,7 @@ std::optional<RunStart> start_of(const Json& run) {
       const Json& json = run.at("start");
       start.metrics = metrics_of(json);
       for (const Json& body : json.at("bodies")) start.bodies.push_back(body_record(body));
+      if (json.contains("before")) start.before = extremes_of(json.at("before"));
       return start;
     }
     const FrameRecord first = frame_record(run.at("frames").at(0));

@@ -10,6 +10,7 @@
 
 #include "app/output/report_json.h"
 #include "app/record/bodies.h"
+#include "app/record/extremes.h"
 #include "app/record/metrics.h"
 #include "app/scene/live_change.h"
 #include "app/scene/scene.h"
@@ -47,7 +48,14 @@ struct FrameRecord {
 struct RunStart {
   Metrics metrics;  ///< without max_depth_cells
   std::vector<BodyRecord> bodies;
+  /// Of the frames before the first one that the run lists; absent where they are not known.
+  std::optional<Extremes> before{};
 };
+
+/// Whether any is left at the end of a frame: metrics of none are no numbers.
+inline bool has_snow(const FrameRecord& frame) {
+  return frame.summary.particles > 0;
+}
 
 /// Steps of the frame times its particles.
 double particle_steps(const FrameRecord& frame);

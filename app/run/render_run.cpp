@@ -49,8 +49,12 @@ record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simu
 
 /// As a picture of frame 0 would record it; where no run.json knows it, it is made again.
 /// @param before  run.json of this run, or of the one that it forks from; null: there is none
-record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& before) {
-  if (const auto known = record::start_of(before)) return *known;
+/// @param last    number of the frame before those of this run, or of the fork
+record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& before, int last) {
+  if (auto known = record::start_of(before)) {
+    known->before = record::extremes_until(before, last);
+    return *known;
+  }
   const auto start_in = [&](const sim::Simulation& simulation) {
     return record::RunStart{
         record::measure(simulation.particles(), timeline.start().solver.cell_size),
@@ -134,6 +138,7 @@ std::vector<int> RenderRun::begin() {
   if (job_.options.checkpoint_every > 0) output::tidy_checkpoint_folder(job_.folder);
   const std::optional<EarlierRun> earlier = earlier_run(job_, record());
   const bool is_same = earlier && earlier->is_same;
+  const int begins_at = timeline_.here().frame;  // where it forks
   std::optional<Resumption> found;
   if (job_.options.resume)
     found = find_resumption(job_.folder, record(), picture_, job_.frames, is_same, progress_);
@@ -152,10 +157,15 @@ std::vector<int> RenderRun::begin() {
   }
   ledger_.record().retries = timeline_.here().retries;
   if (frames_.first > 0) {
-    const bool leaves_run = job_.fork && !job_.run.empty();
-    ledger_.record().start = start_of_run(timeline_, leaves_run ? record::read_run_json(job_.run)
-                                                     : is_same || (found && earlier) ? earlier->json
-                                                                                     : Json());
+    const bool is_known =
+        earlier && (is_same || found) && record::start_of(earlier->json).has_value();
+    const bool leaves_run = !is_known && job_.fork && !job_.run.empty();
+    ledger_.record().start =
+        start_of_run(timeline_,
+                     is_known     ? earlier->json
+                     : leaves_run ? record::read_run_json(job_.run)
+                                  : Json(),
+                     scene::number_of(job_.scene, leaves_run ? begins_at : frames_.first - 1));
   }
   note_warnings();
   ledger_.open();
@@ -271,7 +281,10 @@ void RenderRun::make_frames() {
       if (result_.status == record::RunStatus::interrupted) write_checkpoint();
       return;
     }
-    if (frame >= wanted) draw_frame(frame);
+    if (frame >= wanted)
+      draw_frame(frame);
+    else
+      note_undrawn(frame);
     progress_.frame(frame, frame / job_.scene.fps);
     // A frame that was begun is picked up first: its steps belong to the checkpoint.
     if (is_interrupted() && frame < frames_.last && !next_.valid()) {
@@ -416,6 +429,25 @@ void RenderRun::draw_frame(int frame) {
   moment->made.frames = {made};
   moment->made.first_number = scene::number_of(job_.scene, 0);
   timeline_.moments().keep(*std::move(moment));
+}
+
+/// A frame that is passed on the way to the first one that is drawn: what was greatest in it
+/// counts.
+void RenderRun::note_undrawn(int frame) {
+  std::optional<record::RunStart>& start = ledger_.record().start;
+  if (!start) return;
+  const int number = scene::number_of(job_.scene, frame);
+  if (!start->before && frame == 0) start->before = record::Extremes{number - 1};
+  if (!start->before || number != start->before->frame + 1) return;
+  const sim::Simulation& simulation = timeline_.simulation();
+  record::FrameRecord passed;
+  passed.frame = number;
+  passed.advance = timeline_.here().advance;
+  passed.summary = timeline_.summary();
+  passed.forces =
+      record::forces_of(passed.advance, passed.summary, timeline_.here().scene->colliders);
+  passed.bodies = record::bodies_of(simulation.colliders(), simulation.time());
+  start->before->add(passed);
 }
 
 /// The simulation of a resumed run has the warnings of the steps before.

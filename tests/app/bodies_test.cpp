@@ -129,6 +129,15 @@ TEST(Bodies, ComparisonsListThemWhereThereAreSome) {
   EXPECT_NE(csv.find(",5,,0.5,"), std::string::npos) << csv;
 }
 
+TEST(Comparisons, SnowThatASinkHasTakenHasNoShape) {
+  record::FrameRecord some, none;
+  some.summary.particles = 1;
+  some.metrics.spread = none.metrics.spread = 0.25;
+  const std::string csv =
+      compare::series_csv({compare::moment_of(0, scene_with_body(""), {some}, {none})});
+  EXPECT_NE(csv.find(",0.25,,"), std::string::npos) << csv;
+}
+
 TEST(Bodies, PlotsHaveACurveOfEach) {
   std::vector<picture::PlotSample> history(3);
   for (int k = 0; k < 3; ++k) {

@@ -330,6 +330,36 @@ TEST(RunResults, ResultsCountTheStepsUntilARunDiverged) {
   EXPECT_EQ(steps(), 5);
 }
 
+TEST(RunResults, WhereNoSnowIsLeftItHasNoShape) {
+  const test::TemporaryFolder folder;
+  app::sweep::store::Manifest m = manifest_of({1});
+  m.runs[0].key = "k";
+  app::record::FrameRecord frame;
+  frame.summary.min_J_P = frame.summary.max_J_P = 1;
+  app::sweep::store::RunStatus status;
+  status.state = app::sweep::store::RunState::ok;
+  status.key = "k";
+  for (const std::size_t particles : {1u, 0u}) {
+    frame.summary.particles = particles;
+    folder.write("runs/0000/run.json",
+                 to_text(Json{{"frames", Json::array({app::record::to_json(frame)})}}));
+    app::sweep::store::write_status(folder.path() / "runs/0000", status);
+    const auto result = app::sweep::store::read_result(folder.path(), m.runs[0], m.view);
+    for (std::size_t k = 0; k < app::sweep::store::metric_infos().size(); ++k) {
+      const std::string name = app::sweep::store::metric_infos()[k].name;
+      const bool is_of_snow = name == "spread" || name == "height" || name == "largest_fragment" ||
+                              name == "powder" || name == "crumbs" || name.ends_with("J_P");
+      if (is_of_snow) {
+        EXPECT_EQ(app::sweep::store::told_metric(m.runs[0], result, k).has_value(), particles > 0)
+            << name;
+      }
+      if (name == "fragments") {
+        EXPECT_EQ(result.metrics[k], 0);
+      }
+    }
+  }
+}
+
 TEST(RunResults, FramesOfKilledRunsHaveTheirPictures) {
   const test::TemporaryFolder folder;
   app::sweep::store::Manifest m = manifest_of({1});

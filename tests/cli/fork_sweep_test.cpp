@@ -205,6 +205,11 @@ mass = 1
   int compared = 0;
   for (std::size_t k = 0; k < infos.size(); ++k) {
     const std::string name = infos[k].name;
+    if (name == "steps" || name.starts_with("max_")) {
+      EXPECT_EQ(late[0].metrics[k], whole[0].metrics[k]) << name;
+      EXPECT_NEAR(forked[0].metrics[k].value(), whole[0].metrics[k].value(), 1e-5) << name;
+      ++compared;
+    }
     if (name != "body_fall" && name != "body_way") continue;
     ++compared;
     const double fall = whole[0].metrics[k].value();
@@ -212,9 +217,58 @@ mass = 1
     EXPECT_EQ(forked[0].metrics[k], fall) << name;
     EXPECT_EQ(late[0].metrics[k], fall) << name;
   }
-  EXPECT_EQ(compared, 2);
+  EXPECT_EQ(compared, 8);
   EXPECT_EQ(forked[0].whole, whole[0].whole);
   EXPECT_EQ(late[0].whole, whole[0].whole);
+}
+
+/// The ball hits the floor before the first frame that is drawn.
+TEST_F(ForkSweep, TheTableKnowsTheImpactBeforeItsFirstFrame) {
+  folder.write("hit.toml", R"(
+frames = 6
+[solver]
+cell_size = 0.04
+[[body]]
+shape = { sphere = { center = [0, 0.13, 0], radius = 0.12 } }
+velocity = [0, -4, 0]
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+)");
+  const auto results_of = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sweep",  "hit.toml", "-p",    "material.snow.hardening=5,10",
+                                   "--size", "64x64",    "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto done = neve(words);
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    return app::sweep::store::read_results(folder / out,
+                                           app::sweep::store::read_manifest(folder / out));
+  };
+  const auto whole = results_of("whole.cdb", {}),
+             late = results_of("late.cdb", {"--frames", "4-6"});
+  const auto& infos = app::sweep::store::metric_infos();
+  int compared = 0;
+  for (std::size_t k = 0; k < infos.size(); ++k) {
+    const std::string name = infos[k].name;
+    if (name != "steps" && name != "max_speed" && name != "max_force" && name != "max_pressure")
+      continue;
+    ++compared;
+    EXPECT_GT(whole[1].metrics[k].value(), 0) << name;
+    EXPECT_EQ(late[1].metrics[k], whole[1].metrics[k]) << name;
+  }
+  EXPECT_EQ(compared, 4);
+  // Where nothing says what was before, nothing is told.
+  app::Json run = json_of("late.cdb/runs/0001/run.json");
+  run["start"].erase("before");
+  run.erase("hash");
+  folder.write("late.cdb/runs/0001/run.json", app::to_text(run));
+  const auto manifest = app::sweep::store::read_manifest(folder / "late.cdb");
+  const auto unknown =
+      app::sweep::store::read_result(folder / "late.cdb", manifest.runs[1], manifest.view);
+  for (std::size_t k = 0; k < infos.size(); ++k)
+    if (infos[k].name == std::string("max_force")) {
+      EXPECT_FALSE(unknown.metrics[k].has_value());
+    }
 }
 
 TEST_F(ForkSweep, AxesThatNeedARestartAreRefusedWithThoseThatDoNot) {

@@ -26,41 +26,41 @@ std::optional<double> finite(double x) {
 }
 
 /// In the order of metric_infos().
-/// @param start  of the run, not of its frames
+/// @param start  of the run, not of its frames @param whole  from there to the last frame
 std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRecord>& frames,
                                               const record::RunStart& start,
+                                              const std::optional<record::Extremes>& whole,
                                               const RunStatus& status,
                                               std::optional<double> diverged_at) {
   if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
   const record::FrameRecord& last = frames.back();
-  double steps = 0, max_speed = 0, max_force = 0, max_pressure = 0;
-  std::optional<double> max_body_speed;
-  for (const record::FrameRecord& frame : frames) {
-    steps += static_cast<double>(frame.advance.steps);
-    max_speed = std::max(max_speed, frame.summary.max_speed);
-    for (const record::ColliderForce& f : frame.forces) {
-      max_force = std::max(max_force, f.force.norm());
-      max_pressure = std::max(max_pressure, f.max_pressure);
-    }
-    if (const std::optional<double> speed = record::largest_speed(frame.bodies))
-      max_body_speed = std::max(max_body_speed.value_or(0), *speed);
+  // Nothing where the frames before the first one are not known.
+  std::optional<double> steps, max_speed, max_force, max_pressure, max_body_speed;
+  if (whole) {
+    steps = whole->steps;
+    max_speed = finite(whole->max_speed);
+    max_force = finite(whole->max_force);
+    max_pressure = finite(whole->max_pressure);
+    max_body_speed = whole->max_body_speed;
   }
   // Steps after the last frame count too.
-  if (diverged_at) steps = std::max(steps, *diverged_at);
-  return {finite(last.metrics.spread),
-          finite(last.metrics.height),
+  if (diverged_at) steps = std::max(steps.value_or(0), *diverged_at);
+  // Where a sink has taken all snow, it has no shape and no density.
+  const auto of_snow = [&](double x) { return record::has_snow(last) ? finite(x) : std::nullopt; };
+  return {of_snow(last.metrics.spread),
+          of_snow(last.metrics.height),
           static_cast<double>(last.metrics.fragments),
-          finite(last.metrics.largest_fragment),
-          finite(last.metrics.powder),
-          finite(last.metrics.crumbs),
+          of_snow(last.metrics.largest_fragment),
+          of_snow(last.metrics.powder),
+          of_snow(last.metrics.crumbs),
           finite(last.summary.kinetic_energy),
           finite(last.summary.elastic_energy),
-          finite(last.metrics.mean_J_P),
-          finite(last.summary.min_J_P),
-          finite(last.summary.max_J_P),
-          finite(max_speed),
-          finite(max_force),
-          finite(max_pressure),
+          of_snow(last.metrics.mean_J_P),
+          of_snow(last.summary.min_J_P),
+          of_snow(last.summary.max_J_P),
+          max_speed,
+          max_force,
+          max_pressure,
           record::largest_fall(start.bodies, last.bodies),
           record::largest_way(start.bodies, last.bodies),
           max_body_speed,
@@ -71,17 +71,18 @@ std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRec
 /// Contents of DIR/run.json besides its frames; missing values are omitted.
 struct RunNotes {
   std::vector<std::string> warnings;
-  std::optional<double> diverged_at;  ///< step, counted from the fork
+  std::optional<double> diverged_at;  ///< step, counted from the start that `whole` knows
   std::optional<record::RunStart> start;
+  std::optional<record::Extremes> whole;
+  std::string simd, sources;
 };
 
 RunNotes notes_of(const Json& run) {
   RunNotes notes;
   try {
     notes.start = record::start_of(run);
-    if (run.contains("divergence"))
-      notes.diverged_at = run["divergence"].at("step").get<double>() -
-                          (run.contains("forked") ? run["forked"].at("step").get<double>() : 0);
+    notes.whole = record::extremes_until(run);
+    if (run.contains("divergence")) notes.diverged_at = run["divergence"].at("step").get<double>();
     notes.warnings = run.value("warnings", notes.warnings);
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
@@ -178,8 +179,8 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
     result.flaws = flaws_of_run(folder, run, result.status);
   if (!notes.start && !frames.empty())
     notes.start = {frames.front().metrics, frames.front().bodies};
-  result.metrics = metrics_of(frames, notes.start.value_or(record::RunStart{}), result.status,
-                              notes.diverged_at);
+  result.metrics = metrics_of(frames, notes.start.value_or(record::RunStart{}), notes.whole,
+                              result.status, notes.diverged_at);
   if (!frames.empty() && is_whole(run, result)) {
     const record::Metrics &first = notes.start->metrics, &last = frames.back().metrics;
     result.has_broken = record::has_broken(first, last);
