@@ -227,7 +227,7 @@ TEST_F(Designs, EffectsAreForTheWholeRangeOfListsWholeNumbersAndDistributions) {
                 "[sweep]\nscene = \"scene.toml\"\nmethod = \"morris\"\nsamples = 20\n[axis]\n"
                 "\"material.snow.hardening\" = [5, 10]\n"
                 "\"material.snow.critical_compression\" = [0.01, 0.02, 0.03]\n"
-                "\"material.snow.density\" = [100, 200, 300, 400, 500]\n"
+                "\"material.snow.density\" = [500, 400, 300, 200, 100]\n"
                 "\"material.snow.critical_stretch\" = { log_uniform = [0.001, 0.05] }\n"
                 "\"material.snow.youngs_modulus\" = { normal = [1e5, 1e4] }\n"
                 "seed = { uniform = [1, 3] }\n"

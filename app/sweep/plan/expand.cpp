@@ -242,6 +242,14 @@ void check_axes(const read::Sweep& sweep) {
   }
 }
 
+/// Of numbers, from a larger one to a smaller one.
+bool is_falling_list(const read::Axis::Parameter& parameter) {
+  if (parameter.drawn || parameter.values.empty()) return false;
+  const std::optional<double> first = finite_number(parameter.values.front().value),
+                              last = finite_number(parameter.values.back().value);
+  return first && last && *last < *first;
+}
+
 }  // namespace
 
 std::vector<double> level_shares(const read::Axis& axis) {
@@ -260,6 +268,8 @@ std::vector<double> level_shares(const read::Axis& axis) {
                      : is_logarithmic ? std::log(x / first) / std::log(last / first)
                                       : (x - first) / (last - first));
   }
+  if (last > first && is_falling_list(parameter))
+    for (double& share : shares) share = 1 - share;
   return shares;
 }
 

@@ -20,9 +20,11 @@ std::vector<Run> expand(const read::Sweep& sweep);
 std::vector<Run> with_seeds(const std::vector<Run>& points, std::uint64_t first, int seeds);
 
 /// The shares of the range of an axis at which the levels of a screening lie: of its values, of
-/// their logarithms where these are drawn, and of the places in a list. Levels are as even as that
-/// only for numbers that are not rounded.
-/// @return morris_levels shares from 0 to 1; zeros where the axis has only one value
+/// their logarithms where these are drawn, and of the places in a list, which are counted from the
+/// smaller to the larger end of numbers. Levels are as even as that only for numbers that are not
+/// rounded.
+/// @return morris_levels shares from 0 to 1, in the order of the levels; zeros where the axis has
+/// only one value
 std::vector<double> level_shares(const read::Axis& axis);
 
 /// The value below which a share p of a normal distribution lies, in standard deviations.

@@ -174,10 +174,9 @@ std::string bar_legend(double y, bool has_noise) {
            svg_text(x + 17, y + 10, "start", "", words);
     x += 32 + 6.6 * static_cast<double>(std::string_view(words).size());
   }
-  svg +=
-      svg_text(12, y + 30, "start", "",
-               "Bar and number: mean change for the whole range of the parameter, from one end of "
-               "a list to the other, or from one choice to another.");
+  svg += svg_text(12, y + 30, "start", "",
+                  "Bar and number: mean change for the whole range of the parameter, from the "
+                  "smaller to the larger end of a list, or from one choice to another.");
   return svg + svg_text(12, y + 46, "start", "",
                         "Line: its standard deviation; a long one means that it depends on the "
                         "others.");

@@ -11,7 +11,8 @@ namespace neve::app::sweep::sheet {
 
 /// Elementary effects of an axis on a metric, each the change of the metric for the axis's whole
 /// range, by one step between two runs that differ in nothing else. The range of a list of numbers
-/// goes from its first entry to its last, by equal steps; of choices it is from one to another.
+/// goes from the smaller to the larger of its ends, by equal steps; of choices it is from one to
+/// another.
 struct Effect {
   int steps = 0;          ///< between runs that both got to their end
   double mean = 0;        ///< mu: with its sign
