@@ -117,7 +117,9 @@ TEST(Statistics, PointsTooCloseToCallShareARankAndALetter) {
   const auto groups = close_groups(points);
   EXPECT_EQ(groups, (std::vector<std::vector<int>>{{1}, {0, 1}, {0}, {}}));
   EXPECT_EQ(group_letters(groups[1]), "ab");
-  EXPECT_EQ(group_letters({0, 1, 2, 3, 27}), "a to b2");
+  EXPECT_EQ(group_letters({0, 1, 2, 3}), "a to d");
+  EXPECT_EQ(group_letters({0, 1, 2, 3, 27}), "a to d, b2");
+  EXPECT_EQ(group_letters({0, 1, 3, 4}), "ab, de") << "it has no c";
   const std::vector<double> shared = shared_means(points, shared_ranks(points));
   EXPECT_EQ(shared[1], 1.5);
   EXPECT_EQ(shared[1], shared[2]);

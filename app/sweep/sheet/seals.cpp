@@ -34,12 +34,13 @@ std::string with_unit(double x, const std::string& unit) {
 }
 
 constexpr std::size_t max_squares = 3;
-constexpr float wide_square = 3.6f;  // in sizes of the font, of more letters
+constexpr float wide_square = 3.6f;  // in sizes of the font, of more letters, at least
 
 /// In sizes of the font.
 float letters_width(const std::vector<int>& groups) {
-  return groups.size() > max_squares ? wide_square
-                                     : square_width * static_cast<float>(groups.size());
+  if (groups.size() <= max_squares) return square_width * static_cast<float>(groups.size());
+  constexpr float letter = 0.6f;
+  return std::max(wide_square, letter * static_cast<float>(store::group_letters(groups).size()));
 }
 
 /// A square for each group, or one for many.
@@ -50,7 +51,7 @@ void draw_letters(const std::vector<int>& groups, float right, float y, float si
     draw_square(text, group, right, y, width, size, words);
   };
   if (groups.size() > max_squares) {
-    square(store::group_letters(groups), groups.front(), wide_square * size);
+    square(store::group_letters(groups), groups.front(), letters_width(groups) * size);
     return;
   }
   for (auto group = groups.rbegin(); group != groups.rend(); ++group)

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <span>
 
 #include "app/support/text.h"
 
@@ -15,6 +16,12 @@ std::string letter(int group) {
   constexpr int letters = 26;
   const std::string text(1, static_cast<char>('a' + group % letters));
   return group < letters ? text : text + std::to_string(group / letters + 1);
+}
+
+std::string letters_of(std::span<const int> groups) {
+  std::string text;
+  for (const int group : groups) text += letter(group);
+  return text;
 }
 
 /// True if no metric of any point depends on the seed, though runs ended.
@@ -106,10 +113,17 @@ bool is_undecided(const Point& point) {
 
 std::string group_letters(const std::vector<int>& groups) {
   constexpr std::size_t max_letters = 3;
-  if (groups.size() > max_letters) return letter(groups.front()) + " to " + letter(groups.back());
-  std::string text;
-  for (const int group : groups) text += letter(group);
-  return text;
+  if (groups.size() <= max_letters) return letters_of(groups);
+  std::vector<std::string> texts;
+  // A point may share groups d, e and g: a range has only those that follow each other.
+  for (std::size_t first = 0, end = 0; first < groups.size(); first = end) {
+    end = first + 1;
+    while (end < groups.size() && groups[end] == groups[end - 1] + 1) ++end;
+    texts.push_back(end - first > max_letters
+                        ? letter(groups[first]) + " to " + letter(groups[end - 1])
+                        : letters_of(std::span(groups).subspan(first, end - first)));
+  }
+  return joined(texts, ", ");
 }
 
 std::vector<std::string> noise_lines(const Manifest& manifest,

@@ -42,7 +42,7 @@ std::string outcome_text(const Point& point);
 /// True if some runs break and some hold: one more seed may do either.
 bool is_undecided(const Point& point);
 
-/// "a", "bc", "b to f": groups as letters; points that share one are too close to call.
+/// "a", "bc", "b to f", "de, g": groups as letters; points that share one are too close to call.
 std::string group_letters(const std::vector<int>& groups);
 
 /// What the seeds of a sweep say of it, a sentence a line; none without seeds.
