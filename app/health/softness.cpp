@@ -40,6 +40,24 @@ double stiffness_that_holds(const sim::Material& written, const sim::SolverSetti
 
 namespace {
 
+/// Of the snow that is packed to the highest density now; of the first snow where none is left.
+const sim::Material& densest_material(const scene::Scene& scene,
+                                      const sim::ParticleArrays& particles) {
+  const sim::Material* densest = nullptr;
+  for (const sim::Material& m : scene.materials)
+    if (!densest && sim::laws::of(m).is_snow) densest = &m;
+  double highest = 0;
+  for (std::size_t p = 0; p < particles.J_P.size(); ++p) {
+    const auto number = p < particles.material.size() ? particles.material[p] : 0;
+    const sim::Material& m = scene.materials[static_cast<std::size_t>(number)];
+    const double density = m.density / particles.J_P[p];
+    if (!sim::laws::of(m).is_snow || !(density > highest)) continue;
+    highest = density;
+    densest = &m;
+  }
+  return densest ? *densest : scene.materials.front();
+}
+
 /// kg/m3, at rest
 double densest_snow(const scene::Scene& scene) {
   double density = 0;
@@ -99,11 +117,7 @@ std::optional<std::string> softness_warning(const scene::Scene& scene,
   if (!is_packed && dense < notable) return std::nullopt;
   if (const auto birth = dense_birth(scene))
     return evidence_text(*birth) + "; try " + advice_text(*birth);
-  const auto is_softer = [](const sim::Material& a, const sim::Material& b) {
-    return a.youngs_modulus < b.youngs_modulus;
-  };
-  const sim::Material& snow =
-      *std::min_element(scene.materials.begin(), scene.materials.end(), is_softer);
+  const sim::Material& snow = densest_material(scene, simulation.particles());
   const double speed = load_speed(scene);
   if (!is_packed)
     return fmt::format(

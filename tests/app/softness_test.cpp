@@ -130,6 +130,24 @@ TEST(Softness, SnowDenserThanIceIsSaid) {
   EXPECT_TRUE(warnings(0.437).empty());
 }
 
+TEST(Softness, WhatIsSoftAndNoSnowIsNotCalledTooSoft) {
+  const Impact impact{1e4, 5, 10, "nodes"};
+  scene::Scene scene = impact_scene(impact, sim::Material{}.min_J_P, 1);
+  const scene::Scene other = scene::read_scene_text(R"(
+[material.rubber]
+model = "neo_hookean"
+youngs_modulus = 1e3
+[[body]]
+shape = { sphere = { center = [0, 1, 0], radius = 0.1 } }
+)",
+                                                    "rubber.toml");
+  scene.materials.push_back(other.materials.back());
+  ASSERT_EQ(scene.materials.back().name, "rubber");
+  const auto said = health::softness_warning(scene, run_impact(scene));
+  ASSERT_TRUE(said);
+  EXPECT_NE(said->find("material.snow.youngs_modulus"), std::string::npos) << *said;
+}
+
 /// A jet, or a ball, of snow that is packed before it moves.
 TEST(Softness, SnowThatBeginsDenserThanIceIsNotCalledSoft) {
   const auto scene_with = [](const char* kind, double J_P) {
