@@ -5,6 +5,10 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <sstream>
+#include <string>
 #include <thread>
 
 #include "app/support/errors.h"
@@ -107,6 +111,64 @@ TEST(SweepStore, FailedRunsAreRepeatedByTheirState) {
   EXPECT_FALSE(parse_retry("all").contains(RunState::ok));
   for (const char* wrong : {"", "ok", ",crashed", "timeout;crashed", "pending"})
     EXPECT_THROW(parse_retry(wrong), app::UsageError) << wrong;
+}
+
+/// Two runs, whose "program" is a script.
+class ScriptedRuns : public testing::Test {
+ protected:
+  ScriptedRuns() {
+    for (int k = 0; k < 2; ++k) {
+      app::sweep::Run& run = manifest_.runs.emplace_back();
+      run.index = k;
+      run.key = std::to_string(k);
+      run.folder = app::sweep::store::run_folder_name(k);
+      std::filesystem::create_directories(folder_of(k));
+    }
+    options_.jobs = 1;
+    options_.program = folder_ / "program";
+  }
+  std::filesystem::path folder_of(int k) const {
+    return folder_.path() / "runs" / manifest_.runs[static_cast<std::size_t>(k)].folder;
+  }
+  app::sweep::jobs::JobsResult run(const std::string& script, const std::vector<int>& indices) {
+    folder_.write("program", "#!/bin/bash\n" + script);
+    std::filesystem::permissions(folder_ / "program", std::filesystem::perms::owner_all);
+    Progress progress(log_, Verbosity::quiet, false);
+    return app::sweep::jobs::run_local(folder_.path(), manifest_, indices, options_, progress);
+  }
+
+  test::TemporaryFolder folder_;
+  app::sweep::store::Manifest manifest_;
+  app::sweep::jobs::LocalOptions options_;
+  std::ostringstream log_;
+};
+
+TEST_F(ScriptedRuns, ARunThatAnotherProcessHasMadeMeanwhileIsNotMadeAgain) {
+  app::sweep::store::RunStatus status;
+  status.state = app::sweep::store::RunState::failed;
+  app::sweep::store::write_status(folder_.path(), status);
+  const auto result = run("cp ../../status.json ../0001\necho x >> ../../made\nexit 3\n", {0, 1});
+  EXPECT_EQ(result.started, 1);
+  EXPECT_EQ(result.failed, 2) << log_.str();
+  EXPECT_EQ(test::read_text(folder_ / "made"), "x\n");
+}
+
+TEST_F(ScriptedRuns, ARunCostsWhatItsResultHasTaken) {
+  app::sweep::store::RunStatus status;
+  status.state = app::sweep::store::RunState::failed;
+  status.seconds = 1000;
+  status.peak_memory = std::uint64_t{1} << 50;
+  status.attempts = 1;
+  app::sweep::store::write_status(folder_of(0), status);
+  options_.retry_failed = {app::sweep::store::RunState::failed};
+  // Who looks while it is made finds no result.
+  run("grep -q '\"running\"' status.json || sleep 0.2\ncp status.json seen\nexit 3\n", {0});
+  status = app::sweep::store::read_status(folder_of(0));
+  EXPECT_EQ(status.attempts, 2);
+  EXPECT_LT(status.seconds, 100);
+  EXPECT_LT(status.peak_memory, std::uint64_t{1} << 50);
+  EXPECT_EQ(app::parse_json(std::string_view(test::read_text(folder_of(0) / "seen")))["state"],
+            "running");
 }
 
 TEST(SweepOrder, CornersRunFirstThenMiddles) {

@@ -255,8 +255,8 @@ class LocalJobs {
     const fs::path folder = folder_of(run);
     const std::optional<output::FolderLock> lock = lock_run(run, folder);
     if (!lock) return false;
-    clean(folder);
     store::RunStatus status = store::read_status(folder);
+    start_over(folder, status);
     status.state = ended.state;
     status.failed_beginning = std::max(1, ended.attempts);
     status.exit_code = ended.exit_code;
@@ -283,8 +283,7 @@ class LocalJobs {
   void skip_finished() {
     std::erase_if(queue_, [&](const Run* run) {
       const store::RunStatus status = store::read_status(folder_of(*run));
-      if (!store::is_finished(status.state) || options_.retry_failed.contains(status.state))
-        return false;
+      if (!is_ended(status)) return false;
       if (const std::string flaws = store::flaws_of_run(folder_, *run, status); !flaws.empty()) {
         progress_.warning(fmt::format("{}: {}; it is made again", store::run_text(*run), flaws));
         return false;
@@ -292,6 +291,10 @@ class LocalJobs {
       count(status);
       return true;
     });
+  }
+
+  bool is_ended(const store::RunStatus& status) const {
+    return store::is_finished(status.state) && !options_.retry_failed.contains(status.state);
   }
 
   /// One that fails for ever must not keep others from being made.
@@ -393,6 +396,12 @@ class LocalJobs {
     std::optional<output::FolderLock> lock = lock_run(run, folder);
     if (!lock) return;
     store::RunStatus status = store::read_status(folder);
+    // Another process may have made it while it waited here.
+    if (is_ended(status) && store::flaws_of_run(folder_, run, status).empty()) {
+      count(status);
+      work_left_ -= run.work;
+      return;
+    }
     if (is_over_memory(run, status, folder)) return;
     Child child = start_child(run, folder, threads, status);
     ++result_.started;
@@ -417,7 +426,7 @@ class LocalJobs {
                          status.state == store::RunState::interrupted ||
                          (status.state == store::RunState::timeout && status.failed_beginning == 0);
     wait_for_orphan(folder);
-    if (!resumes) clean(folder);
+    if (!resumes) start_over(folder, status);
     Child child({options_.program, arguments_of(run, folder, threads, resumes), folder},
                 folder / "log",
                 {manifest_.timeout, static_cast<std::uint64_t>(manifest_.memory), options_.grace});
@@ -445,8 +454,13 @@ class LocalJobs {
     return true;
   }
 
-  /// Removes the files of an abandoned attempt.
-  static void clean(const fs::path& folder) {
+  /// Removes the files of an abandoned attempt, and with them what it cost. The status says first
+  /// that there is no result: who collects in between would miss its files.
+  static void start_over(const fs::path& folder, store::RunStatus& status) {
+    status.state = store::RunState::pending;
+    status.seconds = 0;
+    status.peak_memory = 0;
+    store::write_status(folder, status);
     record::remove_earlier_run(folder);
     output::remove_checkpoints(folder);
     std::error_code error;

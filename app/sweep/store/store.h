@@ -34,8 +34,8 @@ struct RunStatus {
   std::string short_reason;  ///< for a tile
   int exit_code = 0, signal = 0;
   int attempts = 0;               ///< number of starts
-  double seconds = 0;             ///< of all attempts
-  std::uint64_t peak_memory = 0;  ///< bytes
+  double seconds = 0;             ///< of the attempts that made the result, not of abandoned ones
+  std::uint64_t peak_memory = 0;  ///< bytes, of the same
   long pid = 0;                   ///< while it runs
   std::string host;
   /// Attempts of its common beginning, which failed, and with it the run; 0: it began.
