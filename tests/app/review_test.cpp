@@ -81,6 +81,13 @@ TEST(ReviewTimeline, RunsThatDidNotEndHaveCostsAlone) {
   EXPECT_EQ(clips[1]["metadata"]["neve"]["metrics"]["steps"], 3.0);
 }
 
+TEST(ReviewTimeline, LinksAreNamedByTheNumberOfTheRun) {
+  app::sweep::Run run;
+  run.index = 2;
+  run.folder = "0007";
+  EXPECT_EQ(app::sweep::sheet::review_prefix(run), "run_0002.");
+}
+
 TEST(ReviewTimeline, RunsHaveTheirOwnRates) {
   app::sweep::store::Manifest manifest = two_runs();
   EXPECT_TRUE(manifest.has_one_rate());

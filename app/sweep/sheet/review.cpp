@@ -102,7 +102,7 @@ Json clip_json(const store::Manifest& manifest, const Run& run, const store::Run
 }  // namespace
 
 std::string review_prefix(const Run& run) {
-  return "run_" + run.folder + ".";
+  return "run_" + store::run_folder_name(run.index) + ".";
 }
 
 std::string otio_timeline(const store::Manifest& manifest,
