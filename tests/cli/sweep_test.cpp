@@ -466,6 +466,34 @@ TEST_F(SweepCli, StarsAndNotesStayWithTheSweep) {
   EXPECT_EQ(neve({"sweep", "star", "s.cdb"}).exit_code, 3);
 }
 
+TEST_F(SweepCli, NothingOfAnEarlierSweepStaysAsIfItWereOfThisOne) {
+  folder.write("scene.toml", tiny_scene);
+  std::vector<std::string> words{"sweep",    "scene.toml", "-p",      "material.snow.hardening=5,7",
+                                 "--frames", "3",          "--quiet", "--out",
+                                 "s.cdb"};
+  words.emplace_back("--review");
+  ASSERT_EQ(neve(words).exit_code, 0);
+  for (const char* file :
+       {"strips.png", "sheet/0000.png", "sheet/0003.png", "plots.svg", "review/run_0000.0000.png"})
+    EXPECT_TRUE(exists(std::string("s.cdb/") + file)) << file;
+  // What earlier sweeps of other methods and sizes left, and what is no result of neve.
+  const std::vector<std::string> old{"effects.csv",     "effects.svg",  "points.csv",
+                                     "sheet_2.png",     "strips_2.png", "sheet.mp4",
+                                     "sheet_2/0000.png"},
+      others{"sheet_final.png", "sheet/notes.txt", "strips.txt", "review/mine.png"};
+  for (const std::vector<std::string>* list : {&old, &others})
+    for (const std::string& file : *list) folder.write("s.cdb/" + file, "x");
+  words[5] = "3-3";
+  words.pop_back();
+  ASSERT_EQ(neve(words).exit_code, 0);
+  for (const std::string& file : old) EXPECT_FALSE(exists("s.cdb/" + file)) << file;
+  for (const std::string& file : others) EXPECT_TRUE(exists("s.cdb/" + file)) << file;
+  for (const char* file : {"strips.png", "sheet/0000.png", "review/run_0000.0000.png", "sheet_2"})
+    EXPECT_FALSE(exists(std::string("s.cdb/") + file)) << file;
+  EXPECT_TRUE(exists("s.cdb/sheet/0003.png"));
+  EXPECT_TRUE(exists("s.cdb/sheet.png"));
+}
+
 TEST_F(SweepCli, AllRunsAreSeenAlike) {
   folder.write("look.toml", std::string(small_sweep) +
                                 "[set]\n\"view.particles.particles.color_by\" = \"speed\"\n");

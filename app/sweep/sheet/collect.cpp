@@ -21,6 +21,7 @@
 #include "app/sweep/sheet/data_csv.h"
 #include "app/sweep/sheet/effects.h"
 #include "app/sweep/sheet/metric_plots.h"
+#include "app/sweep/sheet/outputs.h"
 #include "app/sweep/sheet/report.h"
 #include "app/sweep/sheet/review.h"
 #include "app/sweep/sheet/sheet.h"
@@ -94,7 +95,7 @@ std::string page_name(const std::string& name, std::size_t page) {
 
 void write_sheet_movie(const fs::path& folder, const store::Manifest& manifest,
                        const std::string& name, int last, const output::MovieStyle& style,
-                       Progress& progress) {
+                       Outputs& outputs, Progress& progress) {
   if (!style.is_made) return;
   const output::MovieRequest request{folder / name,
                                      output::movie_path(folder, name, style.format),
@@ -105,6 +106,7 @@ void write_sheet_movie(const fs::path& folder, const store::Manifest& manifest,
                                      0,
                                      style};
   const output::MovieResult movie = output::write_movie(request);
+  if (movie.outcome == output::MovieOutcome::written) outputs.add(request.file);
   if (movie.outcome == output::MovieOutcome::no_ffmpeg)
     progress.note("no " + name + output::movie_suffix(style.format) + ": ffmpeg is not installed");
   const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
@@ -144,7 +146,7 @@ render::PngText origin_of(const store::Manifest& manifest, const std::string& ki
 }
 
 void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
-                      std::size_t page, int last, const output::MovieStyle& movie,
+                      std::size_t page, int last, const output::MovieStyle& movie, Outputs& outputs,
                       Progress& progress) {
   const int first = manifest.first_frame();
   const std::string name = page_name("sheet", page);
@@ -153,50 +155,42 @@ void write_sheet_page(const fs::path& folder, const store::Manifest& manifest, S
   for (int frame = first; frame <= last && !is_interrupted(); ++frame) {
     render::Image image = maker.sheet(frame, page);
     const render::PngText origin = origin_of(manifest, "contact sheet", frame);
-    if (frame == last) writer.write({folder / (name + ".png"), image, origin});
-    writer.write({output::frame_path(folder, name, frame), std::move(image), origin});
+    if (frame == last) writer.write({outputs.add(folder / (name + ".png")), image, origin});
+    writer.write({outputs.add(output::frame_path(folder, name, frame)), std::move(image), origin});
     progress.line(name + " " + std::to_string(frame) + "/" + std::to_string(last));
   }
   writer.finish();
   if (!is_interrupted() && last > first)
-    write_sheet_movie(folder, manifest, name, last, movie, progress);
+    write_sheet_movie(folder, manifest, name, last, movie, outputs, progress);
 }
 
 void write_sheets(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
-                  int last, const output::MovieStyle& movie, Progress& progress) {
+                  int last, const output::MovieStyle& movie, Outputs& outputs, Progress& progress) {
   for (std::size_t page = 0; page < maker.pages().size(); ++page)
-    write_sheet_page(folder, manifest, maker, page, last, movie, progress);
+    write_sheet_page(folder, manifest, maker, page, last, movie, outputs, progress);
 }
 
 void write_strips(const fs::path& folder, const store::Manifest& manifest, SheetMaker& maker,
-                  int last) {
+                  int last, Outputs& outputs) {
   output::PictureWriter writer;
   std::size_t page = 0;
   for (render::Image& image : maker.strips())
-    writer.write({folder / (page_name("strips", page++) + ".png"), std::move(image),
+    writer.write({outputs.add(folder / (page_name("strips", page++) + ".png")), std::move(image),
                   origin_of(manifest, "page of strips", last)});
   writer.finish();
 }
 
-/// A table of an earlier sweep with seeds would be taken for that of this one.
-void write_points(const fs::path& folder, const std::string& table) {
-  const fs::path file = folder / "points.csv";
-  if (!table.empty()) return output::write_file(file, table);
-  std::error_code error;
-  fs::remove(file, error);
-  if (error)
-    throw IoError(file.string() + ": cannot be removed: " + error.message(), file.string(),
-                  "remove it, and neve sweep collect makes the results");
+/// One of an earlier sweep, with seeds or of a screening, would be taken for that of this one.
+void write_or_remove(const fs::path& file, const std::string& text) {
+  if (text.empty()) return remove_result(file);
+  output::write_file(file, text);
 }
 
 /// Writes the strongest parameters of each metric of a screening as files, and says them.
 void write_effects(const fs::path& folder, const store::Manifest& manifest,
                    const std::vector<store::RunResult>& results, Progress& progress) {
-  const std::string csv = effects_csv(manifest, results);
-  if (csv.empty()) return;
-  output::write_file(folder / "effects.csv", csv);
-  if (const std::string svg = effects_svg(manifest, results, true); !svg.empty())
-    output::write_file(folder / "effects.svg", svg);
+  write_or_remove(folder / "effects.csv", effects_csv(manifest, results));
+  write_or_remove(folder / "effects.svg", effects_svg(manifest, results, true));
   progress.clear();
   for (const std::string& line : effect_lines(manifest, results)) progress.note(line);
 }
@@ -282,11 +276,13 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
     if (!result.flaws.empty()) result.warnings.push_back(result.flaws);
   const std::vector<predict::Prediction> predictions = store::predictions_of(folder, manifest);
   output::write_file(folder / "data.csv", data_csv(manifest, results, predictions));
-  write_points(folder, points_csv(manifest, results, predictions));
-  if (has_review) link_pictures(folder, manifest, results);
+  write_or_remove(folder / "points.csv", points_csv(manifest, results, predictions));
+  if (has_review)
+    link_pictures(folder, manifest, results);
+  else
+    remove_links(folder);
   output::write_file(folder / "runs.otio", otio_timeline(manifest, results, has_review));
-  if (const std::string plots = metric_plots_svg(manifest, results); !plots.empty())
-    output::write_file(folder / "plots.svg", plots);
+  write_or_remove(folder / "plots.svg", metric_plots_svg(manifest, results));
   write_effects(folder, manifest, results, progress);
   progress.clear();
   for (const std::string& line : store::noise_lines(manifest, results)) progress.note(line);
@@ -308,11 +304,13 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   render::Renderer renderer(*context, {}, &pool);
   SheetMaker maker(folder, manifest, results, predictions, legends, renderer);
   write_starred(folder, manifest, results, legends, renderer);
-  write_sheets(folder, manifest, maker, last_drawn(manifest, results), movie, progress);
+  Outputs outputs(folder);
+  write_sheets(folder, manifest, maker, last_drawn(manifest, results), movie, outputs, progress);
   const bool has_moments = manifest.last_frame() > manifest.first_frame();
   if (!is_interrupted() && has_moments && has_pictures(results))
-    write_strips(folder, manifest, maker, last_drawn(manifest, results));
+    write_strips(folder, manifest, maker, last_drawn(manifest, results), outputs);
   if (is_interrupted()) return;
+  outputs.remove_others();
   const std::vector<std::uint8_t> sheet = output::read_file(folder / "sheet.png");
   output::write_file(folder / "report.html",
                      report_html(folder.string(), manifest, results, maker.pages().front().layout,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
@@ -124,14 +126,25 @@ std::string otio_timeline(const store::Manifest& manifest,
   return to_text(timeline) + "\n";
 }
 
+void remove_links(const fs::path& folder) {
+  const fs::path review = folder / "review";
+  std::error_code error;
+  if (fs::is_symlink(review, error)) return;
+  std::vector<fs::path> links;
+  // Only links go: what a person has put there stays.
+  for (const fs::directory_entry& entry : fs::directory_iterator(review, error))
+    if (entry.is_symlink(error) && entry.path().filename().string().starts_with("run_"))
+      links.push_back(entry.path());
+  for (const fs::path& link : links) fs::remove(link, error);
+  if (!links.empty() && fs::is_empty(review, error) && !error) fs::remove(review, error);
+}
+
 void link_pictures(const fs::path& folder, const store::Manifest& manifest,
                    const std::vector<store::RunResult>& results) {
+  remove_links(folder);
   const fs::path review = folder / "review";
   output::make_own_folder(review);
   std::error_code error;
-  // Only links go: what a person has put there stays.
-  for (const fs::directory_entry& entry : fs::directory_iterator(review, error))
-    if (entry.is_symlink(error)) fs::remove(entry.path(), error);
   for (std::size_t k = 0; k < results.size(); ++k) {
     const Run& run = manifest.runs[k];
     for (const int frame : results[k].frames) {

@@ -20,6 +20,9 @@ std::string review_prefix(const Run& run);
 std::string otio_timeline(const store::Manifest& manifest,
                           const std::vector<store::RunResult>& results, bool has_links);
 
+/// Removes the links of DIR/review, which are to the runs of an earlier collect.
+void remove_links(const std::filesystem::path& folder);
+
 /// Makes DIR/review anew: links to all pictures, whose names have the number between two points.
 /// @throws IoError
 void link_pictures(const std::filesystem::path& folder, const store::Manifest& manifest,
