@@ -22,6 +22,7 @@
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
+#include "app/support/version.h"
 #include "app/sweep/jobs/background.h"
 #include "app/sweep/jobs/local.h"
 #include "app/sweep/jobs/slurm.h"
@@ -542,6 +543,13 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
                     options.progress);
   const sweep::store::Manifest manifest = sweep::store::read_manifest(options.folder);
+  // One that makes its runs under the keys of another build mixes them in one table.
+  if (!manifest.sources.empty() && manifest.sources != build().sources)
+    throw Error(exit_refused,
+                options.folder +
+                    ": another build of neve has planned this sweep, which would give "
+                    "other results; repeat the command of the sweep with this one",
+                options.folder, "repeat the command of the sweep, which plans it with this build");
   const bool makes_beginnings = !options.beginning.empty();
   const int index = options.index.value_or(0);
   if (!manifest.run_of(index))

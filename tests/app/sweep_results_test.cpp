@@ -502,6 +502,22 @@ TEST(Stars, ListsWithoutSettingsAreReadByNumber) {
   EXPECT_EQ(kept.lost[0].run, 7);
 }
 
+TEST(RunWarnings, RunsOfDifferentInstructionsAreNoOneTable) {
+  std::vector<app::sweep::store::RunResult> results(3);
+  for (app::sweep::store::RunResult& result : results) {
+    result.frames = {0};
+    result.simd = "avx2";
+    result.sources = "1";
+  }
+  EXPECT_TRUE(app::sweep::store::mixture_lines(results).empty());
+  results[1].simd = "baseline";
+  results[2].sources = "2";
+  const std::vector<std::string> lines = app::sweep::store::mixture_lines(results);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_NE(lines[0].find("(2 avx2, 1 baseline)"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[1].find("2 programs"), std::string::npos) << lines[1];
+}
+
 TEST(MetricPlots, PlotsHaveAPointForEachRunWithTheMetric) {
   const app::sweep::store::Manifest m = manifest_of({4});
   const std::string svg = app::sweep::sheet::metric_plots_svg(m, results_of(m));

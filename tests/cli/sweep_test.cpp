@@ -2,6 +2,7 @@
 
 #include <signal.h>
 
+#include "app/record/run_json.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/saboteur.h"
 
@@ -492,6 +493,24 @@ TEST_F(SweepCli, NothingOfAnEarlierSweepStaysAsIfItWereOfThisOne) {
     EXPECT_FALSE(exists(std::string("s.cdb/") + file)) << file;
   EXPECT_TRUE(exists("s.cdb/sheet/0003.png"));
   EXPECT_TRUE(exists("s.cdb/sheet.png"));
+}
+
+/// A task of Slurm on a node with another program would write under the keys of this one.
+TEST_F(SweepCli, ARunOfASweepThatAnotherBuildHasPlannedIsRefused) {
+  folder.write("scene.toml", tiny_scene);
+  ASSERT_EQ(neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,7", "--frames", "1",
+                  "--quiet", "--out", "s.cdb"})
+                .exit_code,
+            0);
+  EXPECT_EQ(neve({"sweep", "run", "s.cdb", "--index", "1"}).exit_code, 0);
+  app::Json manifest = json_of("s.cdb/manifest.json");
+  manifest["sources"] = "0123456789abcdef";
+  manifest.erase("hash");
+  folder.write("s.cdb/manifest.json", app::record::with_own_hash(manifest));
+  const auto refused = neve({"sweep", "run", "s.cdb", "--index", "1"});
+  EXPECT_EQ(refused.exit_code, 8) << refused.errors;
+  EXPECT_TRUE(contains(refused.errors, "another build of neve has planned this sweep"))
+      << refused.errors;
 }
 
 TEST_F(SweepCli, AllRunsAreSeenAlike) {

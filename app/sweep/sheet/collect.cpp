@@ -293,6 +293,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
 
   progress.clear();
   for (const std::string& line : store::lost_lines(kept.lost)) progress.warning(line);
+  for (const std::string& line : store::mixture_lines(results)) progress.warning(line);
   for (const std::string& line : store::idle_lines(manifest, results)) progress.warning(line);
   for (const std::string& line : store::warning_lines(manifest, results)) progress.warning(line);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <map>
 #include <set>
 #include <system_error>
 #include <unordered_map>
@@ -15,6 +16,7 @@
 #include "app/record/verify.h"
 #include "app/scene/flat.h"
 #include "app/support/errors.h"
+#include "app/support/text.h"
 #include "sim/base/hash.h"
 
 namespace neve::app::sweep::store {
@@ -84,6 +86,8 @@ RunNotes notes_of(const Json& run) {
     notes.whole = record::extremes_until(run);
     if (run.contains("divergence")) notes.diverged_at = run["divergence"].at("step").get<double>();
     notes.warnings = run.value("warnings", notes.warnings);
+    notes.simd = run.value("simd", "");
+    if (run.contains("build")) notes.sources = run["build"].value("sources", "");
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
     return notes;
@@ -162,6 +166,8 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
     frames = record::frame_records(record);
     notes = notes_of(record);
     result.warnings = notes.warnings;
+    result.simd = notes.simd;
+    result.sources = notes.sources;
   }
   std::error_code error;
   // run.json lists a frame before its pictures are written: a run that was killed lacks the last.
@@ -245,6 +251,31 @@ std::vector<std::string> idle_lines(const Manifest& manifest,
     if (concerns_snow(address) && is_idle(address, manifest, results))
       lines.push_back(address +
                       " changes no bit of the snow: runs that differ in it alone end in one state");
+  return lines;
+}
+
+std::vector<std::string> mixture_lines(const std::vector<RunResult>& results) {
+  std::map<std::string, int> by_simd, by_sources;
+  for (const RunResult& result : results) {
+    if (result.frames.empty()) continue;
+    if (!result.simd.empty()) ++by_simd[result.simd];
+    if (!result.sources.empty()) ++by_sources[result.sources];
+  }
+  std::vector<std::string> lines;
+  if (by_simd.size() > 1) {
+    std::vector<std::string> counts;
+    for (const auto& [simd, count] : by_simd) counts.push_back(fmt::format("{} {}", count, simd));
+    lines.push_back(fmt::format(
+        "runs of this table were made with different instructions ({}): they differ in their last "
+        "digits for no other reason; NEVE_SIMD=baseline on all machines, with another --out, gives "
+        "all the same",
+        joined(counts, ", ")));
+  }
+  if (by_sources.size() > 1)
+    lines.push_back(fmt::format(
+        "runs of this table were made by {} programs whose sources differ: they may "
+        "differ for no other reason; the command of the sweep makes outdated runs again",
+        by_sources.size()));
   return lines;
 }
 

@@ -44,6 +44,7 @@ struct RunResult {
   std::optional<bool> has_broken{};
   std::optional<double> whole{};    ///< its largest piece as a share of that of its first picture
   std::vector<SnowPlace> places{};  ///< of the frames that have a picture
+  std::string simd{}, sources{};    ///< that its pictures were made with, see Build
   std::uint64_t end_hash = 0;       ///< of the state at the last frame of a run that got there
 
   std::optional<int> last_frame() const {
@@ -73,6 +74,9 @@ std::vector<RunResult> read_results(const std::filesystem::path& folder, const M
 
 /// "1 warning", "2 warnings"
 std::string warning_count_text(std::size_t count);
+
+/// Runs of one table that different instructions or different programs have made.
+std::vector<std::string> mixture_lines(const std::vector<RunResult>& results);
 
 /// Parameters that change nothing: runs that differ in one alone end with the same bits.
 std::vector<std::string> idle_lines(const Manifest& manifest,
