@@ -67,6 +67,7 @@ Experiment column(const Subject& subject) {
                            : "runs out to " + rough_text(last.radius / first.radius) +
                                  " times its radius");
   e.words.push_back("keeps " + rough_text(100 * e.measures[1].value) + " % of its height");
+  if (!e.failure.empty()) withdraw(e);
   return e;
 }
 

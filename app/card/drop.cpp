@@ -47,6 +47,7 @@ Experiment drop(const Subject& subject) {
   e.words.push_back(rough_text(growth) + " times as wide");
   if (has_broken)
     e.words.push_back(rough_text(100 * (1 - last.largest_fragment)) + " % lies apart");
+  if (!e.failure.empty()) withdraw(e);
   return e;
 }
 

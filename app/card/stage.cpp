@@ -69,6 +69,11 @@ bool advance(sim::Simulation& simulation, double time, Experiment& experiment,
   return experiment.failure.empty();
 }
 
+void withdraw(Experiment& experiment) {
+  for (Measure& measure : experiment.measures) measure.value = NAN;
+  experiment.words.clear();
+}
+
 void show(const sim::Simulation& simulation, scene::Scene stage, Experiment& experiment) {
   stage.views = {scene::View{}};
   stage.views.front().layers = {scene::Layer::ground, scene::Layer::colliders,

@@ -25,6 +25,9 @@ sim::Simulation simulation_of(const scene::Scene& stage);
 bool advance(sim::Simulation& simulation, double time, Experiment& experiment,
              sim::AdvanceReport* report = nullptr);
 
+/// Takes back what an experiment found that did not get to its end: it is no verdict.
+void withdraw(Experiment& experiment);
+
 /// Keeps the present state for the picture. @param stage  what is seen of the scene
 void show(const sim::Simulation& simulation, scene::Scene stage, Experiment& experiment);
 

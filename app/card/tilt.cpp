@@ -139,8 +139,13 @@ Experiment tilt(const Subject& subject) {
   // An elastic layer swings, and leaves its balance without sliding away.
   const bool slides = slides_at > 0 && slid > seen_to_slide * depth / 3;
   e.measures = {{"angle", slides ? slides_at : NAN}};
-  e.words.push_back(slides ? "slides at " + rough_text(slides_at) + "\u00b0"
-                           : "holds at " + rough_text(angle) + "\u00b0");
+  // One that did not end says how far it got, if it was tilted at all.
+  const bool has_ended = e.failure.empty();
+  if (slides)
+    e.words.push_back("slides at " + rough_text(slides_at) + "\u00b0");
+  else if (has_ended || !e.x.empty())
+    e.words.push_back((has_ended ? "holds at " : "held up to ") +
+                      rough_text(has_ended ? angle : e.x.back()) + "\u00b0");
   return e;
 }
 

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/card/again.h"
 #include "app/card/card.h"
+#include "app/card/falls.h"
 #include "app/card/plates.h"
 #include "app/card/subjects.h"
 #include "app/output/atomic_file.h"
@@ -133,6 +136,18 @@ TEST(Cards, AnExperimentThatDivergesSaysSo) {
   const Experiment pressed = press(subject);
   EXPECT_NE(pressed.failure.find("diverged"), std::string::npos) << pressed.failure;
   EXPECT_FALSE(pressed.shown.particles.x.empty()) << "it has a picture all the same";
+  // What did not end is no verdict.
+  for (const Experiment& stopped : {drop(subject), column(subject)}) {
+    ASSERT_NE(stopped.failure, "");
+    EXPECT_TRUE(stopped.words.empty()) << stopped.words.front();
+    EXPECT_FALSE(stopped.measures.empty());
+    for (const Measure& measure : stopped.measures)
+      EXPECT_TRUE(std::isnan(measure.value)) << measure.name;
+  }
+  const Experiment tilted = tilt(subject);
+  ASSERT_NE(tilted.failure, "");
+  EXPECT_TRUE(tilted.words.empty() || tilted.words.front().starts_with("held up to "))
+      << tilted.words.front();
 }
 
 }  // namespace
