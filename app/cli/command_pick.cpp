@@ -85,7 +85,7 @@ void print_pick(const pick::Game& game, const pick::PickOptions& options,
                           {"pair", options.refines ? Json(pair_sheet(game)) : Json()},
                           {"clicks", (game.folder() / "clicks.txt").string()},
                           {"values", chosen},
-                          {"learned", game.lesson().lines}})
+                          {"learned", game.picked_lines()}})
               << "\n";
     return;
   }
@@ -93,7 +93,7 @@ void print_pick(const pick::Game& game, const pick::PickOptions& options,
             << (game.answered() == 1 ? " round:\n" : " rounds:\n");
   for (const scene::Override& value : values)
     std::cout << "  " << value.address << " = " << value.value << "\n";
-  for (const std::string& line : game.lesson().lines) std::cout << line << "\n";
+  for (const std::string& line : game.picked_lines()) std::cout << line << "\n";
   if (options.refines) std::cout << "coarse and at full resolution: " << pair_sheet(game) << "\n";
   std::cout << "next:\n  neve render " << shell_path(scene) << "\n  neve sweep "
             << shell_path((game.folder() / "picked_sweep.toml").string()) << "\n";

@@ -7,6 +7,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/pick/page.h"
+#include "app/record/run_json.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
@@ -17,6 +18,8 @@ namespace neve::app::pick {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* another_folder = "choose another folder with --out, or remove the old one";
 
 /// A parameter has one range. @param axes "ADDRESS=LOW,HIGH"
 void refuse_repeated(const std::vector<std::string>& axes) {
@@ -56,10 +59,24 @@ void Game::resume() {
   if (!fs::exists(own_clicks_, error)) return;
   const std::string text = text_of_file(own_clicks_);
   if (!text.starts_with(clicks_text({}, comment())))
-    throw UsageError(folder_.string(), "has another search: " + text.substr(2, text.find('\n') - 2),
-                     "choose another folder with --out, or remove the old one");
-  for (const Click& click : parse_clicks(text, own_clicks_.string()))
-    if (!is_over()) take(click);
+    throw UsageError(folder_.string(),
+                     fmt::format("has another search: {}; this one is: {}",
+                                 text.substr(2, text.find('\n') - 2), comment().front()),
+                     another_folder);
+  for (const Click& click : parse_clicks(text, own_clicks_.string())) {
+    if (is_over()) return;
+    take(click);
+    check_tiles(answered(), rounds_.back().tiles);
+  }
+}
+
+void Game::check_tiles(int round, const std::vector<search::Point>& tiles) const {
+  const fs::path file = folder_ / fmt::format("round_{}.toml", round);
+  std::error_code error;
+  if (!fs::exists(file, error) || text_of_file(file) == round_sweep(scene_, folder_, round, tiles))
+    return;
+  throw UsageError(file.string(), "has other tiles than this program chooses in that round",
+                   another_folder);
 }
 
 void Game::check_is_beginning_of(const std::vector<Click>& list) const {
@@ -67,7 +84,7 @@ void Game::check_is_beginning_of(const std::vector<Click>& list) const {
     if (k >= list.size() || rounds_[k].chosen != list[k])
       throw UsageError(options_.clicks,
                        fmt::format("{} has other clicks from round {} on", folder_.string(), k + 1),
-                       "choose another folder with --out, or remove the old one");
+                       another_folder);
 }
 
 sweep::plan::SweepOptions Game::begin_round() {
@@ -169,6 +186,12 @@ search::Point Game::result() const {
   return lesson().has_favourite() ? search::result_of(rounds_, lesson().taste) : search::Point();
 }
 
+std::vector<std::string> Game::picked_lines() const {
+  const search::Point place = result();
+  if (place.size() == 0) return {};
+  return taste_lines(scene_.axes, axis_tastes(scene_.axes, lesson().taste, place), place);
+}
+
 std::optional<std::vector<scene::Override>> Game::write_pick() const {
   const search::Point place = result();
   if (place.size() == 0) return std::nullopt;
@@ -178,7 +201,7 @@ std::optional<std::vector<scene::Override>> Game::write_pick() const {
   for (const AxisTaste& taste : lesson().tastes) order.push_back(taste.axis);
   output::write_file(folder_ / "picked_sweep.toml",
                      picked_sweep(scene_, "picked.toml", place, order));
-  output::write_file(folder_ / "learned.txt", fmt::format("{}\n", fmt::join(lesson().lines, "\n")));
+  output::write_file(folder_ / "learned.txt", fmt::format("{}\n", fmt::join(picked_lines(), "\n")));
   output::write_file(folder_ / "map.svg", map_svg(map()));
   return settings(place);
 }
@@ -201,12 +224,19 @@ sweep::plan::SweepOptions Game::begin_refinement() const {
 
 /// Says which search the clicks are of.
 std::vector<std::string> Game::comment() const {
-  std::string what = scene_.file;
+  // Clicks are of what the tiles showed: the snow of the scene, and how it was seen.
+  std::string what =
+      fmt::format("{} ({})", scene_.file,
+                  record::hash_of(scene::write_scene(scene::read_scene_file(scene_.file))));
   for (const PickAxis& axis : scene_.axes)
     what += fmt::format(", {} {} to {}{}", axis.address, axis.text(0), axis.text(1),
                         axis.is_logarithmic ? " in ratios" : "");
   for (const scene::Override& change : scene_.fixed)
     what += ", " + change.address + " = " + change.value;
+  if (const auto& frames = options_.runs.frames)
+    what += fmt::format(", frames {}-{}", frames->first, frames->last);
+  if (options_.runs.is_fast) what += ", fast";
+  if (!options_.runs.view.empty()) what += ", view " + options_.runs.view;
   if (options_.runs.coarsening) what += fmt::format(", coarsened by {}", *options_.runs.coarsening);
   if (options_.runs.seeds > 0) what += fmt::format(", {} seeds a tile", options_.runs.seeds);
   return {fmt::format("{}, seed {}", what, options_.seed),

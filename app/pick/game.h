@@ -68,6 +68,8 @@ class Game {
   std::vector<scene::Override> settings(const search::Point& place) const {
     return settings_at(scene_.axes, place);
   }
+  /// What was learned, told of the pick and not of the favourite: a sentence for each axis.
+  std::vector<std::string> picked_lines() const;
   /// Writes scene, sweep, words and map of the pick. @return its values; empty without a choice
   std::optional<std::vector<scene::Override>> write_pick() const;
   /// Of a written pick: the sweep that makes it as coarse as its tiles, and at full resolution.
@@ -79,6 +81,8 @@ class Game {
   sweep::plan::SweepOptions next_round();
   void take(const Click& click);
   std::vector<std::string> comment() const;
+  /// Tiles that this program would not choose were made by another one. @throws UsageError
+  void check_tiles(int round, const std::vector<search::Point>& tiles) const;
   void write_clicks() const;
 
   const PickOptions options_;

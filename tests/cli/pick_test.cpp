@@ -1,6 +1,11 @@
 /// `neve pick`: replayed clicks, continued searches, mistakes, and disks that fail.
 
+#include <fmt/core.h>
+
 #include <cerrno>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/support/errors.h"
 #include "tests/cli/run_neve.h"
@@ -146,6 +151,52 @@ TEST_F(PickCli, ItContinuesWithTheExistingRuns) {
   const auto seeded = pick("4\n", "a", {"--seed", "2"});
   EXPECT_EQ(seeded.exit_code, 2);
   EXPECT_TRUE(contains(seeded.output + seeded.errors, "has another search"));
+}
+
+TEST_F(PickCli, ClicksOnOtherSnowAreNotTakenOver) {
+  ASSERT_EQ(pick("4\n", "a").exit_code, 0);
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--set", "seed=3"}, {"--fast"}}) {
+    const auto other = pick("4\n", "a", more);
+    EXPECT_EQ(other.exit_code, 2) << more[0];
+    EXPECT_TRUE(contains(other.output + other.errors, "has another search")) << other.errors;
+  }
+  const auto earlier = neve({"pick", "scene.toml", "--clicks", "list.txt", "--out", "a", "--frames",
+                             "1", "--size", "64x36", "-p", "material.snow.hardening=2,20", "-p",
+                             "material.snow.youngs_modulus=2e4,1e6"});
+  EXPECT_EQ(earlier.exit_code, 2);
+  EXPECT_TRUE(contains(earlier.errors, "has another search")) << earlier.errors;
+  const std::string scene = read_text(folder / "scene.toml");
+  folder.write("scene.toml", "# the same snow\n" + scene);
+  EXPECT_EQ(pick("4\n", "a").exit_code, 0);
+  folder.write("scene.toml", scene + "\n[material.snow]\ndensity = 300\n");
+  const auto changed = pick("4\n", "a");
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_TRUE(contains(changed.output + changed.errors, "this one is: scene.toml ("))
+      << changed.output << changed.errors;
+  folder.write("scene.toml", scene);
+  folder.write("a/round_1.toml", read_text(folder / "a/round_1.toml") + "\n");
+  const auto tiles = pick("4\n", "a");
+  EXPECT_EQ(tiles.exit_code, 2);
+  EXPECT_TRUE(contains(tiles.output + tiles.errors, "has other tiles than this program chooses"));
+}
+
+/// The favourite of a search may be a place that no tile has; the pick is a tile.
+TEST_F(PickCli, WhatWasLearnedIsToldOfThePick) {
+  const auto made = pick("3\n2 7\n", "a");
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  const app::Json result = app::parse_json(std::string_view(made.output));
+  int told = 0;
+  for (const auto& [name, value] : {std::pair{"hardening", "material.snow.hardening"},
+                                    {"youngs_modulus", "material.snow.youngs_modulus"}})
+    for (const app::Json& line : result["learned"]) {
+      const std::string text = line.get<std::string>(),
+                        picked = result["values"][value].get<std::string>();
+      if (!text.starts_with(name) || contains(text, "no preference")) continue;
+      ++told;
+      EXPECT_TRUE(contains(text, fmt::format("{:.3g}", std::stod(picked)))) << text << picked;
+    }
+  EXPECT_GT(told, 0);
 }
 
 TEST_F(PickCli, WithoutATerminalItSaysHowToUseIt) {

@@ -124,8 +124,8 @@ inline constexpr Folder folders[] = {
      "app/sweep/jobs"},
     {"app/pick/search", "sim/base app/sweep/plan"},
     {"app/pick",
-     "render/frame render/overlay app/support app/scene/toml app/scene app/output app/sweep "
-     "app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/pick/search"},
+     "render/frame render/overlay app/support app/scene/toml app/scene app/output app/record "
+     "app/sweep app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/pick/search"},
     {"app/view/session",
      "sim/types sim app/support app/scene/toml app/scene app/output app/record app/setup "
      "app/options app/forecast app/health app/picture app/timeline app/run app/dump app/sweep/plan "

@@ -47,7 +47,9 @@ void draw_lesson(const PickerState& state) {
         "from your answer.");
     return;
   }
-  for (const std::string& line : state.game.lesson().lines) draw_paragraph(line);
+  const bool is_over = state.phase == Phase::over;
+  for (const std::string& line : is_over ? state.learned : state.game.lesson().lines)
+    draw_paragraph(line);
   ImGui::Dummy(ImVec2(0, 0.3f * em()));
   draw_map(state);
 }

@@ -251,6 +251,7 @@ void Picker::finish() {
   attempt([this] {
     learn();
     state_.values = game_.write_pick().value_or(std::vector<scene::Override>{});
+    state_.learned = game_.picked_lines();
     state_.phase = Phase::over;
     state_.closer.reset();
     const pick::search::Point place = game_.result();

@@ -49,6 +49,7 @@ struct PickerState {
   std::string failure{};                  ///< sentence of Phase::stuck
   bool is_stopping = false;               ///< runs are being ended
   std::vector<scene::Override> values{};  ///< of the pick, in Phase::over
+  std::vector<std::string> learned{};     ///< told of the pick, in Phase::over
   bool is_scrolling = false;              ///< a finger moves the words
   std::optional<render::Plot> map{};      ///< of what was learned
   Layout layout{};
