@@ -47,7 +47,8 @@ void describe(V& visit, SweepSettings& s) {
         "Runs of each point of the sweep, with the scene's seed and those after it: particles and "
         "lumps of snow are drawn anew in each. Tiles, table and plots then say what is noise.");
   visit("where", s.where, scene::unit::none, scene::anything, restart,
-        "Conditions that all runs meet, as in [\"critical_stretch < 0.5 * critical_compression\"]: "
+        "Conditions that all runs of the axes meet, as in [\"critical_stretch < 0.5 * "
+        "critical_compression\"]: "
         "axes, numbers, a number * an axis.");
   visit("frames", s.frames, scene::unit::none, scene::anything, restart,
         "Frames to draw, \"A-B\" or \"N\" for all up to N; default: those of the scene.");
