@@ -188,7 +188,7 @@ Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, d
                              (check.plan.particles - 0.5 * plan.emitted);
   const std::vector<setup::CoarseMoment> moments = setup::coarse_run(scene);
   check_cameras(scene, moments, check.findings);
-  check_moving_bodies(scene, moments, check.findings);
+  check_moving_bodies(scene, moments, check.coarsening, check.findings);
   std::stable_sort(check.findings.begin(), check.findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return check;

@@ -90,9 +90,9 @@ void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene
 
 /// Colliders that move by themselves: in one another, held by nothing or by everything, of a
 /// density that nothing has, smaller than snow can feel.
-/// @param moments  of a coarse run
+/// @param moments  of a coarse run @param coarsening  of the scene
 void check_moving_bodies(const scene::Scene& scene, const std::vector<setup::CoarseMoment>& moments,
-                         std::vector<Finding>& findings);
+                         double coarsening, std::vector<Finding>& findings);
 
 /// Colliders that cross too much of a cell in a step, or outrun sound in the snow.
 void check_motion(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);

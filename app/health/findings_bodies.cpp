@@ -8,6 +8,7 @@
 
 #include "app/health/findings.h"
 #include "app/health/places.h"
+#include "app/scene/coarsen.h"
 #include "app/support/text.h"
 #include "sim/rigid/mass.h"
 
@@ -82,7 +83,8 @@ void check_density(const Collider& body, std::vector<Finding>& findings) {
                         : "ice has 917, wood about 600, steel 7850; lengths are in metres"});
 }
 
-void check_size(const scene::Scene& scene, const Collider& body, std::vector<Finding>& findings) {
+void check_size(const scene::Scene& scene, const Collider& body, double coarsening,
+                std::vector<Finding>& findings) {
   constexpr double fewest_cells = 2;
   const sim::shapes::Bounds box = sim::shapes::bounds_at(body, 0);
   const double cells = (box.max - box.min).maxCoeff() / scene.solver.cell_size;
@@ -91,8 +93,9 @@ void check_size(const scene::Scene& scene, const Collider& body, std::vector<Fin
       {Severity::warning, address_of(body) + ".shape",
        fmt::format("{} is {} cells large: a few particles move it, by chance",
                    display_name("collider", body.name), rough_text(cells)),
-       fmt::format("make it larger, or solver.cell_size at most {}",
-                   rough_text((box.max - box.min).maxCoeff() / (2 * fewest_cells)))});
+       "make it larger, or " +
+           scene::setting_text("solver.cell_size",
+                               (box.max - box.min).maxCoeff() / (2 * fewest_cells), coarsening)});
 }
 
 void check_hold(const Collider& body, std::vector<Finding>& findings) {
@@ -168,13 +171,13 @@ void check_rest(const scene::Scene& scene, const Collider& body, std::vector<Fin
 }  // namespace
 
 void check_moving_bodies(const scene::Scene& scene, const std::vector<setup::CoarseMoment>& moments,
-                         std::vector<Finding>& findings) {
+                         double coarsening, std::vector<Finding>& findings) {
   std::size_t index = 0;
   for (const Collider& body : scene.colliders) {
     if (!body.body.moves()) continue;
     check_starts(scene, body, findings);
     check_density(body, findings);
-    check_size(scene, body, findings);
+    check_size(scene, body, coarsening, findings);
     check_hold(body, findings);
     check_joint(body, findings);
     check_rest(scene, body, findings);

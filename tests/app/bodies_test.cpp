@@ -277,7 +277,7 @@ TEST(Bodies, MotionVectorsAreTheirVelocities) {
 std::vector<health::Finding> body_findings(const std::string& more, const std::string& top = "") {
   const scene::Scene scene = scene::read_scene_text(top + floor_and_snow + more, "s.toml");
   std::vector<health::Finding> findings;
-  health::check_moving_bodies(scene, setup::coarse_run(scene), findings);
+  health::check_moving_bodies(scene, setup::coarse_run(scene), 1, findings);
   return findings;
 }
 
@@ -343,6 +343,17 @@ TEST(BodyFindings, WhatNothingHoldsOrEverythingIsFound) {
       tells_of(body_findings("[[collider]]\nname = \"crumb\"\nshape = { sphere = { center = [0, "
                              "0.3, 0], radius = 0.03 } }\ndensity = 900\n"),
                "collider.crumb.shape", "crumb is 1.5 cells large"));
+  // The number to type is that of the scene.
+  const scene::Scene coarse = scene::read_scene_text(
+      floor_and_snow +
+          "[[collider]]\nname = \"crumb\"\nshape = { sphere = { center = [0, 0.3, 0], "
+          "radius = 0.03 } }\ndensity = 900\n",
+      "s.toml");
+  std::vector<health::Finding> of_crumb;
+  health::check_moving_bodies(coarse, setup::coarse_run(coarse), 2, of_crumb);
+  ASSERT_FALSE(of_crumb.empty());
+  EXPECT_EQ(of_crumb[0].hint,
+            "make it larger, or solver.cell_size = 0.0075 (--coarsen 2 makes it 0.015)");
   EXPECT_TRUE(
       tells_of(body_findings(ball_that("density = 900\nhold = [\"x\", \"y\", \"z\", \"turn_x\", "
                                        "\"turn_y\", \"turn_z\"]")),
@@ -358,13 +369,13 @@ shape = { box = { center = [0, 0.08, 0], size = [0.4, 0.16, 0.4] } }
   const scene::Scene beside =
       scene::read_scene_text(no_floor + ball_that("density = 900", "[2, 0.4, 0]"), "s.toml");
   std::vector<health::Finding> findings;
-  health::check_moving_bodies(beside, setup::coarse_run(beside), findings);
+  health::check_moving_bodies(beside, setup::coarse_run(beside), 1, findings);
   EXPECT_TRUE(tells_of(findings, "collider.ball", "nothing carries or stops ball"));
   EXPECT_TRUE(body_findings(ball_that("density = 900")).empty()) << "a floor does";
   scene::Scene weightless = scene_with_body(ball_that("density = 900"));
   weightless.solver.gravity.setZero();
   findings.clear();
-  health::check_moving_bodies(weightless, setup::coarse_run(weightless), findings);
+  health::check_moving_bodies(weightless, setup::coarse_run(weightless), 1, findings);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].severity, health::Severity::note);
 }

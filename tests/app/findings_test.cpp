@@ -49,5 +49,22 @@ TEST(Findings, WallThroughWhichSnowIsDraggedIsFound) {
             "0.01");
 }
 
+/// 3 times 0.07 is more than 0.21 in floating point.
+TEST(Findings, AWallOfTheCellsThatDoHasNoFindingByRounding) {
+  const scene::Scene scene = scene::read_scene_text(R"(
+[solver]
+cell_size = 0.07
+[[body]]
+shape = { box = { center = [0, 1.3, 0], size = [1, 0.5, 1] } }
+[[collider]]
+name = "wall"
+shape = { box = { center = [0, 0, 0], size = [1, 0.21, 1] } }
+)",
+                                                    "wall.toml");
+  std::vector<health::Finding> findings;
+  health::check_resolution(scene, findings);
+  EXPECT_TRUE(findings.empty()) << findings.front().what;
+}
+
 }  // namespace
 }  // namespace neve::app
