@@ -130,6 +130,7 @@ void Gatherer::take_bare(ThreadPool* pool) {
   std::vector<Bare> all;
   std::vector<Vec3f> place;
   for (const std::vector<Bare>& some : bare_) all.insert(all.end(), some.begin(), some.end());
+  if (all.empty()) return;
   for (const Bare& one : all) place.push_back(one.surface.position);
   const surface::Shares near =
       surface::shares_of(place, {frame_.points.position, {}}, {}, reach_, pool);

@@ -90,6 +90,24 @@ TEST_F(Bodies, KilledAndResumedTheyAreWhereTheyWere) {
             read_text(folder / "parts/exports/usda.usda"));
 }
 
+/// Bodies are somewhere at each frame, also at those for which the stage has no file of snow.
+TEST_F(Bodies, AStageThatARunGetsLaterHasAllTheirPlaces) {
+  std::string with_stage = rolling, plain = rolling;
+  const std::string stage = "[[export]]\nformat = \"usda\"\n";
+  with_stage.replace(with_stage.find(stage), stage.size(), stage + "every = 4\n");
+  plain.erase(plain.find(stage), stage.size());
+  folder.write("scene.toml", with_stage);
+  ASSERT_EQ(render({"scene.toml", "--out", "whole"}).exit_code, 0);
+  folder.write("scene.toml", plain);
+  ASSERT_EQ(render({"scene.toml", "--out", "later"}).exit_code, 0);
+  folder.write("scene.toml", with_stage);
+  const auto done = render({"scene.toml", "--out", "later"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_TRUE(read_text(folder / "whole/exports/usda.usda") ==
+              read_text(folder / "later/exports/usda.usda"));
+  EXPECT_EQ(json_of("later/run.json")["exports"], json_of("whole/run.json")["exports"]);
+}
+
 TEST_F(Bodies, AnyNumberOfThreadsGivesTheSame) {
   ASSERT_EQ(render({"scene.toml", "--out", "one", "--threads", "1"}).exit_code, 0);
   ASSERT_EQ(render({"scene.toml", "--out", "three", "--threads", "3"}).exit_code, 0);
