@@ -9,6 +9,7 @@
 #include "app/output/sequence.h"
 #include "app/setup/plan.h"
 #include "app/support/errors.h"
+#include "app/support/film_rate.h"
 #include "app/support/text.h"
 #include "app/sweep/jobs/outcome.h"
 #include "app/sweep/sheet/marks.h"
@@ -316,7 +317,7 @@ std::string moment_text(const store::Manifest& manifest, int frame) {
   const bool are_shorter =
       std::ranges::any_of(manifest.runs, [&](const Run& run) { return run.frames.last < frame; });
   return "frame " + std::to_string(frame) +
-         (manifest.has_one_rate() ? "   t = " + fixed_text(manifest.time_of(frame), 3) + " s"
+         (manifest.has_one_rate() ? "   t = " + time_text(manifest.time_of(frame), manifest.fps)
                                   : "") +
          (are_shorter ? ", or the last of a shorter run" : "");
 }
@@ -400,7 +401,7 @@ store::Manifest SheetMaker::strip_grid(const std::vector<int>& frames, std::size
   const bool are_at_once = manifest_.has_one_rate();
   store::AxisLabels names{"", {}}, times{are_at_once ? "t" : "frame", {}};
   for (const int frame : frames)
-    times.values.push_back(are_at_once ? fixed_text(manifest_.time_of(frame), 3) + " s"
+    times.values.push_back(are_at_once ? time_text(manifest_.time_of(frame), manifest_.fps)
                                        : std::to_string(frame));
   grid.runs.clear();
   for (std::size_t r = 0; r < count; ++r) {
