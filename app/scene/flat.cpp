@@ -237,13 +237,13 @@ bool is_live(std::string_view address) {
 
 Concern concern_of(std::string_view address) {
   if (address.starts_with("collider.") && address.ends_with(".style")) return Concern::pictures;
-  for (const char* part :
-       {"solver.", "dust.", "material.", "body.", "emitter.", "sink.", "collider.", "curve."})
-    if (address.starts_with(part)) return Concern::simulation;
-  if (address == "fps" || address == "seed") return Concern::simulation;
-  if (address == "frames" || address == "handles" || address.starts_with("limits.") ||
-      address.starts_with("export."))
-    return Concern::run;
+  // Whole tables concern what their members do.
+  const std::string_view table = address.substr(0, address.find('.'));
+  for (const char* part : {"solver", "dust", "material", "body", "emitter", "sink", "collider",
+                           "curve", "fps", "seed"})
+    if (table == part) return Concern::simulation;
+  for (const char* part : {"frames", "handles", "limits", "export"})
+    if (table == part) return Concern::run;
   return Concern::pictures;
 }
 

@@ -136,6 +136,11 @@ TEST(Flat, FlatListMarksTheParametersThatMayChangeDuringARun) {
   EXPECT_TRUE(app::scene::concerns_simulation("collider.floor.friction"));
   EXPECT_FALSE(app::scene::concerns_simulation("collider.floor.style"));
   EXPECT_FALSE(app::scene::concerns_simulation("view.close.size"));
+  // Whole tables, and lists whose names differ.
+  for (const char* table : {"solver", "dust", "material.snow", "collider.floor", "body", "seed"})
+    EXPECT_TRUE(app::scene::concerns_simulation(table)) << table;
+  EXPECT_EQ(app::scene::concern_of("limits"), app::scene::Concern::run);
+  EXPECT_EQ(app::scene::concern_of("light"), app::scene::Concern::pictures);
 }
 
 std::vector<std::string> addresses(const std::vector<app::scene::Difference>& list) {

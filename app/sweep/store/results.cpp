@@ -207,8 +207,8 @@ namespace {
 
 /// States are of the snow alone: they say nothing of dust and of pictures.
 bool concerns_snow(const std::string& address) {
-  return scene::concerns_simulation(address) && !address.starts_with("dust.") &&
-         !address.ends_with(".dust");
+  return scene::concerns_simulation(address) && address != "dust" &&
+         !address.starts_with("dust.") && !address.ends_with(".dust");
 }
 
 std::uint64_t hash_of(const scene::Override& setting) {
