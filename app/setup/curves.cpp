@@ -1,7 +1,9 @@
 #include "app/setup/curves.h"
 
 #include <algorithm>
+#include <variant>
 
+#include "app/scene/override.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/value.h"
 #include "app/support/text.h"
@@ -75,6 +77,15 @@ std::vector<sim::Vec3d> few_of(const std::vector<sim::Vec3d>& all) {
   return few;
 }
 
+/// True for a change of the address, and of a table around it that has a value there.
+bool sets(const scene::Override& change, const std::string& address) {
+  if (change.address == address) return true;
+  if (!address.starts_with(change.address + ".") || !change.value.starts_with("{")) return false;
+  const scene::toml::Value table = scene::value_of(change, "table");
+  const auto* members = std::get_if<scene::toml::Table>(&table.data);
+  return members && scene::value_at(*members, address.substr(change.address.size() + 1));
+}
+
 double time_of(const scene::Scene& scene, int frame) {
   return std::max(0.0, frame - 0.5) / scene.fps;
 }
@@ -129,9 +140,10 @@ std::vector<sim::Vec3d> vectors_along(const scene::Scene& scene, const std::stri
 
 void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes) {
   for (const scene::Override& change : changes)
-    if (const scene::Curve* curve = curve_of(scene, change.address))
-      change.fail(change.key, change.address + " follows its curve " + curve->name,
-                  "change curve." + curve->name + ".keyframes instead");
+    for (const scene::Curve& curve : scene.curves)
+      if (sets(change, curve.parameter))
+        change.fail(change.key, curve.parameter + " follows its curve " + curve.name,
+                    "change curve." + curve.name + ".keyframes instead");
 }
 
 std::vector<scene::Override> without_followers(const scene::Scene& scene,

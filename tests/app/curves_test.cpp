@@ -236,6 +236,15 @@ TEST(Curves, ChangesOfWhatFollowsOneAreRefused) {
                           scene::parse_overrides({"solver.cfl=0.3", "curve.fall.keyframes=[]"}));
 }
 
+TEST(Curves, TablesWithAValueOfWhatFollowsOneAreRefused) {
+  const scene::Scene scene = falling(curves);
+  EXPECT_THROW(setup::refuse_followers(
+                   scene, scene::parse_overrides({"material.snow={density=200, hardening=2}"})),
+               UsageError);
+  setup::refuse_followers(scene, scene::parse_overrides({"material.snow={density=200}"}));
+  setup::refuse_followers(scene, scene::parse_overrides({"solver=none"}));
+}
+
 TEST(Curves, WithoutEffectAreTold) {
   const auto found = [](const std::string& more) {
     const scene::Scene scene = falling(more);
