@@ -134,9 +134,9 @@ class Edit {
   void make_object() {
     walk();
     if (depth_ == words_.size()) {
+      if (!takes_away(change_)) return replace_object();
       if (name_next_object()) return Edit(text_, change_).make();
       remove_object();
-      if (!takes_away(change_)) Edit(text_, change_).make();
     } else if (!takes_away(change_)) {
       add_object();
     }
@@ -161,12 +161,27 @@ class Edit {
 
   void add_object() {
     if (node_->kind == Kind::array) fail("its list is one array");
+    add_block(object_block());
+  }
+
+  std::string object_block() const {
     const toml::Value value = value_of(change_, "table");
     std::string lines = named(words_[1]);
     for (const toml::Entry& entry : std::get<toml::Table>(value.data).entries)
       if (entry.key != "name")
         lines += line_end_ + entry.key + " = " + toml::toml_literal(entry.value);
-    add_block("[[" + words_[0] + "]]" + line_end_ + lines);
+    return "[[" + words_[0] + "]]" + line_end_ + lines;
+  }
+
+  /// In its place: others keep theirs, and with it their numbers. Its comments were of the old one.
+  void replace_object() {
+    if (node_->is_in_one_place()) fail("its list is one array");
+    std::vector<toml::Span> spans;
+    collect_sections(*node_, spans);
+    const std::size_t begin = std::ranges::min_element(spans, {}, &toml::Span::begin)->begin;
+    erase(std::move(spans));
+    const bool is_last = begin >= text_.size();
+    insert(begin, object_block() + line_end_ + (is_last ? "" : line_end_));
   }
 
   /// With its comments: of an item of an array the item, else its sections.

@@ -449,10 +449,12 @@ bool apply_object(toml::Table& root, const Override& change, int index) {
   }
   toml::Value object = object_in(change, list, name);
   set_place(object, index);
-  if (is_there) remove_item(root, list, found);
-  entry = root.find(list);
   if (!entry) entry = &root.entries.emplace_back(toml::Entry{list, {}, {toml::Array{}}});
-  std::get<toml::Array>(entry->value.data).push_back(std::move(object));
+  auto& items = std::get<toml::Array>(entry->value.data);
+  if (is_there)
+    items[found] = std::move(object);  // ids and seeds are those of the place
+  else
+    items.push_back(std::move(object));
   return true;
 }
 

@@ -14,27 +14,18 @@ namespace neve::app::timeline {
 
 namespace {
 
-/// True of a collider that came and went: the scene never had it.
-bool is_gone_again(const scene::Scene& start, const scene::LiveChange& change) {
-  return scene::is_object_address(change.address) && change.value == "none" &&
-         std::none_of(start.colliders.begin(), start.colliders.end(),
-                      [&](const scene::Collider& collider) {
-                        return change.address == "collider." + collider.name;
-                      });
-}
-
 /// Overrides from changes: of two changes to one address, only the later one has an effect, and
-/// none inside of an object that comes or goes as a whole later.
-std::vector<scene::Override> overrides_of(const scene::Scene& start,
-                                          const std::vector<scene::LiveChange>& changes,
+/// none inside of an object that comes or goes as a whole later. Whole objects come and go as they
+/// did, which gives each its place in its list.
+std::vector<scene::Override> overrides_of(const std::vector<scene::LiveChange>& changes,
                                           std::size_t count) {
   std::vector<scene::Override> overrides;
   std::set<std::string> later;
   for (std::size_t k = count; k-- > 0;) {
     const scene::LiveChange& change = changes[k];
-    if (later.contains(scene::object_of(change.address)) || !later.insert(change.address).second)
-      continue;
-    if (is_gone_again(start, change)) continue;
+    const bool is_object = scene::is_object_address(change.address);
+    if (!is_object && later.contains(scene::object_of(change.address))) continue;
+    if (!later.insert(change.address).second && !is_object) continue;
     scene::Override override{change.address, change.value};
     override.flag = "change at step " + std::to_string(change.step) + ":";
     overrides.push_back(std::move(override));
@@ -80,7 +71,7 @@ std::size_t count_until(const std::vector<scene::LiveChange>& changes, std::size
 
 scene::Scene with_first_changes(const scene::Scene& start,
                                 const std::vector<scene::LiveChange>& changes, std::size_t count) {
-  return scene::apply(start, overrides_of(start, changes, count), "the scene of the run");
+  return scene::apply(start, overrides_of(changes, count), "the scene of the run");
 }
 
 scene::Scene with_changes(const scene::Scene& start, const std::vector<scene::LiveChange>& changes,

@@ -70,10 +70,26 @@ TEST(Objects, AnObjectIsAddedChangedAndRemoved) {
                         "sink.hole={shape={box={size=[1,1,1]}}}"});
   EXPECT_EQ(scene.emitters.at(0).rate, 3);
   EXPECT_EQ(scene.sinks.at(0).name, "hole");
-  // A table takes the place of an object of that name.
-  scene = with_objects({"body.ball={shape={box={size=[1,1,1]}}}"});
+}
+
+/// Ids and seeds of snow are those of the place of its body.
+TEST(Objects, ATableTakesThePlaceOfAnObjectOfThatName) {
+  const std::vector<std::string> sets{"body.ball={shape={box={size=[1,1,1]}}}"};
+  const scene::Scene scene = with_objects(sets);
   ASSERT_EQ(scene.bodies.size(), 3u);
-  EXPECT_TRUE(std::holds_alternative<sim::shapes::Box>(scene.bodies[2].shape.form));
+  EXPECT_EQ(scene.bodies[0].name, "ball");
+  EXPECT_TRUE(std::holds_alternative<sim::shapes::Box>(scene.bodies[0].shape.form));
+  EXPECT_EQ(scene.bodies[1].name, "2");
+  const std::string text = edited_objects(sets);
+  EXPECT_EQ(scene::write_scene(with_objects({}, text)), scene::write_scene(scene)) << text;
+  EXPECT_EQ(text.rfind("# A ball and two blocks.\nframes = 3\n\n[[body]]\nname = \"ball\"\n"
+                       "shape = { box = { size = [1, 1, 1] } }\n\n[[body]]\n",
+                       0),
+            0u)
+      << text;
+  EXPECT_TRUE(edited_objects({"collider.floor={shape={plane={}}, friction=0.9}"})
+                  .ends_with("\n[[collider]]\nname = \"floor\"\nshape = { plane = {} }\n"
+                             "friction = 0.9\n"));
 }
 
 TEST(Objects, UnnamedOnesKeepTheirNumbersWhenAnotherIsRemoved) {
