@@ -25,6 +25,7 @@
 #include "app/scene/coarsen.h"
 #include "app/scene/flat.h"
 #include "app/scene/override.h"
+#include "app/scene/presets.h"
 #include "app/setup/camera_path.h"
 #include "app/setup/curves.h"
 #include "app/support/film_rate.h"
@@ -380,6 +381,15 @@ std::string short_name(const std::string& address) {
   return name == "snow" && kind == "material" ? word : name + " " + word;
 }
 
+/// True where nothing is left of an earlier change: its whole table is set or removed after it, or
+/// the preset that sets its number.
+bool replaces(const std::string& later, const std::string& earlier) {
+  if (earlier.starts_with(later + ".")) return true;
+  if (!scene::is_preset_address(later)) return false;
+  const std::vector<std::string> numbers = scene::addresses_set_by(later);
+  return std::find(numbers.begin(), numbers.end(), earlier) != numbers.end();
+}
+
 }  // namespace
 
 std::vector<std::string> override_lines(const std::vector<std::string>& overrides) {
@@ -391,6 +401,11 @@ std::vector<std::string> override_lines(const std::vector<std::string>& override
     if (equals == std::string::npos) continue;
     const std::string address = text.substr(0, equals);
     if (!scene::concerns_simulation(address)) continue;
+    std::erase_if(order, [&](const std::string& earlier) {
+      if (!replaces(address, earlier)) return false;
+      --named_alike[short_name(earlier)];
+      return by_address.erase(earlier) > 0;
+    });
     if (!by_address.contains(address)) {
       order.push_back(address);
       ++named_alike[short_name(address)];
@@ -402,7 +417,7 @@ std::vector<std::string> override_lines(const std::vector<std::string>& override
     const std::string name = short_name(address);
     const std::string& value = by_address[address];
     if (scene::is_object_address(address))
-      lines.push_back((value == "none" ? "removed " : "added ") + address);
+      lines.push_back((value == "none" ? "removed " : "set ") + address);
     else
       lines.push_back((named_alike[name] > 1 ? address : name) + " = " + value);
   }

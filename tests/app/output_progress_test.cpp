@@ -91,6 +91,21 @@ TEST(Caption, CaptionNamesOverridesOfTheSnowShortly) {
   EXPECT_EQ(lines, expected);
 }
 
+TEST(Caption, CaptionNamesWhatHoldsAtTheEnd) {
+  const auto lines = [](const std::vector<std::string>& overrides) {
+    return joined(app::picture::override_lines(overrides), "; ");
+  };
+  EXPECT_EQ(lines({"solver.cfl=0.1", "solver={cell_size=0.05}"}), "solver = {cell_size=0.05}");
+  EXPECT_EQ(lines({"solver={cell_size=0.05}", "solver.cfl=0.1"}),
+            "solver = {cell_size=0.05}; cfl = 0.1");
+  EXPECT_EQ(lines({"body.ball.velocity=[0,-1,0]", "body.a.velocity=[0,2,0]",
+                   "body.ball={shape={sphere={}}}"}),
+            "a velocity = [0,2,0]; set body.ball");
+  EXPECT_EQ(lines({"collider.floor.friction=0.9", "collider.floor=none"}),
+            "removed collider.floor");
+  EXPECT_EQ(lines({"material.snow.hardening=5", "material.snow.preset=wet"}), "preset = wet");
+}
+
 TEST(NearestName, NearestNameIsFoundForTypingErrorsOnly) {
   EXPECT_EQ(advice::nearest_name("rendr", {"render", "doctor"}), "render");
   EXPECT_EQ(advice::nearest_name("banana", {"render", "doctor"}), "");
