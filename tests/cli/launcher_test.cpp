@@ -110,6 +110,16 @@ TEST_F(Launcher, ABuiltCheckoutOfAnotherUserIsUsedAsItIs) {
   let_others_write(true);
 }
 
+TEST_F(Launcher, HelpEndsAsTheProgramDoes) {
+  if (::geteuid() == 0 && !fs::exists("/usr/bin/setpriv")) SKIP_OR_FAIL("no setpriv (util-linux)");
+  let_others_write(true);
+  const auto all = launch({"help"}), one = launch({"help", "render"});
+  EXPECT_EQ(all.exit_code, 0) << all.errors;
+  EXPECT_TRUE(contains(all.output, "Tests: ./neve test")) << all.output;
+  EXPECT_EQ(one.exit_code, 0) << one.errors;
+  EXPECT_EQ(one.output, "built help render\n");
+}
+
 TEST_F(Launcher, PackagesAreInstalledOnlyWhereSomeAreMissing) {
   if (::geteuid() == 0 && !fs::exists("/usr/bin/setpriv")) SKIP_OR_FAIL("no setpriv (util-linux)");
   let_others_write(true);
