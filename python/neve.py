@@ -18,6 +18,7 @@ import csv
 import difflib
 import html
 import json
+import operator
 import os
 import pathlib
 import shutil
@@ -82,10 +83,10 @@ def _literal(value, is_inside=False):
     """A value as --set takes it; inside of lists and tables words need quotes."""
     if value is None:
         return "none"
-    if isinstance(value, bool):
-        return "true" if value else "false"
     if isinstance(value, np.generic):
         value = value.item()
+    if isinstance(value, bool):
+        return "true" if value else "false"
     if isinstance(value, (list, tuple, np.ndarray)):
         return "[" + ", ".join(_literal(v, True) for v in value) + "]"
     if isinstance(value, dict):
@@ -135,10 +136,14 @@ def _scene_flags(set, coarsen, threads):
 
 
 def _frames(frames):
-    """"3-9" of 3, (3, 9) or "3-9"."""
+    """"3-9" of (3, 9), "3-9" or range(3, 10), "3-3" of 3."""
     if isinstance(frames, str):
         return frames
-    return f"{frames[0]}-{frames[1]}" if isinstance(frames, (list, tuple)) else f"{frames}-{frames}"
+    numbers = [operator.index(number) for number in np.atleast_1d(frames)]
+    is_pair = len(numbers) == 2 and not isinstance(frames, range)
+    if not numbers or not (is_pair or numbers == list(range(numbers[0], numbers[-1] + 1))):
+        raise ValueError(f"frames are one, or the first and the last of a range, not {frames!r}")
+    return f"{numbers[0]}-{numbers[-1]}"
 
 
 def _number(value):

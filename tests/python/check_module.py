@@ -46,6 +46,18 @@ kinetic = 0.5 * (state["m"].astype("f8") * (state["v"].astype("f8") ** 2).sum(ax
 np.testing.assert_allclose(kinetic, run["kinetic_energy"][3], rtol=1e-5)
 exports = neve.export(run, "states", formats=["npz", "ply", "csv"], frames=(2, 3), attributes=names)
 assert set(exports) == {"npz", "ply", "csv"}
+# Frames are one, or a range: others were dropped in silence.
+for frames in ("2-3", (2, 3), [2, 3], range(2, 4), np.array([2, 3]), np.arange(2, 4)):
+    assert neve._frames(frames) == "2-3", frames
+assert neve._frames(3) == neve._frames(np.int64(3)) == "3-3" and neve._frames([0, 1, 2]) == "0-2"
+for frames in ([0, 10, 20], range(0, 20, 10), np.array([0, 10, 20]), []):
+    try:
+        neve._frames(frames)
+    except ValueError as error:
+        assert "the first and the last" in str(error)
+    else:
+        raise AssertionError(frames)
+assert neve._literal(np.bool_(True)) == "true"
 for format, series in exports.items():
     assert len(series) == 2 and list(series.times) == [run["time"][2], 0.125]
     for name in names:
