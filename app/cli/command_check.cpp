@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/cli/commands.h"
+#include "app/cli/report_error.h"
 #include "app/health/check.h"
 #include "app/output/atomic_file.h"
 #include "app/picture/collider_looks.h"
@@ -219,7 +220,7 @@ int run_check(const CheckCommand& command) {
   if (options.is_json) {
     Json json = check_json(check, job, look);
     if (prediction) json["prediction"] = predict::to_json(*prediction);
-    std::cout << to_text(json) << "\n";
+    set_answer(std::move(json));
   } else if (!is_quiet) {
     print_check(check, job, look);
   }

@@ -181,7 +181,7 @@ void print_pair(const CompareOptions& options, const compare::PairResult& result
   json["differing"] = result.differing;
   json["frames"] = compare::series_json(result.moments);
   json["warnings"] = result.warnings;
-  std::cout << to_text(json) << "\n";
+  set_answer(std::move(json));
 }
 
 /// Pictures that differ are what was asked for: no failed check.
@@ -196,7 +196,6 @@ int draw_pair(const CompareOptions& options) {
   progress.clear();
   for (const std::string& warning : result.warnings) progress.warning(warning);
   print_pair(options, result);
-  finish_output();
   if (!result.is_whole)
     throw Error(exit_interrupted, "interrupted; the pictures so far are in " + pictures.out,
                 pictures.out);

@@ -27,8 +27,7 @@ int run_export_command(const run::ExportOptions& options) {
     json["out"] = folder;
     json["is_whole"] = result.is_whole;
     json["exports"] = result.exports;
-    std::cout << to_text(json) << "\n";
-    finish_output();
+    set_answer(std::move(json));
   }
   const std::string written = std::to_string(result.moments) +
                               (result.moments == 1 ? " moment" : " moments") + " in " + folder;

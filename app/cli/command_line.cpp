@@ -210,7 +210,9 @@ int run_command_line(const Words& words) {
   if (!leftovers.empty()) refuse_leftover(*called, leftovers.front());
   called->command.check_all();
   set_other_place(called->command.other_place);
-  warn_of_surroundings(called->command, error_output(words));
+  const ErrorOutput output = error_output(words);
+  warn_of_surroundings(called->command, output);
+  prepare_interrupt(output);
   return called->run();
 }
 

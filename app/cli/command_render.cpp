@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "app/cli/commands.h"
+#include "app/cli/report_error.h"
 #include "app/health/check.h"
 #include "app/health/findings.h"
 #include "app/health/mesh_findings.h"
@@ -65,7 +66,7 @@ void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json
     json["passes"] = job.passes;
     json["mosaics"] = Json::array();
     for (const scene::Mosaic& mosaic : job.scene.mosaics) json["mosaics"].push_back(mosaic.name);
-    std::cout << to_text(json) << "\n";
+    set_answer(std::move(json));
     return;
   }
   std::cout << "particles  about " << fixed_text(plan.particles, 0) << "\n"
@@ -171,7 +172,7 @@ void print_result(const run::RenderJob& job, const run::RenderRun& run,
   for (const auto& movie : result.movies) json["movies"].push_back(movie.string());
   if (!run.record().frames.empty())
     json["state_hash"] = record::hash_text(run.record().frames.back().state_hash);
-  std::cout << to_text(json) << "\n";
+  set_answer(std::move(json));
 }
 
 /// Words that pictures cannot show.

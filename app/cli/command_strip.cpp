@@ -23,11 +23,7 @@ int run_strip_command(const run::StripOptions& options) {
   if (options.run.is_json) {
     std::vector<double> drawn = job.times;
     drawn.resize(result.tiles);
-    std::cout << to_text({{"file", file},
-                          {"times", drawn},
-                          {"is_whole", drawn.size() == job.times.size()}})
-              << "\n";
-    finish_output();
+    set_answer({{"file", file}, {"times", drawn}, {"is_whole", drawn.size() == job.times.size()}});
   }
   const std::string written = std::to_string(result.tiles) + " of " +
                               std::to_string(job.times.size()) + " moments in " + file;

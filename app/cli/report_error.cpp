@@ -7,11 +7,13 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/options/common.h"
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
+#include "app/support/interrupt.h"
 #include "app/support/json.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
@@ -105,10 +107,7 @@ Report describe_current_error() {
   }
 }
 
-}  // namespace
-
-int report_current_error(const ErrorOutput& output) {
-  const Report report = describe_current_error();
+Json to_json(const Report& report) {
   Json json;
   json["error"] = report.message;
   json["exit_code"] = report.code;
@@ -118,20 +117,57 @@ int report_current_error(const ErrorOutput& output) {
   if (report.row > 0) json["column"] = report.column;
   json["hint"] = report.hint;
   json["warnings"] = report.warnings;
-  if (output.is_progress_json) {
-    Json event{{"event", "error"}};
-    event.update(json);
-    std::cerr << to_text(event, -1) << std::endl;
-  } else {
-    std::cerr << printable_text(report.line) << std::endl;
-  }
+  return json;
+}
+
+/// The line on stderr.
+std::string words_of(const Report& report, const ErrorOutput& output) {
+  if (!output.is_progress_json) return printable_text(report.line);
+  Json event{{"event", "error"}};
+  event.update(to_json(report));
+  return to_text(event, -1);
+}
+
+/// Of the command that runs; null: none.
+Json& kept_answer() {
+  static Json answer;
+  return answer;
+}
+
+/// What the command has answered, and that it failed.
+Json with_answer(Json error) {
+  Json json = std::exchange(kept_answer(), {});
+  if (!json.is_object()) return error;
+  if (error["warnings"].empty()) error.erase("warnings");
+  json.update(error);
+  if (!json.contains("warnings")) json["warnings"] = Json::array();
+  return json;
+}
+
+}  // namespace
+
+void set_answer(Json answer) {
+  kept_answer() = std::move(answer);
+}
+
+void prepare_interrupt(const ErrorOutput& output) {
+  const Report report = plain_report(exit_interrupted, "interrupted before anything was made");
+  set_last_words(words_of(report, output) + "\n",
+                 output.is_json ? to_text(to_json(report)) + "\n" : "");
+}
+
+int report_current_error(const ErrorOutput& output) {
+  const Report report = describe_current_error();
+  std::cerr << words_of(report, output) << std::endl;
   if (!output.log.empty() && options::is_log_name(output.log))
     append_line(output.log, time_text() + "  " + report.line);
-  if (output.is_json) std::cout << to_text(json) << std::endl;
+  if (output.is_json) std::cout << to_text(with_answer(to_json(report))) << std::endl;
   return report.code;
 }
 
 void finish_output() {
+  if (const Json answer = std::exchange(kept_answer(), {}); !answer.is_null())
+    std::cout << to_text(answer) << "\n";
   if (std::cout.flush()) return;
   pollfd out{STDOUT_FILENO, 0, 0};
   const bool is_reader_gone = ::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;

@@ -1,7 +1,13 @@
 #pragma once
 /// Ctrl-C: the first one asks, the second one quits.
 
+#include <string>
+
 namespace neve::app {
+
+/// What a request to stop writes where nothing is being made, to stderr and to stdout: set it
+/// before catch_interrupts().
+void set_last_words(std::string errors, std::string output);
 
 /// From now on SIGINT, SIGTERM and SIGHUP set a flag; the second of the first two ends the process
 /// with code 130. A terminal that closes may send several SIGHUP; under nohup it has no effect.

@@ -183,6 +183,24 @@ TEST_F(Cli, ErrorsAreJsonToo) {
   EXPECT_TRUE(json.contains("error") && json.contains("hint"));
 }
 
+/// A second document after the first is no JSON.
+TEST_F(Cli, AnAnswerAndTheErrorAfterItAreOneDocument) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "a", "--frames", "0", "--no-movie"}).exit_code,
+            0);
+  const auto compared =
+      neve({"render", "scene.toml", "--out", "b", "--frames", "0", "--no-movie", "--json", "--set",
+            "light.intensity=0.1", "--reference", "a/particles/0000.png"});
+  EXPECT_EQ(compared.exit_code, 9) << compared.errors;
+  const app::Json answer = app::parse_json(std::string_view(compared.output));
+  EXPECT_EQ(answer["exit_code"], 9);
+  EXPECT_EQ(answer["frames"], 1);
+  EXPECT_TRUE(contains(answer["error"], "the picture differs from a/particles/0000.png")) << answer;
+  const auto planned =
+      neve({"render", "scene.toml", "--dry-run", "--json", "--set", "limits.particles=10"});
+  EXPECT_EQ(planned.exit_code, 8);
+  EXPECT_EQ(app::parse_json(std::string_view(planned.output))["exit_code"], 8);
+}
+
 TEST_F(Cli, NoBackendExitsWithFour) {
   ::unsetenv("DISPLAY");
   ::unsetenv("WAYLAND_DISPLAY");

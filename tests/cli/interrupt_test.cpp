@@ -47,5 +47,23 @@ TEST_F(Cli, AnInterruptedCheckPrintsNoForecast) {
   EXPECT_EQ(read_text(printed), "");
 }
 
+/// Scripts that ask for JSON get an answer whenever they stop a command.
+TEST_F(Cli, ACommandInterruptedBeforeAnythingWasMadeAnswersInJson) {
+  const std::filesystem::path printed = folder / "printed";
+  const pid_t child = start_program({"/bin/sh", "-c",
+                                     "exec " NEVE_BINARY " check --json " NEVE_SOURCE_DIR
+                                     "/scenes/castle_hit.toml >" +
+                                         printed.string() + " 2>" + printed.string() + ".errors"});
+  ASSERT_TRUE(wait_for_file(printed));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ::kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child), 130);
+  const app::Json answer = app::parse_json(std::string_view(read_text(printed)));
+  EXPECT_EQ(answer["exit_code"], 130);
+  EXPECT_EQ(answer["error"], "interrupted before anything was made");
+  EXPECT_EQ(read_text(printed.string() + ".errors"),
+            "neve: error: interrupted before anything was made\n");
+}
+
 }  // namespace
 }  // namespace neve::test
