@@ -374,7 +374,7 @@ bool RenderRun::go_to_frame(int frame) {
 /// A picture that is made again as it was says which state it shows.
 void RenderRun::compare_with_picture(int frame, std::uint64_t state_hash) {
   const std::optional<record::PictureRecord>& picture = job_.picture;
-  if (!picture || picture->state_hash.empty() ||
+  if (!picture || job_.fork || picture->state_hash.empty() ||
       scene::number_of(job_.scene, frame) != picture->frame ||
       job_.overrides.size() != picture->overrides.size() ||
       job_.coarsening != picture->coarsening ||
