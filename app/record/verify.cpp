@@ -104,6 +104,9 @@ void check_export(const fs::path& folder, Verification& result) {
   const std::optional<Verification> exported =
       verify_list(output::export_list_path(folder / below), below);
   if (!exported) return;
+  if (exported->status == name(RunStatus::interrupted))
+    result.flaws.push_back({(fs::path(below) / output::export_list_path({}).filename()).string(),
+                            "says that neve export was interrupted"});
   result.files += exported->files;
   result.flaws.insert(result.flaws.end(), exported->flaws.begin(), exported->flaws.end());
 }

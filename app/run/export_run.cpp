@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <new>
+#include <optional>
 #include <set>
 
 #include "app/output/atomic_file.h"
@@ -239,7 +240,10 @@ ExportJob make_export_job(const ExportOptions& options) {
   ExportJob job;
   job.run = make_job(options.run);
   job.lock_folder = job.run.folder;
-  if (options.run.out.empty()) job.run.folder /= output::exports_folder;
+  if (options.run.out.empty())
+    job.run.folder /= output::exports_folder;
+  else if (const auto run = run_with_exports_in(job.run.folder))
+    job.lock_folder = *run;
   job.run.scene.exports = options.exports;
   check_exports(job.run.scene);
   job.are_frames = options.at.empty();
@@ -247,6 +251,18 @@ ExportJob make_export_job(const ExportOptions& options) {
     job.times = options.at;
     timeline::require_before_end("--at", job.times.back(), job.run);
     const double last = std::ceil(job.times.back() * job.run.scene.fps);
+/// The run that has its exports in a folder, which is written to in its name.
+std::optional<fs::path> run_with_exports_in(const fs::path& folder) {
+  std::error_code error;
+  fs::path place = fs::weakly_canonical(folder, error);
+  if (!place.has_filename()) place = place.parent_path();  // "out/exports/"
+  const fs::path run = place.parent_path();
+  if (error || place.filename() != output::exports_folder ||
+      !fs::exists(output::run_json_path(run), error))
+    return std::nullopt;
+  return run;
+}
+
     job.run.frames = {0, static_cast<int>(std::min(last, 1e9))};
     return job;
   }

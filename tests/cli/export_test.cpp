@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/output/atomic_file.h"
+#include "app/output/folder_lock.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/child.h"
 #include "tests/support/needs.h"
@@ -252,6 +253,40 @@ TEST_F(Export, OneWritesToAFolderAtATime) {
   ::kill(first, SIGKILL);
   EXPECT_EQ(wait_for(first), 128 + SIGKILL);
   EXPECT_EQ(neve({"export", "out", "--format", "csv", "--frames", "0-1"}).exit_code, 0);
+}
+
+/// Both write to exports/export.json: the later one dropped what the earlier had listed.
+TEST_F(Export, OneWritesToTheExportsOfARunAtATimeByEitherName) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "out", "--no-movie"}).exit_code, 0);
+  const app::output::FolderLock lock(folder / "out", "a test");
+  for (const std::string name : {"out/exports", "out/exports/", "./out/../out/exports"})
+    expect_refused({"out", "--format", "csv", "--frames", "0-1", "--out", name}, 6,
+                   "out: is in use by a test");
+  EXPECT_FALSE(exists("out/exports"));
+}
+
+TEST_F(Export, AnExportThatWasInterruptedIsNoCompleteRun) {
+  ASSERT_EQ(neve({"render", "scene.toml", "--out", "out", "--no-movie"}).exit_code, 0);
+  const std::filesystem::path printed = folder / "printed";
+  const pid_t child =
+      start_program({"/bin/sh", "-c",
+                     "cd " + folder.path().string() +
+                         "; exec " NEVE_BINARY
+                         " export out --format csv --frames 0-5000 --json --quiet >printed"});
+  ASSERT_TRUE(wait_for_file(folder / "out/exports/csv/0002.csv"));
+  ::kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child), 130);
+  // The answer and the error are one document.
+  const app::Json answer = app::parse_json(std::string_view(read_text(printed)));
+  EXPECT_EQ(answer["exit_code"], 130);
+  EXPECT_EQ(answer["is_whole"], false);
+  EXPECT_TRUE(contains(answer["error"], "interrupted; wrote ")) << answer;
+  const auto verified = neve({"verify", "out"});
+  EXPECT_EQ(verified.exit_code, 9);
+  EXPECT_TRUE(contains(verified.output,
+                       "out/exports/export.json says that neve export was "
+                       "interrupted"))
+      << verified.output;
 }
 
 TEST_F(Export, TimesInsideAFrameAreThoseOfDump) {
