@@ -65,7 +65,9 @@ bool Ledger::is_made(int frame) const {
   };
   const auto has_picture = [&](const std::string& view) {
     const record::ViewRecord& record = record_.view_records.at(view);
-    return record.frames && record.frames->has(number) && has(record::picture_name(view, number));
+    // What has the name of a frame before the earlier ones is their slate.
+    return record.frames && record.frames->has(number) && earlier_->frames_of(view).has(number) &&
+           has(record::picture_name(view, number));
   };
   const auto has_passes = [&](const std::string& view) {
     return has(record::channels_name(view, number));

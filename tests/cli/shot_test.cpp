@@ -159,6 +159,20 @@ TEST_F(Shots, CountBelowZero) {
   EXPECT_EQ(run_json("again")["frames"][0]["state_hash"], run_json("a")["frames"][0]["state_hash"]);
 }
 
+/// The slate of the earlier frames was taken for the picture of its number.
+TEST_F(Shots, EarlierFramesTakeThePlaceOfTheSlate) {
+  run({"render", "shot.toml", "--out", "a", "--no-movie", "--quiet", "--frames", "1002-1004"});
+  EXPECT_EQ(run_json("a")["slate"], 1001);
+  run({"render", "shot.toml", "--out", "a", "--no-movie", "--quiet"});
+  run({"render", "shot.toml", "--out", "whole", "--no-movie", "--quiet"});
+  EXPECT_EQ(run_json("a")["frames"].size(), 5u);
+  EXPECT_EQ(hashes("a"), hashes("whole"));
+  EXPECT_EQ(run_json("a")["slate"], 999);
+  EXPECT_TRUE(app::output::read_file(folder / "a/particles/1001.png") ==
+              app::output::read_file(folder / "whole/particles/1001.png"));
+  run({"verify", "a"});
+}
+
 /// A script waits for the number that the user sees.
 TEST_F(Shots, ScriptsOfViewNameTheirNumbers) {
   folder.write("script.json", R"([
