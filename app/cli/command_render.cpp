@@ -55,6 +55,13 @@ void refuse_strip(const run::RenderOptions& options, const run::RenderJob& job) 
             " makes it again; --frames renders frames of its scene");
 }
 
+/// A run that is drawn again has written its exports; those of new frames it has not.
+bool grows(const run::RenderJob& job) {
+  return job.folder == job.run && !job.run_frames.empty() &&
+         (job.frames.first < job.run_frames.front().frame ||
+          job.frames.last > job.run_frames.back().frame);
+}
+
 void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json) {
   if (is_json) {
     Json json = setup::to_json(plan);
@@ -379,8 +386,7 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
 int run_render(const run::RenderOptions& options) {
   run::RenderJob job = run::make_job(options);
   refuse_strip(options, job);
-  // A run that is drawn again has written its exports.
-  if (!job.run.empty() && !job.fork && !options.resume) job.scene.exports.clear();
+  if (!job.run.empty() && !job.fork && !options.resume && !grows(job)) job.scene.exports.clear();
   if (options.predicts && job.picture)
     throw UsageError("--predict", options.scene + " is a picture, one moment of a run",
                      "name its scene file");

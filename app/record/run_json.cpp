@@ -299,6 +299,20 @@ std::optional<RunStart> start_of(const Json& run) {
   }
 }
 
+std::optional<ViewFrames> frames_asked(const Json& run) {
+  try {
+    const ViewFrames asked{whole_number<int>(run.at("frames_asked").at(0)),
+                           whole_number<int>(run.at("frames_asked").at(1))};
+    const bool is_right = -output::max_frame <= asked.first && asked.first <= asked.last &&
+                          asked.last <= output::max_frame;
+    return is_right ? std::optional(asked) : std::nullopt;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 FileHashes file_hashes(const Json& run) {
   FileHashes files;
   if (!run.is_object() || !run.contains("files") || !run["files"].is_object()) return files;
@@ -383,6 +397,7 @@ Json to_json(const RunRecord& run) {
   json["frames"] = Json::array();
   for (const FrameRecord& frame : run.frames) json["frames"].push_back(to_json(frame));
   json["first_number"] = run.first_number;
+  if (run.asked) json["frames_asked"] = {run.asked->first, run.asked->last};
   if (run.start) json["start"] = start_json(*run.start);
   json["world_offset"] = run.world_offset ? output::vector_json(*run.world_offset) : Json();
   json["slate"] = run.slate ? Json(*run.slate) : Json();

@@ -93,8 +93,9 @@ struct RunRecord {
   double coarsening = 1;                   ///< factor of --coarsen
   Json prediction;  ///< of --predict, for full resolution, as predict::to_json; null without
   Json forked;      ///< where it left another run; null: nowhere
-  std::optional<RunStart> start;  ///< where frame 0 is not among the frames
-  std::string simulation;         ///< hash of all that the bits of its states depend on
+  std::optional<ViewFrames> asked;  ///< numbers of the frames that are to be drawn
+  std::optional<RunStart> start;    ///< where frame 0 is not among the frames
+  std::string simulation;           ///< hash of all that the bits of its states depend on
   std::map<std::string, std::string>
       scene_files{};                               ///< that the scene names, with the hash of each
   std::vector<std::string> views;                  ///< that this command draws
@@ -159,6 +160,9 @@ Json read_run_json(const std::filesystem::path& folder);
 
 /// The frames that it lists; none if they cannot be read.
 std::vector<FrameRecord> frame_records(const Json& run);
+
+/// The frames that are to be drawn; absent in runs of earlier versions.
+std::optional<ViewFrames> frames_asked(const Json& run);
 
 /// The files that it lists; none if they cannot be read.
 FileHashes file_hashes(const Json& run);

@@ -131,7 +131,11 @@ RenderJob make_job(const RenderOptions& options) {
   if (!options.has_caption)
     for (scene::View& view : job.scene.views) std::erase(view.layers, scene::Layer::caption);
   set_sizes(options, job.scene);
-  if (options.frames) job.frames = setup::frames_of(job.scene, *options.frames);
+  if (options.frames) {
+    job.frames = setup::frames_of(job.scene, *options.frames);
+    if (options.frames->first == setup::FrameRange::from_start && job.first <= job.frames.last)
+      job.frames.first = job.first;
+  }
   if (options.quality) job.quality = *options.quality;
   if (!options.out.empty()) job.folder = options.out;
   if (options.shutter)

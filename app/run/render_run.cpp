@@ -155,6 +155,7 @@ std::vector<int> RenderRun::begin() {
     result_.has_checkpoint = true;
     if (found->flawed.empty()) continue_from(found->moment);
   }
+  ledger_.record().asked = frames_asked(is_same ? earlier : std::nullopt);
   ledger_.record().retries = timeline_.here().retries;
   if (frames_.first > 0) {
     const bool is_known =
@@ -184,10 +185,31 @@ void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   was_cut_off_ = status != record::name(record::RunStatus::ok) &&
                  status != record::name(record::RunStatus::diverged);
   result_.has_checkpoint = newest_checkpoint_ >= 0;
-  if (const Json warnings = earlier->json.value("warnings", Json::array()); warnings.is_array())
-    for (const Json& warning : warnings)
-      if (warning.is_string() && !warning.get<std::string>().starts_with(no_movie))
-        told_before_.push_back(warning);
+  keep_warnings(earlier, [](const std::string& text) { return !text.starts_with(no_movie); });
+}
+
+/// Those of the command, and those that the run has or was asked for before.
+record::ViewFrames RenderRun::frames_asked(const std::optional<EarlierRun>& earlier) const {
+  const setup::FrameRange ours = setup::numbers_of(job_.scene, frames_);
+  record::ViewFrames asked{ours.first, ours.last};
+  const auto join = [&](const record::ViewFrames& others) {
+    asked = {std::min(asked.first, others.first), std::max(asked.last, others.last)};
+  };
+  if (!earlier) return asked;
+  if (const auto& listed = earlier->pictures.frames; !listed.empty())
+    join({listed.front().frame, listed.back().frame});
+  const auto before = record::frames_asked(earlier->json);
+  if (before && !job_.options.frames) join(*before);
+  return asked;
+}
+
+void RenderRun::keep_warnings(const std::optional<EarlierRun>& earlier,
+                              bool (*is_kept)(const std::string& warning)) {
+  if (!earlier) return;
+  const Json warnings = earlier->json.value("warnings", Json::array());
+  if (!warnings.is_array()) return;
+  for (const Json& warning : warnings)
+    if (warning.is_string() && is_kept(warning.get<std::string>())) told_before_.push_back(warning);
 }
 
 /// States that an earlier command of the same simulation has listed at its end.

@@ -50,6 +50,10 @@ class RenderRun {
  private:
   /// Adds to the run that the folder has, or replaces it. @throws UsageError for what would be lost
   void begin_beside(const std::optional<EarlierRun>& earlier);
+  record::ViewFrames frames_asked(const std::optional<EarlierRun>& earlier) const;
+  /// Warnings of the earlier part of the run stay in its run.json.
+  void keep_warnings(const std::optional<EarlierRun>& earlier,
+                     bool (*is_kept)(const std::string& warning));
   std::set<int> trusted_states(const std::optional<EarlierRun>& earlier) const;
   timeline::StatesFolder states_folder(const std::optional<EarlierRun>& earlier) const;
   void note_states();

@@ -158,6 +158,19 @@ void require_same_files(const record::FileHashes& before, const Origin& origin) 
                   file, "restore the old file, or render the scene file into another folder");
 }
 
+/// Of a run that is continued: those that it was asked for; once it has them, all of its scene.
+/// @param before  the scene with the numbers that the run has
+setup::FrameRange frames_to_make(const Json& run, const scene::Scene& before,
+                                 const Origin& origin) {
+  const int end = std::max(origin.first, scene::last_frame(origin.scene));
+  const std::optional<record::ViewFrames> asked = record::frames_asked(run);
+  if (!asked) return {origin.first, end};
+  const int first = std::max(0, scene::frame_of(before, asked->first)),
+            last = std::max(first, scene::frame_of(before, asked->last));
+  const bool has_them = !origin.run_frames.empty() && origin.run_frames.back().frame >= last;
+  return {first, has_them ? std::max(last, end) : last};
+}
+
 void read_run(const Edits& edits, Origin& origin) {
   if (edits.coarsening || edits.is_fast || edits.coarsened > 1)
     throw UsageError(edits.coarsening ? "--coarsen"
@@ -170,23 +183,35 @@ void read_run(const Edits& edits, Origin& origin) {
   const fs::path file = output::run_json_path(origin.run);
   try {
     const Json run = output::read_json(file);
-    origin.scene = scene::read_scene_text(run.at("scene").get<std::string>(),
-                                          file.string() + " (its scene)", {}, changes);
+    const auto text = run.at("scene").get<std::string>();
+    const std::string place = file.string() + " (its scene)";
+    origin.scene = scene::read_scene_text(text, place, {}, changes);
     origin.changes = changes_of_run(run, file);
     origin.overrides = run.value("overrides", std::vector<std::string>{});
     origin.overrides.insert(origin.overrides.end(), edits.overrides.begin(), edits.overrides.end());
     origin.coarsening = run.value("coarsen", 1.0);
     origin.run_frames = record::frame_records(run);
+    // By the numbers that the run has, whatever the edits say.
+    const scene::Scene before = scene::read_scene_text(text, place);
     for (record::FrameRecord& made : origin.run_frames)
-      made.frame = scene::frame_of(origin.scene, made.frame);
+      made.frame = scene::frame_of(before, made.frame);
+    if (!origin.run_frames.empty() && origin.run_frames.front().frame < 0)
+      throw Error(
+          exit_invalid_scene,
+          fmt::format("{}: error: its frame {} is before the first of its scene, {}", file.string(),
+                      scene::number_of(before, origin.run_frames.front().frame),
+                      scene::number_of(before, 0)),
+          file.string(), "render the scene file into another folder");
     require_same_files(run.value("scene_files", record::FileHashes{}), origin);
+    if (const Json forked = run.value("forked", Json()); forked.is_object())
+      origin.first = scene::frame_of(before, whole_number<int>(forked.at("frame"))) + 1;
+    origin.frames = frames_to_make(run, before, origin);
   } catch (const nlohmann::json::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
                 file.string());
   }
-  origin.frames = {0, scene::last_frame(origin.scene)};
   if (!origin.run_frames.empty() && !edits.continues_run)
-    origin.frames = {std::max(0, origin.run_frames.front().frame), origin.run_frames.back().frame};
+    origin.frames = {origin.run_frames.front().frame, origin.run_frames.back().frame};
 }
 
 }  // namespace

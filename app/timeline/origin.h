@@ -28,7 +28,7 @@ struct Edits {
       Agreement::asked;        ///< to the cost and the files of a picture that came alone
   bool is_start_only = false;  ///< a picture's frame is not made, its scene is looked at
   bool takes_cards = false;    ///< pictures of cards, whose scene is a stand-in
-  bool continues_run = false;  ///< all frames of a run's scene are wanted, not those it has
+  bool continues_run = false;  ///< all frames that a run is to have are wanted
   double coarsened = 1;        ///< a scene file was coarsened by that before
 };
 
@@ -40,7 +40,8 @@ struct Origin {
   std::vector<scene::LiveChange> changes;  ///< made while the run ran
   double coarsening = 1;                   ///< done to the scene, a picture's included
   std::optional<scene::Scene> finer;       ///< the scene before --coarsen of the edits
-  setup::FrameRange frames;                ///< that it shows, counted from 0: of a picture one
+  int first = 0;             ///< frame of its own: those before a fork are of the run that it left
+  setup::FrameRange frames;  ///< that it shows, counted from 0: of a picture one
   std::optional<record::PictureRecord> picture;  ///< the origin is this picture
   std::filesystem::path run;                     ///< the origin is the run in this folder
   std::vector<record::FrameRecord> run_frames;   ///< that the run lists, counted from 0

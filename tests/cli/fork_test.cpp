@@ -133,6 +133,38 @@ TEST_F(Fork, ABranchOfABranchHasTheChangesOfBoth) {
 }
 
 /// The card is of the snow that the branch has, and no run itself.
+/// Those before it are pictures of the run that it left.
+TEST_F(Fork, ABranchBeginsAtItsForkWhateverIsDrawnOfItLater) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  ASSERT_EQ(render({"a", "--from", "0.084", "--set", "material.snow.hardening=4", "--out", "b"})
+                .exit_code,
+            0);
+  const auto first = [&] { return hashes("b").begin()->first; };
+  ASSERT_EQ(first(), 3);
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"b", "--resume"}, {"b", "--frames", "6"}}) {
+    const auto done = render(more);
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    EXPECT_FALSE(contains(done.errors, "missing")) << done.errors;
+    EXPECT_EQ(first(), 3);
+    EXPECT_FALSE(exists("b/particles/0002.png"));
+  }
+  EXPECT_EQ(hashes("b").rbegin()->first, 6);
+  EXPECT_EQ(neve({"export", "b", "--format", "csv", "--frames", "5"}).exit_code, 0);
+  EXPECT_FALSE(exists("b/exports/csv/0002.csv"));
+  EXPECT_TRUE(exists("b/exports/csv/0003.csv") && exists("b/exports/csv/0005.csv"));
+}
+
+/// It is meant to be another state than the picture shows.
+TEST_F(Fork, ABranchOfAPictureIsNotTakenForOtherBits) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const auto done = render({"a/particles/0003.png", "--from", "0.05", "--set",
+                            "solver.gravity=[0, 9, 0]", "--frames", "4", "--out", "b"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_FALSE(contains(done.errors, "another state")) << done.errors;
+  EXPECT_EQ(json_of("b/run.json")["warnings"], app::Json::array());
+}
+
 TEST_F(Fork, ACardOfABranchHasItsChange) {
   ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
   ASSERT_EQ(
