@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <new>
 #include <set>
 
 #include "app/output/movie_format.h"
 #include "app/output/sequence.h"
+#include "app/record/earlier.h"
 #include "app/run/identity.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
@@ -45,6 +47,45 @@ scene::View with_settings_of(const scene::Scene& scene, scene::View view) {
 scene::Mosaic with_settings_of(const scene::Scene& scene, scene::Mosaic mosaic) {
   if (!mosaic.width) mosaic.width = scene.size.width;
   return mosaic;
+}
+
+/// The scene without its views and what they can have of their own.
+scene::Scene without_views(scene::Scene scene) {
+  const scene::Scene plain;
+  scene.views.clear();
+  scene.mosaics.clear();
+  scene.exports.clear();
+  scene.size = plain.size;
+  scene.camera = plain.camera;
+  scene.background = plain.background;
+  scene.limits = plain.limits;
+  return scene;
+}
+
+/// Light, words and numbers of frames, which all pictures of a run share: where those of two scenes
+/// differ, in the words of difference_text.
+std::string difference_of_look(const scene::Scene& earlier, const scene::Scene& now) {
+  scene::Scene before = without_views(earlier), after = without_views(now);
+  before.frames = after.frames;
+  const std::vector<scene::Difference> list = scene::differences(before, after);
+  return list.empty() ? "" : difference_text(list);
+}
+
+/// Views with pictures that the command draws nothing of.
+std::vector<std::string> other_views(const EarlierRun& earlier, const record::RunRecord& ours) {
+  std::vector<std::string> views = earlier.pictures.views;
+  std::erase_if(views, [&](const std::string& view) {
+    return std::ranges::find(ours.views, view) != ours.views.end() ||
+           earlier.frames_of(view).count() <= 0;
+  });
+  return views;
+}
+
+/// The scene of a run whose views are all drawn anew.
+scene::Scene with_length_and_exports_of(const scene::Scene& earlier, scene::Scene now) {
+  if (now.exports.empty()) now.exports = earlier.exports;
+  now.frames = std::max(earlier.frames, now.frames);
+  return now;
 }
 
 /// Views of both, those of `now` in the place of earlier ones; what they take from their scene
@@ -187,16 +228,15 @@ std::optional<EarlierRun> earlier_run(const RenderJob& job, const record::RunRec
   } catch (const std::exception&) {
     return std::nullopt;  // what it lists goes if it is of a run, as ever
   }
-  earlier.is_same = earlier.json.value("simulation", Json()) == ours.simulation;
+  earlier.has_same_numbers = scene::number_of(earlier.scene, 0) == ours.first_number;
+  earlier.is_same =
+      earlier.has_same_numbers && earlier.json.value("simulation", Json()) == ours.simulation;
   return earlier;
 }
 
 std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
                        const std::string& view) {
-  scene::Scene scene = job.scene;
-  scene.views.clear();
-  scene.mosaics.clear();
-  scene.exports.clear();
+  scene::Scene scene = without_views(job.scene);
   const auto add = [&](const std::string& name) {
     if (const scene::View* own = view_called(job.scene, name))
       scene.views.push_back(with_settings_of(job.scene, *own));
@@ -213,11 +253,6 @@ std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
   std::erase_if(picture.overrides, [](const std::string& change) {
     return !scene::concerns_simulation(change.substr(0, change.find('=')));
   });
-  const scene::Scene plain;
-  scene.size = plain.size;
-  scene.camera = plain.camera;
-  scene.background = plain.background;
-  scene.limits = plain.limits;
   picture.scene = scene::write_scene(scene);
   return identity_of(std::move(picture));
 }
@@ -228,17 +263,56 @@ void refuse_sweep_folder(const RenderJob& job) {
     refuse(job, "is the folder of a sweep", "", "choose another folder with --out");
 }
 
+void refuse_foreign_files(const RenderJob& job, const record::RunRecord& ours) {
+  std::error_code error;
+  if (job.options.replaces || fs::exists(output::run_json_path(job.folder), error)) return;
+  const setup::FrameRange numbers = setup::numbers_of(job.scene, job.frames);
+  std::vector<std::string> files;
+  const auto look_at = [&](const fs::path& file) {
+    if (fs::exists(fs::symlink_status(file, error)))
+      files.push_back(file.lexically_relative(job.folder).generic_string());
+  };
+  for (const std::string& view : ours.views) {
+    // Of very many frames few are there.
+    for (fs::directory_iterator at(job.folder / view, error), end; !error && at != end;
+         at.increment(error)) {
+      const int number = std::atoi(at->path().stem().string().c_str());
+      if (at->path() == output::frame_path(job.folder, view, number) && number >= numbers.first &&
+          number <= numbers.last)
+        look_at(at->path());
+    }
+    if (job.has_movies()) look_at(output::movie_path(job.folder, view, job.options.movie.format));
+  }
+  if (files.empty()) return;
+  std::ranges::sort(files);
+  refuse(job, "has files that no run there has made", record::files_text(files),
+         "add --replace, or choose another folder with --out");
+}
+
 void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::RunRecord& ours,
                  const record::PictureRecord& picture) {
   const std::string elsewhere = "choose another folder with --out";
   if (!earlier.is_same) {
     if (!is_of_scene(job, earlier))
       refuse(job, "is the folder of another scene, " + name_of_earlier(earlier), "", elsewhere);
+    if (!earlier.has_same_numbers && (!job.options.replaces || job.folder == job.run))
+      refuse(job,
+             fmt::format("has frames from {} on, and these begin with {}",
+                         scene::number_of(earlier.scene, 0), ours.first_number),
+             files_text(earlier.pictures.views, earlier),
+             (job.folder == job.run ? "" : "add --replace, or ") + elsewhere);
     if (!job.options.replaces)
       refuse(job, "has another simulation: " + difference_from_run(job.folder, picture, ours.simd),
              files_text(earlier.pictures.views, earlier), "add --replace, or " + elsewhere);
     return;
   }
+  // The scene in run.json is that of all pictures.
+  if (const std::vector<std::string> others = other_views(earlier, ours); !others.empty())
+    if (const std::string what = difference_of_look(earlier.scene, job.scene); !what.empty())
+      refuse(job,
+             fmt::format("has pictures of {} drawn otherwise, and all of a run share it: {}",
+                         joined(others, ", "), what),
+             "", elsewhere + ", or draw all of its views anew in one command, with --replace");
   if (job.options.replaces) return;
   const std::vector<std::string> views = other_drawings(earlier, ours);
   if (!views.empty())
@@ -271,7 +345,9 @@ void keep_views(const RenderJob& job, const EarlierRun& earlier, record::RunReco
   }
   for (const std::string& view : ours.views)
     if (!earlier.has(view)) ours.view_records[view].frames = record::ViewFrames{};
-  ours.scene = scene::write_scene(with_views_of(earlier.scene, job.scene));
+  ours.scene = scene::write_scene(other_views(earlier, ours).empty()
+                                      ? with_length_and_exports_of(earlier.scene, job.scene)
+                                      : with_views_of(earlier.scene, job.scene));
   if (!job.run.empty()) ours.scene_file = name_of_earlier(earlier);
   for (const char* key : {"forked", "prediction", "slate", "validation", "divergence", "exports",
                           "passes", "retries"})

@@ -16,7 +16,8 @@ struct EarlierRun {
   Json json;
   record::Pictures pictures;
   scene::Scene scene;
-  bool is_same = false;  ///< simulation as that of the command
+  bool has_same_numbers = true;  ///< of frames, as the command
+  bool is_same = false;          ///< simulation and numbers as those of the command
 
   bool has(const std::string& view) const;
   /// Of the pictures of a view, in this run: those of the list, or the part that it says.
@@ -36,6 +37,10 @@ std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
 
 /// @throws UsageError for the folder of a sweep, whose runs have folders of their own
 void refuse_sweep_folder(const RenderJob& job);
+
+/// @throws UsageError where files lie in the place of pictures and movies of the command in a
+/// folder without a run, unless the options replace them
+void refuse_foreign_files(const RenderJob& job, const record::RunRecord& ours);
 
 /// @throws UsageError that says what the command would replace, unless the options replace it, and
 /// for the folder of another scene

@@ -121,14 +121,28 @@ bool has_same_settings(const Json& a, const Json& b) {
       [&](const char* key) { return a.value(key, Json()) == b.value(key, Json()); });
 }
 
+bool is_time(const Json& value, double time) {
+  return value.is_number() && std::abs(value.get<double>() - time) <= 1e-9;
+}
+
+/// A frame of another time has the number now, where the scene begins with another number.
+bool has_other_numbers(const Json& before, const ExportJob& job) {
+  const scene::Scene& scene = job.run.scene;
+  return std::ranges::any_of(before.value("files", Json::array()), [&](const Json& file) {
+    const Json number = file.is_object() ? file.value("number", Json()) : Json();
+    return !number.is_number() ||
+           !is_time(file.value("time", Json()),
+                    (number.get<double>() - scene::number_of(scene, 0)) / scene.fps);
+  });
+}
+
 /// Files of moments are numbered from 0, whatever the moments are.
 bool has_other_moments(const Json& before, const ExportJob& job) {
   const Json at = before.value("at", Json());
-  if (job.are_frames || !at.is_array()) return job.are_frames == at.is_array();
+  if (job.are_frames != !at.is_array()) return true;
+  if (job.are_frames) return has_other_numbers(before, job);
   for (std::size_t k = 0; k < at.size(); ++k)
-    if (k >= job.times.size() || !at[k].is_number() ||
-        std::abs(at[k].get<double>() - job.times[k]) > 1e-9)
-      return true;
+    if (k >= job.times.size() || !is_time(at[k], job.times[k])) return true;
   return false;
 }
 
@@ -234,6 +248,18 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
   output::write_file(output::export_list_path(job.run.folder), record::with_own_hash(json));
 }
 
+/// The run that has its exports in a folder, which is written to in its name.
+std::optional<fs::path> run_with_exports_in(const fs::path& folder) {
+  std::error_code error;
+  fs::path place = fs::weakly_canonical(folder, error);
+  if (!place.has_filename()) place = place.parent_path();  // "out/exports/"
+  const fs::path run = place.parent_path();
+  if (error || place.filename() != output::exports_folder ||
+      !fs::exists(output::run_json_path(run), error))
+    return std::nullopt;
+  return run;
+}
+
 }  // namespace
 
 ExportJob make_export_job(const ExportOptions& options) {
@@ -251,18 +277,6 @@ ExportJob make_export_job(const ExportOptions& options) {
     job.times = options.at;
     timeline::require_before_end("--at", job.times.back(), job.run);
     const double last = std::ceil(job.times.back() * job.run.scene.fps);
-/// The run that has its exports in a folder, which is written to in its name.
-std::optional<fs::path> run_with_exports_in(const fs::path& folder) {
-  std::error_code error;
-  fs::path place = fs::weakly_canonical(folder, error);
-  if (!place.has_filename()) place = place.parent_path();  // "out/exports/"
-  const fs::path run = place.parent_path();
-  if (error || place.filename() != output::exports_folder ||
-      !fs::exists(output::run_json_path(run), error))
-    return std::nullopt;
-  return run;
-}
-
     job.run.frames = {0, static_cast<int>(std::min(last, 1e9))};
     return job;
   }

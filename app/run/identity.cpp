@@ -66,6 +66,13 @@ std::string identity_of(record::PictureRecord picture) {
   return record::hash_of(to_text(to_json(picture)));
 }
 
+std::string difference_text(const std::vector<scene::Difference>& list) {
+  const std::size_t more = list.size() - 1;
+  return list.front().address + " was " + value_or_none(list.front().before) + " and is " +
+         value_or_none(list.front().after) +
+         (more > 0 ? ", and " + std::to_string(more) + " more differ" : "");
+}
+
 std::string difference_from_run(const std::filesystem::path& folder,
                                 const record::PictureRecord& picture, const std::string& simd) {
   const bool of_simulation = !simd.empty();
@@ -80,12 +87,7 @@ std::string difference_from_run(const std::filesystem::path& folder,
       return of_simulation ? !scene::concerns_simulation(d.address)
                            : d.address == "view" || d.address == "mosaic";
     });
-    if (!list.empty()) {
-      const std::size_t more = list.size() - 1;
-      return list.front().address + " was " + value_or_none(list.front().before) + " and is " +
-             value_or_none(list.front().after) +
-             (more > 0 ? ", and " + std::to_string(more) + " more differ" : "");
-    }
+    if (!list.empty()) return difference_text(list);
     const auto version = run.at("version").get<std::string>();
     if (version != picture.version) return "it was made by version " + version;
     if (run.at("changes") != scene::to_json(picture.changes)) return "it had other changes";

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/run/render_job.h"
+#include "app/scene/flat.h"
 
 namespace neve::app::run {
 
@@ -20,6 +22,9 @@ std::string identity_of_states(const RenderJob& job, const std::string& simd);
 
 /// Names all that bits of states and pictures depend on, but the machine.
 std::string identity_of(record::PictureRecord picture);
+
+/// "light.intensity was 1 and is 0.2, and 2 more differ". @param list  not empty
+std::string difference_text(const std::vector<scene::Difference>& list);
 
 /// First difference between the run of a folder and this one, with both values; values that may
 /// differ where run.json cannot tell.

@@ -176,6 +176,7 @@ std::vector<int> RenderRun::begin() {
 void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   if (earlier) refuse_loss(job_, *earlier, record(), picture_);
   if (!earlier || !earlier->is_same) return ledger_.replace_earlier();
+  refuse_foreign_files(job_, record());
   ledger_.add_to(*earlier);
   frames_ = frames_without_gaps(job_, record());
   for (const auto& [frame, steps] : output::checkpoint_steps(job_.folder))

@@ -6,6 +6,7 @@
 
 #include "app/output/atomic_file.h"
 #include "tests/cli/run_neve.h"
+#include "tests/support/child.h"
 
 namespace neve::test {
 namespace {
@@ -260,6 +261,149 @@ TEST_F(Addition, AnotherDrawingOfAnExtendedRunHasAllOfItsFrames) {
   render({"scene.toml", "--out", "c", "--no-movie", "--frames", "0-2"});
   render({"c", "--no-movie", "--resume", "--out", "./c"});
   EXPECT_EQ(hashes("c").size(), 5u);
+}
+
+/// By its own numbers the frames of a run were others, or none: frame 0 had the state of frame 1.
+TEST_F(Addition, FramesOfARunKeepTheirStatesUnderOtherNumbers) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const auto before = hashes("a");
+  for (const auto& [change, first] :
+       {std::pair{"first_frame=1001", 1001}, std::pair{"handles=1", -1}}) {
+    const std::string out = std::string("of_") + std::to_string(first);
+    render({"a", "--set", change, "--out", out, "--no-movie"});
+    const auto after = hashes(out);
+    ASSERT_EQ(after.size(), before.size()) << change;
+    for (const auto& [frame, hash] : before) EXPECT_EQ(after.at(frame + first), hash) << change;
+    for (const char* command : {"export", "strip"}) {
+      std::vector<std::string> words{command, "a", "--set", change, "--out"};
+      words.push_back(command + out + (command == std::string("strip") ? ".png" : ""));
+      if (command == std::string("export")) words.insert(words.end(), {"--format", "csv"});
+      const auto done = neve(words);
+      EXPECT_EQ(done.exit_code, 0) << done.errors;
+      EXPECT_FALSE(contains(done.errors, "another state")) << done.errors;
+    }
+  }
+  EXPECT_TRUE(exists("exportof_1001/csv/1001.csv"));
+}
+
+TEST_F(Addition, FramesOfOtherNumbersAreNotMixedWithThoseThatAreThere) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const std::string record = read_text(folder / "a/run.json");
+  for (const char* change : {"first_frame=2", "handles=2"}) {
+    const auto added = render({"scene.toml", "--set", change, "--out", "a", "--view", "smoke"}, 2);
+    EXPECT_TRUE(contains(added.errors, "a has frames from 0 on, and these begin with ")) << change;
+    EXPECT_TRUE(contains(added.errors, "add --replace, or choose another folder with --out"));
+    // In its own folder a run would lose what it has besides its pictures.
+    const auto own = render({"a", "--set", change, "--view", "smoke", "--replace"}, 2);
+    EXPECT_TRUE(contains(own.errors, "; choose another folder with --out")) << own.errors;
+  }
+  EXPECT_EQ(read_text(folder / "a/run.json"), record);
+  render({"scene.toml", "--set", "first_frame=2", "--out", "a", "--no-movie", "--replace"});
+  EXPECT_EQ(hashes("a").begin()->first, 2);
+  EXPECT_EQ(hashes("a").size(), 5u);
+  expect_whole("a");
+  // Neither are the files of an export.
+  const std::vector<std::string> exported{"export", "scene.toml", "--format", "csv", "--out", "e"};
+  EXPECT_EQ(neve(exported).exit_code, 0);
+  const std::string first = read_text(folder / "e/csv/0000.csv");
+  std::vector<std::string> others = exported;
+  others.insert(others.end(), {"--set", "handles=1"});
+  const auto refused = neve(others);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.errors, "at other frames or times")) << refused.errors;
+  EXPECT_EQ(read_text(folder / "e/csv/0000.csv"), first);
+  EXPECT_EQ(neve(exported).exit_code, 0) << "the same again";
+}
+
+/// run.json had the scene of the first drawing: drawn again, a dark picture was light.
+TEST_F(Addition, TheSceneOfARunIsTheOneThatAllOfItsPicturesShow) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"scene.toml", "--out", "a", "--no-movie", "--replace", "--set", "light.intensity=0.2",
+          "--set", "title=Dark"});
+  const std::string scene = json_of("a/run.json")["scene"];
+  EXPECT_TRUE(contains(scene, "intensity = 0.2") && contains(scene, "title = \"Dark\"")) << scene;
+  render({"a", "--out", "b", "--no-movie"});
+  EXPECT_TRUE(pictures("a/particles") == pictures("b/particles"));
+  render({"a", "--no-movie", "--resume"});
+  render({"a", "--no-movie", "--view", "smoke"});
+  // A run has one light.
+  for (const std::string more : {"--quiet", "--replace"}) {
+    const auto refused =
+        render({"a", "--no-movie", "--view", "smoke", "--set", "light.intensity=1", more}, 2);
+    EXPECT_TRUE(contains(refused.errors,
+                         "pictures of particles drawn otherwise, and all of a run "
+                         "share it: light.intensity was 0.2 and is 1"))
+        << refused.errors;
+  }
+  render({"a", "--no-movie", "--view", "smoke", "--view", "particles", "--set", "light.intensity=1",
+          "--replace"});
+  EXPECT_FALSE(contains(json_of("a/run.json")["scene"], "intensity = 0.2"));
+  expect_whole("a");
+}
+
+TEST_F(Addition, WholeTablesOfTheSimulationAreNoDrawing) {
+  render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0"});
+  for (const char* change : {"solver={cell_size=0.04, gravity=[0, 5, 0]}", "solver=none", "dust={}",
+                             "dust=none", "collider.floor=none"}) {
+    const auto refused = render({"a", "--set", change, "--out", "b"}, 2);
+    EXPECT_TRUE(contains(refused.errors, " belongs to the simulation")) << refused.errors;
+  }
+}
+
+/// The program advises --resume: it ended at the last frame of the scene, and drew frames that
+/// nobody had asked for.
+TEST_F(Addition, AResumedRunHasTheFramesThatItWasAskedFor) {
+  render({"scene.toml", "--out", "whole", "--no-movie", "--frames", "2-40"});
+  const pid_t child = start_program({NEVE_BINARY, "render", folder / "scene.toml", "--out",
+                                     folder / "a", "--frames", "2-40", "--quiet", "--no-movie"});
+  ASSERT_TRUE(wait_for_file(folder / "a/particles/0004.png"));
+  ::kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child), 75);
+  EXPECT_EQ(json_of("a/run.json")["frames_asked"], (app::Json{2, 40}));
+  const auto more = render({"a", "--resume", "--no-movie"});
+  EXPECT_FALSE(contains(more.errors, "missing")) << more.errors;
+  EXPECT_EQ(hashes("a"), hashes("whole"));
+  EXPECT_FALSE(exists("a/particles/0001.png"));
+  // One that has them continues to the end of its scene.
+  render({"scene.toml", "--out", "b", "--no-movie", "--frames", "1-2"});
+  render({"b", "--resume", "--no-movie"});
+  EXPECT_EQ(hashes("b").begin()->first, 1);
+  EXPECT_EQ(hashes("b").rbegin()->first, 4);
+}
+
+TEST_F(Addition, ARunThatGrowsWritesItsExports) {
+  folder.write("scene.toml",
+               std::string(tiny_scene) + "\n[[export]]\nname = \"mesh\"\nformat = \"ply\"\n");
+  render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-3"});
+  render({"a", "--no-movie", "--frames", "0-6"});
+  for (int frame = 0; frame <= 6; ++frame)
+    EXPECT_TRUE(exists("a/exports/mesh/000" + std::to_string(frame) + ".ply")) << frame;
+  EXPECT_EQ(json_of("a/run.json")["exports"][0]["files"].size(), 7u);
+  expect_whole("a");
+}
+
+/// They were overwritten without a word.
+TEST_F(Addition, FilesThatNoRunHasMadeAreNotReplacedInSilence) {
+  for (const char* file : {"a/particles/0003.png", "b/particles.gif"}) {
+    folder.write(file, "mine");
+    const std::string out = std::string(file).substr(0, 1);
+    std::vector<std::string> words{"scene.toml", "--out", out, "--movie", "gif"};
+    if (out == "b" && !app::output::find_program("ffmpeg")) continue;
+    const auto refused = render(words, 2);
+    EXPECT_TRUE(contains(refused.errors, out +
+                                             " has files that no run there has made; it would "
+                                             "replace " +
+                                             std::string(file).substr(2)))
+        << refused.errors;
+    EXPECT_EQ(read_text(folder / file), "mine");
+    words.push_back("--replace");
+    render(words);
+    EXPECT_NE(read_text(folder / file), "mine");
+    expect_whole(out);
+  }
+  folder.write("c/particles/0009.png", "mine");
+  render({"scene.toml", "--out", "c", "--no-movie"});
+  EXPECT_EQ(read_text(folder / "c/particles/0009.png"), "mine") << "no frame of the run";
 }
 
 /// What a run consists of is replaced by commands that draw the run, by no other.
