@@ -151,6 +151,8 @@ std::vector<int> RenderRun::begin() {
     timeline_.moments().add_run(job_.run);
   is_continued_ = found || job_.fork;
   if (found) {
+    keep_warnings(earlier, [](const std::string& text) { return text.starts_with(earlier_part); });
+    for (std::string& warning : found->warnings) told_before_.push_back(std::move(warning));
     ledger_.take(found->moment);
     result_.has_checkpoint = true;
     if (found->flawed.empty()) continue_from(found->moment);
@@ -174,9 +176,9 @@ std::vector<int> RenderRun::begin() {
 }
 
 void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
+  refuse_foreign_files(job_, record());
   if (earlier) refuse_loss(job_, *earlier, record(), picture_);
   if (!earlier || !earlier->is_same) return ledger_.replace_earlier();
-  refuse_foreign_files(job_, record());
   ledger_.add_to(*earlier);
   frames_ = frames_without_gaps(job_, record());
   for (const auto& [frame, steps] : output::checkpoint_steps(job_.folder))

@@ -36,9 +36,11 @@ void add_listed(const std::filesystem::path& folder, const Json& run_json, int l
   });
 }
 
-void check_identity(const std::filesystem::path& folder, const output::Checkpoint& checkpoint,
-                    const record::PictureRecord& picture, const std::string& simd,
-                    Progress& progress) {
+/// @return what to warn of
+std::vector<std::string> check_identity(const std::filesystem::path& folder,
+                                        const output::Checkpoint& checkpoint,
+                                        const record::PictureRecord& picture,
+                                        const std::string& simd) {
   if (checkpoint.identity != identity_of(picture))
     throw UsageError(
         "--resume",
@@ -50,16 +52,18 @@ void check_identity(const std::filesystem::path& folder, const output::Checkpoin
                      "another build of neve has begun the run in " + folder.string() +
                          ", and this one cannot read its states",
                      "--replace instead of --resume makes all of it again");
+  std::vector<std::string> warnings;
   if (checkpoint.sources != build().sources)
-    progress.warning(
-        "the earlier part of the run was made by a program with other sources: this "
-        "part may not be what that program would make; --replace instead of --resume makes all of "
-        "it again");
+    warnings.push_back(
+        earlier_part +
+        " was made by a program with other sources: this part may not be what that program would "
+        "make; --replace instead of --resume makes all of it again");
   if (checkpoint.simd != simd)
-    progress.warning("the earlier part of the run used " + checkpoint.simd +
-                     " instructions, this part uses " + simd +
-                     ": the last bits will differ; use NEVE_SIMD=" + checkpoint.simd +
-                     " if this machine has it");
+    warnings.push_back(earlier_part + " used " + checkpoint.simd +
+                       " instructions, this part uses " + simd +
+                       ": the last bits will differ; use NEVE_SIMD=" + checkpoint.simd +
+                       " if this machine has it");
+  return warnings;
 }
 
 /// Pictures and exports up to the moment that are not as the run wrote them.
@@ -104,8 +108,10 @@ std::optional<Resumption> find_resumption(const std::filesystem::path& folder,
     return std::nullopt;
   }
   if (may_differ && found.checkpoint->identity != identity_of(picture)) return std::nullopt;
-  check_identity(folder, *found.checkpoint, picture, record.simd, progress);
-  Resumption resumption{timeline::to_moment(*std::move(found.checkpoint))};
+  std::vector<std::string> warnings =
+      check_identity(folder, *found.checkpoint, picture, record.simd);
+  for (const std::string& warning : warnings) progress.warning(warning);
+  Resumption resumption{timeline::to_moment(*std::move(found.checkpoint)), {}, std::move(warnings)};
   timeline::Moment& moment = resumption.moment;
   add_listed(folder, record::read_run_json(folder), moment.made.first_number + moment.frame,
              moment.made);

@@ -16,7 +16,11 @@ struct Resumption {
   timeline::Moment moment;  ///< of the newest checkpoint
   /// Frames before it with pictures that are missing or damaged, in order.
   std::vector<int> flawed{};
+  std::vector<std::string> warnings{};  ///< of what made the part until then, already said
 };
+
+/// Begins each of these warnings.
+inline const std::string earlier_part = "the earlier part of the run";
 
 /// Finds the newest checkpoint that is whole; damaged ones are named and passed over. Compares the
 /// pictures up to it with the run's own list. Empty without a checkpoint: the run starts at its

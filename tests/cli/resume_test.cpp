@@ -82,6 +82,10 @@ TEST_F(Resume, ACheckpointOfOtherSourcesIsNamed) {
   EXPECT_TRUE(contains(more.errors, "a program with other sources")) << more.errors;
   const auto again = render("out", {"--resume"});
   EXPECT_FALSE(contains(again.errors, "other sources")) << again.errors;
+  // The run keeps it in mind.
+  const app::Json warnings = json_of("out/run.json")["warnings"];
+  ASSERT_EQ(warnings.size(), 1u) << warnings;
+  EXPECT_TRUE(contains(warnings[0], "a program with other sources"));
 }
 
 /// Builds from other sources may lay a state out in another way: its first bytes say so.
