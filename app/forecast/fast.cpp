@@ -78,7 +78,8 @@ class Candidate {
 
   void limit_hardening() {
     for (sim::Material& m : scene_.materials)
-      if (scene::has_snow_of(scene_, m) && m.hardening > 0 && sim::laws::of(m).is_snow && sim::laws::of(m).hardens)
+      if (scene::has_snow_of(scene_, m) && m.hardening > 0 && sim::laws::of(m).is_snow &&
+          sim::laws::of(m).hardens)
         set("material." + m.name + ".max_hardening", m.max_hardening,
             std::min(m.max_hardening, hardening_ceiling));
   }

@@ -10,6 +10,7 @@
 #include "app/output/json_file.h"
 #include "app/output/sequence.h"
 #include "app/record/picture_files.h"
+#include "app/run/resume.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
 #include "app/support/text.h"
@@ -95,6 +96,8 @@ std::string difference_from_run(const std::filesystem::path& folder,
     for (const auto& [file, hash] : picture.files)
       if (files.contains(file) && files.at(file) != hash)
         return file + " has changed since the run began";
+    if (of_simulation && run.at("simulation") == record::hash_of(earlier_part))
+      return "different instructions or programs have made its parts";
     if (of_simulation && run.value("simd", Json()) != simd)
       return "it was made with other instructions, " + run.at("simd").get<std::string>();
     if (of_simulation)

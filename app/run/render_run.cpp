@@ -151,8 +151,14 @@ std::vector<int> RenderRun::begin() {
     timeline_.moments().add_run(job_.run);
   is_continued_ = found || job_.fork;
   if (found) {
-    keep_warnings(earlier, [](const std::string& text) { return text.starts_with(earlier_part); });
+    const auto is_of_earlier_part = [](const std::string& text) {
+      return text.starts_with(earlier_part);
+    };
+    keep_warnings(earlier, is_of_earlier_part);
     for (std::string& warning : found->warnings) told_before_.push_back(std::move(warning));
+    // What no command makes again from the start: later ones add nothing to it.
+    if (std::ranges::any_of(told_before_, is_of_earlier_part))
+      ledger_.record().simulation = record::hash_of(earlier_part);
     ledger_.take(found->moment);
     result_.has_checkpoint = true;
     if (found->flawed.empty()) continue_from(found->moment);

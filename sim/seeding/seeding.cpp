@@ -61,12 +61,8 @@ SeedingPlan plan_seeding(const Body& body, double cell_size) {
   if (const auto* points = std::get_if<shapes::Points>(&body.shape.form)) {
     const shapes::PointsSummary p =
         shapes::summary_of(*points, rotation_from_degrees(body.shape.rotation));
-    return {p.volume,
-            p.count,
-            {points->center + p.bounds.min, points->center + p.bounds.max},
-            p.max_speed,
-            p.V0,
-            p.mass};
+    return {p.volume,    p.count, {points->center + p.bounds.min, points->center + p.bounds.max},
+            p.max_speed, p.V0,    p.mass};
   }
   const shapes::Solid solid(body.shape);
   const double count =

@@ -86,6 +86,11 @@ TEST_F(Resume, ACheckpointOfOtherSourcesIsNamed) {
   const app::Json warnings = json_of("out/run.json")["warnings"];
   ASSERT_EQ(warnings.size(), 1u) << warnings;
   EXPECT_TRUE(contains(warnings[0], "a program with other sources"));
+  // No program makes its states again from the start, so nothing is added beside them.
+  const auto beside = render("out", {"--frames", "0-6"});
+  EXPECT_EQ(beside.exit_code, 2);
+  EXPECT_TRUE(contains(beside.errors, "different instructions or programs have made its parts"))
+      << beside.errors;
 }
 
 /// Builds from other sources may lay a state out in another way: its first bytes say so.
