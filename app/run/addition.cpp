@@ -269,7 +269,8 @@ void refuse_foreign_files(const RenderJob& job, const record::RunRecord& ours) {
   const setup::FrameRange numbers = setup::numbers_of(job.scene, job.frames);
   std::vector<std::string> files;
   const auto look_at = [&](const fs::path& file) {
-    if (fs::exists(fs::symlink_status(file, error)))
+    // Of links and folders, what cannot be written is told where it is.
+    if (fs::is_regular_file(fs::symlink_status(file, error)))
       files.push_back(file.lexically_relative(job.folder).generic_string());
   };
   for (const std::string& view : ours.views) {
