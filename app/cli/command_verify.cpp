@@ -155,6 +155,11 @@ bool is_of_kept_file(const record::Flaw& flaw) {
   return flaw.file.ends_with(".ckpt");
 }
 
+/// What neve export has begun in the folder of a run, and --resume of the run does not end.
+bool is_of_export_list(const record::Flaw& flaw) {
+  return fs::path(flaw.file).filename() == output::export_list_path({}).filename();
+}
+
 void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const Findings& findings) {
   for (const record::Flaw& flaw : findings.flaws)
     std::cout << printable_text((fs::path(folder) / flaw.file).string()) << " "
@@ -164,7 +169,11 @@ void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const F
   if (is_quiet) return;
   const bool is_made = !findings.flaws.empty() && findings.unfinished.empty() &&
                        std::ranges::all_of(findings.flaws, is_of_kept_file);
-  if (is_made)
+  const bool is_of_export = !findings.flaws.empty() && findings.unfinished.empty() &&
+                            std::ranges::all_of(findings.flaws, is_of_export_list);
+  if (is_of_export)
+    std::cout << "repeat the neve export that was interrupted\n";
+  else if (is_made)
     std::cout << "no picture, film or export is damaged: remove the folder states, and what is "
                  "damaged in the folder checkpoint; a command that needs them simulates again\n";
   else if (findings.is_whole())

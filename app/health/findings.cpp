@@ -10,6 +10,7 @@
 #include "app/health/point_findings.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/toml/value.h"
+#include "app/setup/camera_path.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/round_number.h"
@@ -236,6 +237,16 @@ double share_outside(const scene::CameraSettings& camera, double aspect,
   return moment.x.empty() ? 0 : static_cast<double>(outside) / static_cast<double>(moment.x.size());
 }
 
+/// Where a camera that turns about its target is at a time.
+scene::CameraSettings moved(scene::CameraSettings camera, double time, double duration) {
+  if (!camera.keyframes.empty()) return camera;
+  const setup::CameraPlace place = setup::camera_at(camera, time, duration);
+  camera.eye = place.eye;
+  camera.target = place.target;
+  camera.fov = place.fov;
+  return camera;
+}
+
 /// Height of the snow that a camera sees, as a share of the picture's.
 double seen_height(const scene::CameraSettings& camera, const setup::CoarseMoment& moment) {
   const Vec3d forward = (*camera.target - *camera.eye).normalized();
@@ -439,8 +450,9 @@ void check_cameras(const scene::Scene& scene, const std::vector<setup::CoarseMom
     const double aspect = static_cast<double>(size.width) / size.height;
     double worst = 0, when = 0, largest = 0;
     for (const setup::CoarseMoment& moment : moments) {
-      largest = std::max(largest, seen_height(camera, moment));
-      const double share = share_outside(camera, aspect, moment);
+      const scene::CameraSettings now = moved(camera, moment.time, scene::duration(scene));
+      largest = std::max(largest, seen_height(now, moment));
+      const double share = share_outside(now, aspect, moment);
       if (share > worst) worst = share, when = moment.time;
     }
     constexpr double smallest = 0.03;

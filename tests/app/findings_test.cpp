@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/scene/read.h"
+#include "app/setup/coarse_run.h"
 
 namespace neve::app {
 namespace {
@@ -64,6 +65,25 @@ shape = { box = { center = [0, 0, 0], size = [1, 0.21, 1] } }
   std::vector<health::Finding> findings;
   health::check_resolution(scene, findings);
   EXPECT_TRUE(findings.empty()) << findings.front().what;
+}
+
+/// The ball is before the camera at first, and behind it once that has turned half around.
+TEST(Findings, ACameraThatTurnsIsLookedThroughAtAllTimes) {
+  const auto findings = [](const char* turn) {
+    const scene::Scene scene = scene::read_scene_text(
+        std::string("frames = 4\n[solver]\ncell_size = 0.05\ngravity = [0, 0, 0]\n"
+                    "[[body]]\nshape = { sphere = { center = [0, 0.2, -1.5], radius = 0.2 } }\n"
+                    "[[view]]\nname = \"snow\"\n[camera]\neye = [0, 0.2, 1]\n"
+                    "target = [0, 0.2, 0]\n") +
+            turn,
+        "turn.toml");
+    std::vector<health::Finding> found;
+    health::check_cameras(scene, setup::coarse_run(scene), found);
+    return found;
+  };
+  EXPECT_TRUE(findings("").empty());
+  ASSERT_EQ(findings("orbit = 180\n").size(), 1u);
+  EXPECT_NE(findings("orbit = 180\n")[0].what.find("outside of the picture"), std::string::npos);
 }
 
 }  // namespace

@@ -284,8 +284,8 @@ TEST_F(Export, AnExportThatWasInterruptedIsNoCompleteRun) {
   const auto verified = neve({"verify", "out"});
   EXPECT_EQ(verified.exit_code, 9);
   EXPECT_TRUE(contains(verified.output,
-                       "out/exports/export.json says that neve export was "
-                       "interrupted"))
+                       "out/exports/export.json says that neve export was interrupted\n"
+                       "repeat the neve export that was interrupted"))
       << verified.output;
 }
 

@@ -231,6 +231,9 @@ TEST_F(Shots, SweepsHaveTheNumbersOfTheirScene) {
   EXPECT_TRUE(exists("s.cdb/review/run_0001.1001.png"));
   EXPECT_EQ(json_of("s.cdb/runs.otio")["tracks"]["children"][0]["children"].size(), 2u);
   run({"sweep", "collect", "s.cdb", "--quiet", "--movie", "none"});
+  EXPECT_TRUE(exists("s.cdb/review/run_0001.1001.png")) << "later collects keep the links";
+  std::filesystem::remove_all(folder / "s.cdb/review");
+  run({"sweep", "collect", "s.cdb", "--quiet", "--movie", "none"});
   EXPECT_TRUE(contains(read_text(folder / "s.cdb/runs.otio"), "runs/0001/particles/"));
 }
 

@@ -493,6 +493,7 @@ TEST_F(SweepCli, NothingOfAnEarlierSweepStaysAsIfItWereOfThisOne) {
     EXPECT_FALSE(exists(std::string("s.cdb/") + file)) << file;
   EXPECT_TRUE(exists("s.cdb/sheet/0003.png"));
   EXPECT_TRUE(exists("s.cdb/sheet.png"));
+  EXPECT_TRUE(exists("s.cdb/review/run_0000.0003.png")) << "links are kept up to date";
 }
 
 /// A task of Slurm on a node with another program would write under the keys of this one.

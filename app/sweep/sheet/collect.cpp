@@ -277,11 +277,9 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   const std::vector<predict::Prediction> predictions = store::predictions_of(folder, manifest);
   output::write_file(folder / "data.csv", data_csv(manifest, results, predictions));
   write_or_remove(folder / "points.csv", points_csv(manifest, results, predictions));
-  if (has_review)
-    link_pictures(folder, manifest, results);
-  else
-    remove_links(folder);
-  output::write_file(folder / "runs.otio", otio_timeline(manifest, results, has_review));
+  const bool is_reviewed = has_review || has_links(folder);
+  if (is_reviewed) link_pictures(folder, manifest, results);
+  output::write_file(folder / "runs.otio", otio_timeline(manifest, results, is_reviewed));
   write_or_remove(folder / "plots.svg", metric_plots_svg(manifest, results));
   write_effects(folder, manifest, results, progress);
   progress.clear();

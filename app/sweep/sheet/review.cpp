@@ -101,6 +101,17 @@ Json clip_json(const store::Manifest& manifest, const Run& run, const store::Run
   return json;
 }
 
+/// Only links go: what a person has put there stays.
+std::vector<fs::path> links_in(const fs::path& review) {
+  std::error_code error;
+  std::vector<fs::path> links;
+  if (fs::is_symlink(review, error)) return links;
+  for (const fs::directory_entry& entry : fs::directory_iterator(review, error))
+    if (entry.is_symlink(error) && entry.path().filename().string().starts_with("run_"))
+      links.push_back(entry.path());
+  return links;
+}
+
 }  // namespace
 
 std::string review_prefix(const Run& run) {
@@ -126,25 +137,16 @@ std::string otio_timeline(const store::Manifest& manifest,
   return to_text(timeline) + "\n";
 }
 
-void remove_links(const fs::path& folder) {
-  const fs::path review = folder / "review";
-  std::error_code error;
-  if (fs::is_symlink(review, error)) return;
-  std::vector<fs::path> links;
-  // Only links go: what a person has put there stays.
-  for (const fs::directory_entry& entry : fs::directory_iterator(review, error))
-    if (entry.is_symlink(error) && entry.path().filename().string().starts_with("run_"))
-      links.push_back(entry.path());
-  for (const fs::path& link : links) fs::remove(link, error);
-  if (!links.empty() && fs::is_empty(review, error) && !error) fs::remove(review, error);
+bool has_links(const fs::path& folder) {
+  return !links_in(folder / "review").empty();
 }
 
 void link_pictures(const fs::path& folder, const store::Manifest& manifest,
                    const std::vector<store::RunResult>& results) {
-  remove_links(folder);
   const fs::path review = folder / "review";
   output::make_own_folder(review);
   std::error_code error;
+  for (const fs::path& link : links_in(review)) fs::remove(link, error);
   for (std::size_t k = 0; k < results.size(); ++k) {
     const Run& run = manifest.runs[k];
     for (const int frame : results[k].frames) {

@@ -20,8 +20,8 @@ std::string review_prefix(const Run& run);
 std::string otio_timeline(const store::Manifest& manifest,
                           const std::vector<store::RunResult>& results, bool has_links);
 
-/// Removes the links of DIR/review, which are to the runs of an earlier collect.
-void remove_links(const std::filesystem::path& folder);
+/// True if DIR/review has links of an earlier collect: later ones keep them up to date.
+bool has_links(const std::filesystem::path& folder);
 
 /// Makes DIR/review anew: links to all pictures, whose names have the number between two points.
 /// @throws IoError
