@@ -137,8 +137,20 @@ std::string files_text(const std::vector<std::string>& views, const EarlierRun& 
     const int count = earlier.frames_of(view).count();
     if (count > 0)
       parts.push_back(fmt::format("{} {} of {}", count, count == 1 ? "picture" : "pictures", view));
+    const auto passes = std::ranges::count_if(earlier.pictures.files, [&](const auto& file) {
+      return file.first.starts_with(view + "/") && file.first.ends_with(".exr");
+    });
+    if (passes > 0) parts.push_back(fmt::format("{} EXR of {}", passes, view));
     for (const std::string& movie : movies_of(view, earlier.pictures.files)) parts.push_back(movie);
   }
+  return joined(parts, ", ");
+}
+
+/// What another simulation takes the place of: exports too.
+std::string all_files_text(const EarlierRun& earlier) {
+  std::vector<std::string> parts{files_text(earlier.pictures.views, earlier)};
+  if (const auto exports = count_below(output::exports_folder, earlier.pictures.files); exports > 0)
+    parts.push_back(fmt::format("{} files in {}", exports, output::exports_folder));
   return joined(parts, ", ");
 }
 
@@ -300,11 +312,11 @@ void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::
       refuse(job,
              fmt::format("has frames from {} on, and these begin with {}",
                          scene::number_of(earlier.scene, 0), ours.first_number),
-             files_text(earlier.pictures.views, earlier),
+             all_files_text(earlier),
              (job.folder == job.run ? "" : "add --replace, or ") + elsewhere);
     if (!job.options.replaces)
       refuse(job, "has another simulation: " + difference_from_run(job.folder, picture, ours.simd),
-             files_text(earlier.pictures.views, earlier), "add --replace, or " + elsewhere);
+             all_files_text(earlier), "add --replace, or " + elsewhere);
     return;
   }
   // The scene in run.json is that of all pictures.

@@ -127,6 +127,17 @@ TEST_F(Addition, ViewsInOtherSizesAreKnownAgain) {
   expect_whole("a");
 }
 
+TEST_F(Addition, AllThatWouldBeReplacedIsNamed) {
+  folder.write("scene.toml", std::string(tiny_scene) + "\n[[export]]\nformat = \"csv\"\n");
+  render({"scene.toml", "--out", "a", "--no-movie", "--passes", "depth"});
+  const auto refused = render({"a", "--no-movie", "--size", "96x54"}, 2);
+  EXPECT_TRUE(contains(refused.errors, "it would replace 5 pictures of particles, 5 EXR of"))
+      << refused.errors;
+  const auto other =
+      render({"scene.toml", "--out", "a", "--no-movie", "--set", "material.snow.hardening=5"}, 2);
+  EXPECT_TRUE(contains(other.errors, "5 EXR of particles, 5 files in exports")) << other.errors;
+}
+
 TEST_F(Addition, AnotherSimulationIsRefusedUntilItMayReplaceTheRun) {
   render({"scene.toml", "--out", "a", "--no-movie"});
   render({"a", "--view", "smoke", "--frames", "0-1", "--no-movie"});
