@@ -61,7 +61,7 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
   const double last = std::min(end, emitter.end.value_or(end));
   const double mass = emitter.rate * (last - emitter.start);
   const double of_one = density_at_birth(emitter, material) * spacing * spacing * spacing;
-  if (sim::seeding::count_emitted(emitter, material, h, end) == 0)
+  if (mass > 0 && sim::seeding::count_emitted(emitter, material, h, end) == 0)
     findings.push_back(
         {Severity::warning, at + ".rate",
          fmt::format("no snow comes: it emits {} kg, and a particle has {} kg", rough_text(mass),

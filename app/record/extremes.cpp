@@ -1,7 +1,6 @@
 #include "app/record/extremes.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "app/output/report_json.h"
 #include "app/record/run_json.h"
@@ -41,8 +40,11 @@ Extremes extremes_of(const Json& json) {
 }
 
 std::optional<Extremes> extremes_until(const Json& run, int last) {
-  const std::vector<FrameRecord> frames = frame_records(run);
-  const std::optional<RunStart> start = start_of(run);
+  return extremes_of_run(run, frame_records(run), start_of(run), last);
+}
+
+std::optional<Extremes> extremes_of_run(const Json& run, const std::vector<FrameRecord>& frames,
+                                        const std::optional<RunStart>& start, int last) {
   std::optional<Extremes> extremes = start ? start->before : std::nullopt;
   if (!extremes && frames.empty()) return std::nullopt;
   if (!extremes) {

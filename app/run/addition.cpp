@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <new>
 #include <set>
 
@@ -289,9 +288,9 @@ void refuse_foreign_files(const RenderJob& job, const record::RunRecord& ours) {
     // Of very many frames few are there.
     for (fs::directory_iterator at(job.folder / view, error), end; !error && at != end;
          at.increment(error)) {
-      const int number = std::atoi(at->path().stem().string().c_str());
-      if (at->path() == output::frame_path(job.folder, view, number) && number >= numbers.first &&
-          number <= numbers.last)
+      const auto number = number_of<int>(at->path().stem().string());
+      if (number && *number >= numbers.first && *number <= numbers.last &&
+          at->path() == output::frame_path(job.folder, view, *number))
         look_at(at->path());
     }
     if (job.has_movies()) look_at(output::movie_path(job.folder, view, job.options.movie.format));

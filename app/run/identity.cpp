@@ -96,7 +96,7 @@ std::string difference_from_run(const std::filesystem::path& folder,
     for (const auto& [file, hash] : picture.files)
       if (files.contains(file) && files.at(file) != hash)
         return file + " has changed since the run began";
-    if (of_simulation && run.at("simulation") == record::hash_of(earlier_part))
+    if (of_simulation && run.at("simulation") == simulation_in_parts())
       return "different instructions or programs have made its parts";
     if (of_simulation && run.value("simd", Json()) != simd)
       return "it was made with other instructions, " + run.at("simd").get<std::string>();

@@ -156,9 +156,8 @@ std::vector<int> RenderRun::begin() {
     };
     keep_warnings(earlier, is_of_earlier_part);
     for (std::string& warning : found->warnings) told_before_.push_back(std::move(warning));
-    // What no command makes again from the start: later ones add nothing to it.
     if (std::ranges::any_of(told_before_, is_of_earlier_part))
-      ledger_.record().simulation = record::hash_of(earlier_part);
+      ledger_.record().simulation = simulation_in_parts();
     ledger_.take(found->moment);
     result_.has_checkpoint = true;
     if (found->flawed.empty()) continue_from(found->moment);

@@ -95,6 +95,10 @@ std::vector<record::Flaw> find_flaws(const std::filesystem::path& folder,
 
 }  // namespace
 
+std::string simulation_in_parts() {
+  return record::hash_of(earlier_part);
+}
+
 std::optional<Resumption> find_resumption(const std::filesystem::path& folder,
                                           const record::RunRecord& record,
                                           const record::PictureRecord& picture,

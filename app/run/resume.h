@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/record/picture_record.h"
@@ -21,6 +22,9 @@ struct Resumption {
 
 /// Begins each of these warnings.
 inline const std::string earlier_part = "the earlier part of the run";
+/// RunRecord::simulation of a run whose parts different instructions or programs have made: no
+/// command has it, so none adds anything made from the start.
+std::string simulation_in_parts();
 
 /// Finds the newest checkpoint that is whole; damaged ones are named and passed over. Compares the
 /// pictures up to it with the run's own list. Empty without a checkpoint: the run starts at its

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "sim/engine/state_reader.h"
 #include "sim/engine/still_grid.h"
@@ -109,7 +110,7 @@ void find_shock_pressure(State<Real>& state) {
   particles.shock_step = state.progress.steps;
   particles.shock_pressure.assign(particles.size(), Real(0));
   if (!(state.method.settings.shock_viscosity > 0)) return;
-  const std::vector<kernels::Particle<Real>> stressed = particles.records;
+  std::vector<kernels::Particle<Real>> stressed = particles.records;
   state.refresh(0, particles.size());
   for (std::size_t q = 0; q < stressed.size(); ++q) {
     const kernels::Particle<Real>& p = stressed[q];
@@ -119,7 +120,7 @@ void find_shock_pressure(State<Real>& state) {
     for (int axis = 0; axis < 3; ++axis) sum += particles.records[q].tau[axis] - p.tau[axis];
     particles.shock_pressure[q] = std::max(sum / 3, Real(0));
   }
-  particles.records = stressed;
+  particles.records = std::move(stressed);
 }
 
 /// Stress of the particles whose material changed, keys and groups of all: a kernel has its own

@@ -247,6 +247,7 @@ TEST(SceneFlow, AnEmitterWithoutAWholeParticleIsFound) {
   std::string drop = spout;
   drop.replace(drop.find("rate = 20"), 9, "rate = 1e-6");
   EXPECT_EQ(findings_of(drop), std::vector<std::string>{"emitter.spout.rate"});
+  EXPECT_TRUE(findings_of("frames = 0\n" + spout).empty()) << "a picture of the start";
 }
 
 TEST(SceneFlow, SnowBornAtRestHasToFallOut) {

@@ -79,11 +79,11 @@ struct RunNotes {
   std::string simd, sources;
 };
 
-RunNotes notes_of(const Json& run) {
+RunNotes notes_of(const Json& run, const std::vector<record::FrameRecord>& frames) {
   RunNotes notes;
   try {
     notes.start = record::start_of(run);
-    notes.whole = record::extremes_until(run);
+    notes.whole = record::extremes_of_run(run, frames, notes.start);
     if (run.contains("divergence")) notes.diverged_at = run["divergence"].at("step").get<double>();
     notes.warnings = run.value("warnings", notes.warnings);
     notes.simd = run.value("simd", "");
@@ -164,7 +164,7 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   if (result.status.key == run.key) {
     const Json record = record::read_run_json(run_folder);
     frames = record::frame_records(record);
-    notes = notes_of(record);
+    notes = notes_of(record, frames);
     result.warnings = notes.warnings;
     result.simd = notes.simd;
     result.sources = notes.sources;
