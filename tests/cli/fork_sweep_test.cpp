@@ -31,6 +31,18 @@ class ForkSweep : public Cli {
     return all;
   }
 
+  std::vector<app::sweep::store::RunResult> results_of_sweep(const std::string& scene,
+                                                             const std::string& axis,
+                                                             const std::string& out,
+                                                             const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sweep", scene, "-p", axis, "--size", "64x64", "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto done = neve(words);
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    return app::sweep::store::read_results(folder / out,
+                                           app::sweep::store::read_manifest(folder / out));
+  }
+
   app::Json json_in(const app::output::ProcessResult& done) {
     return app::parse_json(std::string_view(done.output));
   }
@@ -191,13 +203,7 @@ shape = { sphere = { center = [0, 2, 0], radius = 0.1 } }
 mass = 1
 )");
   const auto results_of = [&](const std::string& out, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"sweep",  "fall.toml", "-p",    "solver.flip_ratio=0.9,0.95",
-                                   "--size", "64x64",     "--out", out};
-    words.insert(words.end(), more.begin(), more.end());
-    const auto done = neve(words);
-    EXPECT_EQ(done.exit_code, 0) << done.errors;
-    return app::sweep::store::read_results(folder / out,
-                                           app::sweep::store::read_manifest(folder / out));
+    return results_of_sweep("fall.toml", "solver.flip_ratio=0.9,0.95", out, more);
   };
   const auto whole = results_of("whole.cdb", {}), forked = results_of("f.cdb", {"--fork", "0.25s"}),
              late = results_of("late.cdb", {"--frames", "6-8"});
@@ -236,13 +242,7 @@ name = "floor"
 shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
 )");
   const auto results_of = [&](const std::string& out, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"sweep",  "hit.toml", "-p",    "material.snow.hardening=5,10",
-                                   "--size", "64x64",    "--out", out};
-    words.insert(words.end(), more.begin(), more.end());
-    const auto done = neve(words);
-    EXPECT_EQ(done.exit_code, 0) << done.errors;
-    return app::sweep::store::read_results(folder / out,
-                                           app::sweep::store::read_manifest(folder / out));
+    return results_of_sweep("hit.toml", "material.snow.hardening=5,10", out, more);
   };
   const auto whole = results_of("whole.cdb", {}),
              late = results_of("late.cdb", {"--frames", "4-6"});
