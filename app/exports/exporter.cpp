@@ -110,6 +110,17 @@ Sample sample_of(const Json& json, const scene::Scene& scene) {
   return sample;
 }
 
+/// Bodies that snow moves, and colliders that were changed, follow a curve, or wait.
+bool may_move_otherwise(const scene::Scene& scene, const std::vector<scene::LiveChange>& changes) {
+  const auto is_of_collider = [](const std::string& address) {
+    return address.starts_with("collider.");
+  };
+  return scene::has_moving_bodies(scene) ||
+         std::ranges::any_of(changes, is_of_collider, &scene::LiveChange::address) ||
+         std::ranges::any_of(scene.curves, is_of_collider, &scene::Curve::parameter) ||
+         scene.solver.skips(sim::Stage::colliders);
+}
+
 /// Around all places that are finite; nothing where there are none.
 std::optional<setup::Box> box_around(const std::vector<sim::Vec3d>& places) {
   setup::Box box;
@@ -133,12 +144,14 @@ void put(std::vector<Item>& items, Item item) {
 }  // namespace
 
 Exporter::Exporter(const scene::Scene& scene, fs::path folder,
-                   const std::vector<std::size_t>& body_end)
+                   const std::vector<std::size_t>& body_end,
+                   const std::vector<scene::LiveChange>& changes)
     : scene_(scene),
       colliders_(scene.colliders),
       folder_(std::move(folder)),
       origins_(scene, body_end),
-      carried_(scene, body_end) {
+      carried_(scene, body_end),
+      moves_otherwise_(may_move_otherwise(scene, changes)) {
   output::remove_abandoned(folder_);
   for (const scene::Export& spec : scene.exports) {
     jobs_.push_back({{spec, empty_table(scene, spec, carried_), {}}, {}, {}});
@@ -184,8 +197,7 @@ void Exporter::add_between(const std::vector<scene::Collider>& colliders,
   Sample sample{number, time, placed_at(colliders, time)};
   sample.is_elsewhere = !are_as_in(scene_, sample.colliders, time);
   if (follows()) sample.followed = followed(simulation.particles(), time, colliders);
-  const bool says_nothing =
-      !sample.is_elsewhere && !sample.followed && !scene::has_moving_bodies(scene_);
+  const bool says_nothing = !sample.is_elsewhere && !sample.followed && !moves_otherwise_;
   // Once something was elsewhere, a frame that is not listed would be taken for that, too.
   for (Job& job : jobs_)
     if (has_no_file(job) && !(says_nothing && job.between.empty())) put(job.between, sample);
@@ -202,7 +214,7 @@ bool Exporter::has_stage() const {
 }
 
 bool Exporter::lacks_places(int frame) const {
-  if (!follows() && !scene::has_moving_bodies(scene_)) return false;
+  if (!follows() && !moves_otherwise_) return false;
   const auto has = [number = scene::number_of(scene_, frame)](const std::vector<Sample>& samples) {
     return std::ranges::find(samples, number, &Sample::number) != samples.end();
   };

@@ -10,6 +10,7 @@
 #include "app/exports/encode.h"
 #include "app/exports/series.h"
 #include "app/output/file_hash.h"
+#include "app/scene/live_change.h"
 #include "app/support/json.h"
 
 namespace neve::app::exports {
@@ -32,8 +33,10 @@ class Exporter {
 
   /// @param folder    of all exports; each writes into one of its own in it
   /// @param body_end  see Origins
+  /// @param changes   made while the run ran, and to come
   Exporter(const scene::Scene& scene, std::filesystem::path folder,
-           const std::vector<std::size_t>& body_end);
+           const std::vector<std::size_t>& body_end,
+           const std::vector<scene::LiveChange>& changes = {});
 
   bool is_due(int frame) const;
 
@@ -86,6 +89,7 @@ class Exporter {
   Origins origins_;
   Carried carried_;
   std::vector<Job> jobs_;
+  bool moves_otherwise_;  ///< something is elsewhere than the scene alone says
   std::string warning_;
   bool is_told_ = false;  ///< the warning
 };

@@ -108,6 +108,39 @@ TEST_F(Bodies, AStageThatARunGetsLaterHasAllTheirPlaces) {
   EXPECT_EQ(json_of("later/run.json")["exports"], json_of("whole/run.json")["exports"]);
 }
 
+/// Nor does the scene alone say where colliders are that follow a curve, wait, or were changed.
+TEST_F(Bodies, AStageThatARunGetsLaterHasPlacesThatTheSceneDoesNotSay) {
+  const std::string plain =
+      std::string(tiny_scene) +
+      "[[collider]]\nname = \"plow\"\nvelocity = [1, 0, 0]\n"
+      "shape = { box = { center = [0.5, 0.1, 0], size = [0.1, 0.1, 0.1] } }\n";
+  const std::string stage = "[[export]]\nformat = \"usda\"\nevery = 4\n",
+                    curve =
+                        "[[curve]]\nparameter = \"collider.plow.velocity\"\nkeyframes = [\n"
+                        "{ time = 0, value = [1, 0, 0] }, { time = 0.1, value = [3, 0, 0] }]\n";
+  const auto stage_of = [&](const std::string& text, const std::string& out,
+                            std::vector<std::string> more) {
+    folder.write("plow.toml", text);
+    more.insert(more.begin(), {"plow.toml", "--frames", "4", "--out", out});
+    const auto done = render(more);
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    return done.exit_code == 0 && exists(out + "/exports/usda.usda")
+               ? read_text(folder / out / "exports/usda.usda")
+               : "";
+  };
+  int k = 0;
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{},
+        {"--set", "solver.bypass=[\"colliders\"]"},
+        {"--from", "0.05s", "--set", "collider.plow.velocity=[2,0,0]"}}) {
+    const std::string text = more.empty() ? plain + curve : plain, name = std::to_string(k++);
+    const std::string whole = stage_of(text + stage, "whole" + name, more);
+    stage_of(text, "later" + name, more);
+    EXPECT_FALSE(whole.empty());
+    EXPECT_TRUE(stage_of(text + stage, "later" + name, more) == whole) << name;
+  }
+}
+
 TEST_F(Bodies, AnyNumberOfThreadsGivesTheSame) {
   ASSERT_EQ(render({"scene.toml", "--out", "one", "--threads", "1"}).exit_code, 0);
   ASSERT_EQ(render({"scene.toml", "--out", "three", "--threads", "3"}).exit_code, 0);
