@@ -160,6 +160,7 @@ Json to_json(const PictureRecord& record) {
   if (!record.lut.empty()) json["lut"] = record.lut;
   if (record.shutter > 0) json["shutter"] = record.shutter;
   if (!record.passes.empty()) json["passes"] = record.passes;
+  if (!record.has_caption) json["caption"] = false;
   if (record.strip) json["strip"] = to_json(*record.strip);
   json["files"] = record.files;
   return json;
@@ -256,6 +257,7 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   if (!(record.shutter >= 0 && record.shutter <= 360))
     reader.fail("its shutter is not from 0 to 360");
   if (text.contains("neve:passes")) record.passes = reader.list("neve:passes");
+  record.has_caption = !text.contains("neve:caption");
   if (text.contains("neve:strip")) record.strip = reader.strip("neve:strip");
   if (text.contains(card_key))
     for (const Json& card : reader.json(card_key))

@@ -41,6 +41,7 @@ struct PictureRecord {
   std::vector<std::string> passes;           ///< of --passes; none: only PNGs
   std::map<std::string, std::string> files;  ///< of the scene: path to content hash
   std::optional<StripRecord> strip;          ///< frame and state_hash are those of its last moment
+  bool has_caption = true;                   ///< of a mosaic; views say it in their layers
   std::vector<std::string> cards;            ///< titles of a picture made by neve card
 };
 

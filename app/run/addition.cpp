@@ -257,6 +257,7 @@ std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
     for (const std::string& tile : mosaic->views) add(tile);
     picture.passes.clear();
     picture.plate.clear();
+    picture.has_caption = job.options.has_caption;
   } else {
     add(view);
   }

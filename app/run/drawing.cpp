@@ -206,6 +206,9 @@ render::PngText Drawing::slate_text(const std::string& view, int number) const {
 record::PictureRecord Drawing::record_of(const std::string& view) const {
   record::PictureRecord record = record_;
   record.view = view;
+  record.has_caption =
+      job_.options.has_caption ||
+      std::ranges::find(job_.scene.mosaics, view, &scene::Mosaic::name) == job_.scene.mosaics.end();
   if (!job_.plate.empty()) {
     const std::filesystem::path plate = plate_path(job_.plate, record.frame);
     record.files[plate.string()] = record::hash_text(output::hash_file(plate));

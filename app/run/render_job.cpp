@@ -78,6 +78,7 @@ void take_picture(const record::PictureRecord& picture, RenderJob& job) {
   job.shutter = picture.shutter;
   job.plate = picture.plate;
   job.lut = picture.lut;
+  job.options.has_caption = job.options.has_caption && picture.has_caption;
   choose_views({picture.view}, job);
   job.scene.exports.clear();
   check_texts(job);

@@ -132,6 +132,20 @@ TEST_F(Cli, AMosaicHasTheCaptionThatIsAskedForAndTheCounterOfItsViews) {
   EXPECT_GT(render::compare(without, counted).local, 20);
 }
 
+TEST_F(Cli, AMosaicWithoutACaptionIsMadeAgainWithoutOne) {
+  folder.write("both.toml",
+               std::string(tiny_scene) + "[[mosaic]]\nname = \"both\"\nviews = [\"particles\"]\n");
+  ASSERT_EQ(
+      neve({"render", "both.toml", "--frames", "0-0", "--no-caption", "--out", "a"}).exit_code, 0);
+  for (const std::string view : {"both", "particles"}) {
+    const auto again = neve({"render", "a/" + view + "/0000.png", "--out", "b"});
+    ASSERT_EQ(again.exit_code, 0) << again.errors;
+    EXPECT_TRUE(read_text(folder / ("a/" + view + "/0000.png")) ==
+                read_text(folder / ("b/" + view + "/0000.png")))
+        << view;
+  }
+}
+
 TEST_F(Cli, TransparentPicturesHaveAlphaAndTheirMovieHasNot) {
   const auto result =
       neve({"render", "scene.toml", "--frames", "2", "--set", "output.background=transparent"});
