@@ -224,6 +224,16 @@ void warn_of_other_states(const Json& exports, const Kept& kept, Progress& progr
       }
 }
 
+/// Files of dust that nothing raises are empty, whatever their header says.
+void warn_of_no_dust(const scene::Scene& scene, Progress& progress) {
+  if (std::ranges::any_of(scene.exports, &scene::Export::dust) &&
+      std::ranges::none_of(scene.materials, [](const sim::Material& m) { return m.dust > 0; }))
+    progress.warning(
+        "--dust: no material of the scene gives off dust, and the files hold none; set "
+        "material.NAME.dust, as in --set material." +
+        scene.materials.front().name + ".dust=0.01");
+}
+
 void write_list(const ExportJob& job, const ExportResult& result, const Kept& kept,
                 const std::vector<output::WrittenFile>& written) {
   record::FileHashes files;
@@ -295,6 +305,7 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
       progress.warning(
           "vdb has mass, density and velocity of the nodes of the grid, and none of the attributes "
           "of particles that are asked for; another format has them, as in --format vdb,npz");
+  warn_of_no_dust(run.scene, progress);
   timeline::warn_of_late_frame(job.times.back(), run, progress);
   timeline::Timeline timeline = timeline::open(run, threads, progress);
   const sim::Simulation& simulation = timeline.simulation();

@@ -151,6 +151,10 @@ TEST_F(DustRun, ExportWritesPointsAndVolumesWithoutARun) {
       neve({"export", "dusty.toml", "--at", "0.2s", "--dust", "--surface", "--format", "ply"});
   EXPECT_EQ(refused.exit_code, 2) << refused.errors;
   EXPECT_TRUE(contains(refused.errors, "dust has no surface")) << refused.errors;
+  EXPECT_FALSE(contains(exported.errors, "gives off dust")) << exported.errors;
+  const auto none = neve({"export", "dusty.toml", "--at", "0s", "--dust", "--format", "csv",
+                          "--set", "material.snow.dust=0", "--out", "none"});
+  EXPECT_TRUE(contains(none.errors, "no material of the scene gives off dust")) << none.errors;
 }
 
 }  // namespace
