@@ -10,6 +10,7 @@
 #include <ctime>
 
 #include "app/support/errors.h"
+#include "app/support/film_rate.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 
@@ -48,9 +49,10 @@ std::string duration_text(double seconds) {
 }
 
 std::string progress_text(const ProgressState& state) {
+  const double fps = state.time > 0 ? state.frame / state.time : 1;
   std::string text = "frame " + std::to_string(state.first_number + state.frame) + "/" +
                      std::to_string(state.first_number + state.last_frame) +
-                     "  t = " + fixed_text(state.time, 3) + " s  " + std::to_string(state.steps) +
+                     "  t = " + time_text(state.time, fps) + "  " + std::to_string(state.steps) +
                      " steps";
   if (state.seconds_per_frame >= 0) {
     const int left = state.last_frame - state.frame;

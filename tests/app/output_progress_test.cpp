@@ -22,6 +22,11 @@ TEST(Progress, LineSaysFrameTimeStepsAndWhatIsLeft) {
   EXPECT_EQ(progress_text({0, 48, 0, 7, -1}), "frame 0/48  t = 0.000 s  7 steps");
 }
 
+TEST(Progress, LineTellsTheTimesOfShortFramesApart) {
+  EXPECT_EQ(progress_text({1, 48, 1 / 24000.0, 7, -1}), "frame 1/48  t = 0.00004 s  7 steps");
+  EXPECT_EQ(progress_text({2, 48, 2 / 24000.0, 9, -1}), "frame 2/48  t = 0.00008 s  9 steps");
+}
+
 TEST(Progress, DurationsUseTwoUnits) {
   EXPECT_EQ(duration_text(7.6), "8 s");
   EXPECT_EQ(duration_text(200), "3 min 20 s");
