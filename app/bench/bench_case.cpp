@@ -12,6 +12,17 @@ namespace {
 constexpr int particles_a_cell = 8;
 constexpr double squeeze = 8;  // 1/s
 
+struct MethodInfo {
+  const char* name;
+  sim::Transfer transfer;
+  sim::Kernel kernel;
+};
+/// In the order of BenchMethod.
+constexpr MethodInfo methods[] = {{"mls_quadratic", sim::Transfer::mls, sim::Kernel::quadratic},
+                                  {"flip_cubic", sim::Transfer::flip, sim::Kernel::cubic},
+                                  {"apic_cubic", sim::Transfer::apic, sim::Kernel::cubic},
+                                  {"asflip_cubic", sim::Transfer::asflip, sim::Kernel::cubic}};
+
 void append_particle(const sim::Vec3d& x, const sim::Vec3d& middle, BenchCase& to) {
   const double h = to.settings.cell_size, V0 = h * h * h / particles_a_cell;
   to.particles.x.push_back(x);
@@ -23,16 +34,7 @@ void append_particle(const sim::Vec3d& x, const sim::Vec3d& middle, BenchCase& t
 }  // namespace
 
 const char* name(BenchMethod method) {
-  switch (method) {
-    case BenchMethod::mls_quadratic:
-      return "mls_quadratic";
-    case BenchMethod::flip_cubic:
-      return "flip_cubic";
-    case BenchMethod::apic_cubic:
-      return "apic_cubic";
-    default:
-      return "asflip_cubic";
-  }
+  return methods[static_cast<std::size_t>(method)].name;
 }
 
 sim::SolverSettings bench_settings(BenchMethod method, sim::Precision precision) {
@@ -42,21 +44,8 @@ sim::SolverSettings bench_settings(BenchMethod method, sim::Precision precision)
   s.dt = 1e-4;
   s.shock_viscosity = 0;  // the naive code has none
   s.precision = precision;
-  s.kernel = sim::Kernel::cubic;
-  switch (method) {
-    case BenchMethod::mls_quadratic:
-      s.transfer = sim::Transfer::mls;
-      s.kernel = sim::Kernel::quadratic;
-      break;
-    case BenchMethod::flip_cubic:
-      s.transfer = sim::Transfer::flip;
-      break;
-    case BenchMethod::apic_cubic:
-      s.transfer = sim::Transfer::apic;
-      break;
-    default:
-      s.transfer = sim::Transfer::asflip;
-  }
+  s.transfer = methods[static_cast<std::size_t>(method)].transfer;
+  s.kernel = methods[static_cast<std::size_t>(method)].kernel;
   return s;
 }
 

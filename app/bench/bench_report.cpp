@@ -1,7 +1,6 @@
 #include "app/bench/bench_report.h"
 
 #include <algorithm>
-#include <array>
 
 #include "app/support/machine.h"
 #include "app/support/text.h"
@@ -12,17 +11,6 @@ namespace neve::app::bench {
 namespace {
 
 using Cells = std::vector<std::string>;
-
-struct Phase {
-  const char* name;
-  double sim::PhaseSeconds::*seconds;
-};
-constexpr std::array<Phase, 6> phases{{{"partition", &sim::PhaseSeconds::partition},
-                                       {"particles_to_grid", &sim::PhaseSeconds::particles_to_grid},
-                                       {"grid_update", &sim::PhaseSeconds::grid_update},
-                                       {"solve", &sim::PhaseSeconds::solve},
-                                       {"grid_to_particles", &sim::PhaseSeconds::grid_to_particles},
-                                       {"checks", &sim::PhaseSeconds::checks}}};
 
 /// Three digits, as many as a measurement is worth.
 std::string figure(double value) {
@@ -113,6 +101,21 @@ Statistics statistics_of(std::vector<double> samples) {
   return {median, samples.front(), samples.back()};
 }
 
+void RowSamples::add(const BenchRow& row, double sample) {
+  auto found = std::ranges::find(rows_, row.name, [](const auto& r) { return r.first.name; });
+  if (found == rows_.end()) found = rows_.insert(found, {row, {}});
+  found->second.push_back(sample);
+}
+
+std::vector<BenchRow> RowSamples::rows() const {
+  std::vector<BenchRow> rows;
+  for (const auto& [row, samples] : rows_) {
+    rows.push_back(row);
+    rows.back().value = statistics_of(samples);
+  }
+  return rows;
+}
+
 Json to_json(const std::vector<BenchRow>& rows) {
   Json list = Json::array();
   for (const BenchRow& row : rows) {
@@ -134,21 +137,13 @@ Json to_json(const std::vector<BenchRow>& rows) {
   return list;
 }
 
-void print_table(std::ostream& out, const std::vector<BenchRow>& rows) {
-  print_columns(out, figures(rows));
+void print_tables(std::ostream& out, const std::vector<BenchRow>& rows, bool is_markdown) {
+  if (is_markdown) out << machine_text() << "; neve " << version << "\n\n";
+  const auto print = is_markdown ? print_markdown_table : print_columns;
+  print(out, figures(rows));
   const std::vector<Cells> by_phase = phase_figures(rows);
-  if (by_phase.empty()) return;
-  out << "\n";
-  print_columns(out, by_phase);
-}
-
-void print_markdown(std::ostream& out, const std::vector<BenchRow>& rows) {
-  out << machine_text() << "; neve " << version << "\n\n";
-  print_markdown_table(out, figures(rows));
-  const std::vector<Cells> by_phase = phase_figures(rows);
-  if (by_phase.empty()) return;
-  out << "\n";
-  print_markdown_table(out, by_phase);
+  if (!by_phase.empty()) out << "\n";
+  print(out, by_phase);
 }
 
 }  // namespace neve::app::bench

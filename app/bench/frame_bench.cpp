@@ -1,16 +1,12 @@
-#include "app/bench/frame_bench.h"
+#include "app/bench/bench.h"
 
-#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <memory>
 
 #include "app/bench/measure.h"
 #include "app/bench/scratch_folder.h"
 #include "app/bench/timed_run.h"
-#include "app/output/process.h"
 #include "app/picture/frame_builder.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
@@ -27,8 +23,6 @@
 namespace neve::app::bench {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* flip = "";
 constexpr const char* mls = "transfer = \"mls\"\nkernel = \"quadratic\"\n";
@@ -99,16 +93,13 @@ class FrameBench {
   FrameBench(const BenchOptions& options, Progress& progress)
       : options_(options),
         progress_(progress),
-        rounds_(options.rounds > 0 ? options.rounds
-                : options.is_quick ? 1
-                                   : 3),
+        rounds_(options.rounds_or(1, 3)),
         drawing_(options.backend, options.threads) {}
   std::vector<BenchRow> run();
 
  private:
   double simulate(const std::string& name, const scene::Scene& scene, int frames,
                   bool is_drawn = false);
-  double seconds_of_render(const std::string& row, std::vector<std::string> arguments);
   void coarsen_2();
   void dust();
   void implicit_steps();
@@ -134,15 +125,8 @@ void FrameBench::measure(const std::string& name, const std::string& unit, const
     stop_if_interrupted();
     samples.push_back(once());
   }
-  BenchRow row;
-  row.name = name;
-  row.threads = threads_;
-  row.particles = particles_;
-  row.simd = simd_;
-  row.value = statistics_of(samples);
-  row.unit = unit;
-  rows_.push_back(row);
-  progress_.note(name + ": " + fixed_text(row.value.median, 3) + " " + unit);
+  rows_.push_back({name, threads_, particles_, simd_, statistics_of(samples), unit});
+  progress_.note(name + ": " + fixed_text(rows_.back().value.median, 3) + " " + unit);
 }
 
 /// Seconds that the frames take, from a fresh start; making the particles is not counted.
@@ -162,23 +146,6 @@ double FrameBench::simulate(const std::string& name, const scene::Scene& scene, 
     check_health(simulation, name);
   }
   return is_drawn ? seconds + drawing_.draw(scene, simulation) : seconds;
-}
-
-/// Seconds from the start to the end of a `neve render` of its own.
-double FrameBench::seconds_of_render(const std::string& row, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "render");
-  for (const std::string& more :
-       {std::string("--quiet"), std::string("--out"), std::string("out"), std::string("--threads"),
-        std::to_string(options_.threads), std::string("--backend"), options_.backend})
-    arguments.push_back(more);
-  const ScratchFolder folder;
-  const Stopwatch watch;
-  const output::ProcessResult result =
-      output::run_process("/proc/self/exe", arguments, folder.path());
-  const double seconds = watch.wall();
-  if (result.exit_code != 0)
-    throw Error(exit_internal, row + ": neve render failed: " + result.errors);
-  return seconds;
 }
 
 /// Simulation time of a scene in cells twice as large, over that of the scene itself.
@@ -201,7 +168,7 @@ void FrameBench::dust() {
   const std::string frames = options_.is_quick ? "4" : "60";
   const auto seconds = [&](const std::string& shed) {
     return seconds_of_render(
-        "dust_time",
+        "dust_time", ScratchFolder().path(), options_,
         {scene, "--frames", frames, "--set", "material.powder.dust=" + shed, "--no-movie",
          "--no-keep-states", "--checkpoint-every", "0", "--size", "1280x720"});
   };
@@ -221,10 +188,8 @@ void FrameBench::implicit_steps() {
     ratios.push_back(simulate(row, by_force, 1) / seconds);
     return seconds;
   });
-  rows_.push_back(rows_.back());
-  rows_.back().name = row + "_gain";
-  rows_.back().value = statistics_of(ratios);
-  rows_.back().unit = "x explicit";
+  rows_.push_back(
+      {row + "_gain", threads_, particles_, simd_, statistics_of(ratios), "x explicit"});
   progress_.note(rows_.back().name + ": " + fixed_text(rows_.back().value.median, 2));
 }
 
@@ -245,7 +210,7 @@ std::vector<BenchRow> FrameBench::run() {
   coarsen_2();
   // Last: its particles are those of the default scene, which the row before it simulated.
   measure("first_picture", "s", [&] {
-    return seconds_of_render("first_picture", {"--frames", "0"});
+    return seconds_of_render("first_picture", ScratchFolder().path(), options_, {"--frames", "0"});
   });
   return rows_;
 }

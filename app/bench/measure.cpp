@@ -8,6 +8,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "app/output/process.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 
@@ -28,7 +29,7 @@ double cpu_of(int who) {
 }  // namespace
 
 double Stopwatch::wall() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return seconds_since(start_);
 }
 
 double Stopwatch::cpu() const {
@@ -78,6 +79,20 @@ std::string build_fault() {
 
 void stop_if_interrupted() {
   if (is_interrupted()) throw Error(exit_interrupted, "interrupted");
+}
+
+double seconds_of_render(const std::string& what, const std::filesystem::path& folder,
+                         const BenchOptions& options, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"render"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  words.insert(words.end(), {"--quiet", "--out", "out", "--threads",
+                             std::to_string(options.threads), "--backend", options.backend});
+  const Stopwatch watch;
+  const output::ProcessResult result = output::run_process("/proc/self/exe", words, folder);
+  const double seconds = watch.wall();
+  if (result.exit_code != exit_ok)
+    throw Error(exit_internal, what + ": neve render failed: " + result.errors);
+  return seconds;
 }
 
 }  // namespace neve::app::bench

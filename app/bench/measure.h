@@ -1,8 +1,12 @@
 #pragma once
 /// Clocks, and the state of the machine during a measurement.
 
-#include <chrono>
+#include <filesystem>
 #include <string>
+#include <vector>
+
+#include "app/bench/bench.h"
+#include "app/support/clock.h"
 
 namespace neve::app::bench {
 
@@ -16,7 +20,7 @@ class Stopwatch {
 
  private:
   static double cpu_now();
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Clock::time_point start_ = Clock::now();
   double cpu_start_ = cpu_now();
 };
 
@@ -40,5 +44,10 @@ std::string build_fault();
 
 /// @throws Error with exit_interrupted after Ctrl-C
 void stop_if_interrupted();
+
+/// Seconds from the start to the end of a `neve render` of its own, which writes into folder/out.
+/// @param what  named where it fails @throws Error
+double seconds_of_render(const std::string& what, const std::filesystem::path& folder,
+                         const BenchOptions& options, const std::vector<std::string>& arguments);
 
 }  // namespace neve::app::bench

@@ -1,4 +1,4 @@
-#include "app/bench/render_bench.h"
+#include "app/bench/bench.h"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ class RenderBench {
   void measure_snow(render::Frame& frame);
   void measure_png();
   void add(const std::string& name, double seconds, const render::Frame& frame);
-  std::vector<BenchRow> rows() const;
+  render::Image draw(const std::string& name, const render::Frame& frame);
   void compare_with_targets(const std::vector<BenchRow>& rows);
 
   BenchOptions options_;
@@ -54,20 +54,13 @@ class RenderBench {
   ThreadPool pool_;
   render::Renderer renderer_, by_gl_, by_cpu_;
   render::Image picture_;  ///< the last one of the main size
-  struct Samples {
-    std::vector<double> milliseconds;
-    std::size_t particles = 0;
-  };
-  std::vector<std::string> order_;  ///< in which rows came up
-  std::map<std::string, Samples> samples_;
+  RowSamples rows_;
 };
 
 RenderBench::RenderBench(const BenchOptions& options, Progress& progress)
     : options_(options),
       progress_(progress),
-      rounds_(options.rounds > 0 ? options.rounds
-              : options.is_quick ? 1
-                                 : 7),
+      rounds_(options.rounds_or(1, 7)),
       context_(render::gl::open_context(options.backend)),
       pool_(options.threads),
       renderer_(*context_, {}, &pool_),
@@ -75,10 +68,21 @@ RenderBench::RenderBench(const BenchOptions& options, Progress& progress)
       by_cpu_(*context_, {}, &pool_, render::ParticlePath::cpu) {}
 
 void RenderBench::add(const std::string& name, double seconds, const render::Frame& frame) {
-  const auto [found, is_new] = samples_.try_emplace(name);
-  if (is_new) order_.push_back(name);
-  found->second.milliseconds.push_back(1e3 * seconds);
-  found->second.particles = frame.points.position.size();
+  rows_.add({name,
+             pool_.thread_count(),
+             frame.points.position.size(),
+             render::cpu::chosen_draw_kernels().simd,
+             {},
+             "ms"},
+            1e3 * seconds);
+}
+
+/// The picture as users get it.
+render::Image RenderBench::draw(const std::string& name, const render::Frame& frame) {
+  const Stopwatch watch;
+  render::Image image = renderer_.draw(frame);
+  add(name, watch.wall(), frame);
+  return image;
 }
 
 /// Times of the phases of a picture of this frame. Measuring them makes the driver wait, so their
@@ -100,12 +104,8 @@ double phase_seconds(const std::vector<render::PhaseTime>& times, const std::str
 void RenderBench::measure_particles(const std::string& size, render::Frame& frame) {
   // Another state than before, so that nothing of the last picture can be used again.
   frame.points.position.edit().front().x *= -1;
-  const Stopwatch watch;
-  render::Image image = renderer_.draw(frame);
-  add("particles_" + size, watch.wall(), frame);
-  const Stopwatch again;
-  renderer_.draw(frame);
-  add("particles_" + size + "_same_state", again.wall(), frame);
+  render::Image image = draw("particles_" + size, frame);
+  draw("particles_" + size + "_same_state", frame);
   add("spheres_" + size + "_by_gl", phase_seconds(phases_of(by_gl_, frame), "particles"), frame);
   add("spheres_" + size + "_by_cpu", phase_seconds(phases_of(by_cpu_, frame), "particles"), frame);
   if (size == main_size) picture_ = std::move(image);
@@ -121,14 +121,10 @@ void change_state(render::Frame& frame) {
 void RenderBench::measure_all_layers(render::Frame& frame) {
   const std::string name = std::string("all_layers_") + main_size;
   change_state(frame);
-  const Stopwatch watch;
-  renderer_.draw(frame);
-  add(name, watch.wall(), frame);
+  draw(name, frame);
   // As in a view that turns.
   frame.camera.eye.x += 1e-3f;
-  const Stopwatch again;
-  renderer_.draw(frame);
-  add(name + "_same_state", again.wall(), frame);
+  draw(name + "_same_state", frame);
   change_state(frame);
   for (const render::PhaseTime& time : phases_of(renderer_, frame))
     add(std::string("phase_") + time.phase, time.seconds, frame);
@@ -148,13 +144,9 @@ void RenderBench::measure_snow(render::Frame& frame) {
   frame.has_snow_surface = true;
   // Another state than ever before.
   frame.points.position.edit().front().y += 1e-5f;
-  const Stopwatch watch;
-  renderer_.draw(frame);
-  add(name, watch.wall(), frame);
+  draw(name, frame);
   frame.camera.eye.x += 1e-3f;
-  const Stopwatch again;
-  renderer_.draw(frame);
-  add(name + "_same_state", again.wall(), frame);
+  draw(name + "_same_state", frame);
   frame.has_snow_surface = false;
 }
 
@@ -188,25 +180,9 @@ std::vector<BenchRow> RenderBench::run() {
     measure_png();
     progress_.note("round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
   }
-  const std::vector<BenchRow> found = rows();
+  const std::vector<BenchRow> found = rows_.rows();
   if (context_->is_software && !options_.is_quick) compare_with_targets(found);
   return found;
-}
-
-std::vector<BenchRow> RenderBench::rows() const {
-  std::vector<BenchRow> rows;
-  for (const std::string& name : order_) {
-    const Samples& samples = samples_.at(name);
-    BenchRow row;
-    row.name = name;
-    row.threads = pool_.thread_count();
-    row.particles = samples.particles;
-    row.simd = render::cpu::chosen_draw_kernels().simd;
-    row.value = statistics_of(samples.milliseconds);
-    row.unit = "ms";
-    rows.push_back(row);
-  }
-  return rows;
 }
 
 void RenderBench::compare_with_targets(const std::vector<BenchRow>& rows) {

@@ -1,4 +1,4 @@
-#include "app/bench/sim_bench.h"
+#include "app/bench/bench.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,18 +91,14 @@ class SimBench {
  private:
   void measure_variants();
   void measure_spray();
-  void measure_flow();
-  void measure_body();
+  void measure_pairs();
   void measure_scaling();
   void measure_naive(int round);
   void gather_rows();
-  BenchRow row(const std::string& name, int threads, const std::string& unit) const;
-  void add_throughput(const Variant& variant);
-  void add_one_thread(BenchMethod method);
-  void add_naive(BenchMethod method);
-  void add_scaling(BenchMethod method);
+  BenchRow& add(const std::string& name, int threads, const Statistics& value,
+                const std::string& unit);
+  void add_throughput(const Variant& variant, int threads, const std::string& suffix = "");
   void add_memory_and_spray(BenchMethod method);
-  void add_pair(BenchMethod method, const char* name, const char* with, const char* without);
 
   Progress& progress_;
   int rounds_, threads_, cells_;
@@ -115,14 +111,11 @@ class SimBench {
 
 SimBench::SimBench(const BenchOptions& options, Progress& progress)
     : progress_(progress),
-      rounds_(options.rounds > 0 ? options.rounds
-              : options.is_quick ? 2
-                                 : 5),
+      rounds_(std::min(options.rounds_or(2, 5), bench_steps)),
       threads_(options.threads),
       cells_(packed_cells_a_side(options.particles > 0 ? options.particles
                                  : options.is_quick    ? quick_particles
                                                        : common_particles)) {
-  rounds_ = std::min(rounds_, bench_steps);
   const double particles = 8.0 * cells_ * cells_ * cells_;
   // Two races of three codes each wait while a simulation is timed.
   check_memory(5 * memory_of(particles, sim::Precision::real64, threads_));
@@ -141,8 +134,7 @@ std::vector<BenchRow> SimBench::run() {
   for (int round = 0; round < rounds_; ++round) {
     measure_variants();
     measure_spray();
-    measure_flow();
-    measure_body();
+    measure_pairs();
     measure_scaling();
     measure_naive(round);
     progress_.note("round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
@@ -175,18 +167,15 @@ void SimBench::measure_spray() {
   }
 }
 
-void SimBench::measure_flow() {
+/// Snow that flows through and snow that only falls, on a body that moves and on a plate.
+void SimBench::measure_pairs() {
   for (const BenchMethod method : main_methods)
-    for (const bool flows : {false, true})
-      runs_[name_for(flows ? "flow" : "stream", method)].add(
-          time_run(stream_case(cells_, method, flows), threads_, "flow"));
-}
-
-void SimBench::measure_body() {
-  for (const BenchMethod method : main_methods)
-    for (const bool moves : {false, true})
-      runs_[name_for(moves ? "body" : "plate", method)].add(
-          time_run(plate_case(cells_, method, moves), threads_, "body"));
+    for (const bool has : {false, true}) {
+      runs_[name_for(has ? "flow" : "stream", method)].add(
+          time_run(stream_case(cells_, method, has), threads_, "flow"));
+      runs_[name_for(has ? "body" : "plate", method)].add(
+          time_run(plate_case(cells_, method, has), threads_, "body"));
+    }
 }
 
 void SimBench::measure_scaling() {
@@ -208,91 +197,67 @@ void SimBench::measure_naive(int round) {
     race.run(bench_steps * round / rounds_, bench_steps * (round + 1) / rounds_);
 }
 
-BenchRow SimBench::row(const std::string& name, int threads, const std::string& unit) const {
-  BenchRow row;
-  row.name = name;
-  row.threads = threads;
-  row.particles = particles_;
-  row.simd = simd_;
-  row.unit = unit;
-  return row;
+BenchRow& SimBench::add(const std::string& name, int threads, const Statistics& value,
+                        const std::string& unit) {
+  return rows_.emplace_back(BenchRow{name, threads, particles_, simd_, value, unit});
 }
 
-void SimBench::add_throughput(const Variant& variant) {
-  const std::string name = variant_name(variant);
-  BenchRow r = row(name, threads_, throughput_unit);
-  r.value = runs_.at(name).throughput();
-  r.phases = runs_.at(name).phases();
+void SimBench::add_throughput(const Variant& variant, int threads, const std::string& suffix) {
+  const Samples& samples = runs_.at(variant_name(variant) + suffix);
+  BenchRow& row =
+      add(variant_name(variant) + suffix, threads, samples.throughput(), throughput_unit);
+  row.phases = samples.phases();
   const auto race = races_.find(variant.method);
   if (race != races_.end() && variant.model == sim::Model{})
-    r.ratio_to_naive = race->second.ratio(variant.precision);
-  rows_.push_back(r);
-}
-
-void SimBench::add_naive(BenchMethod method) {
-  BenchRow r = row(std::string("naive_") + name(method), 1, throughput_unit);
-  r.simd = "none";
-  r.value = races_.at(method).naive_throughput();
-  rows_.push_back(r);
-}
-
-void SimBench::add_one_thread(BenchMethod method) {
-  const std::string name = variant_name({method, sim::Precision::single}) + "_1_thread";
-  BenchRow r = row(name, 1, throughput_unit);
-  r.value = runs_.at(name).throughput();
-  r.phases = runs_.at(name).phases();
-  r.ratio_to_naive = races_.at(method).ratio(sim::Precision::single);
-  rows_.push_back(r);
-}
-
-void SimBench::add_scaling(BenchMethod method) {
-  const std::string name = variant_name({method, sim::Precision::single});
-  BenchRow r = row(name_for("scaling_2_threads", method), 2, "x one thread");
-  r.value = time_ratio(runs_.at(name + "_1_thread"), runs_.at(name + "_2_threads"));
-  rows_.push_back(r);
+    row.ratio_to_naive = race->second.ratio(variant.precision);
 }
 
 void SimBench::add_memory_and_spray(BenchMethod method) {
   const Samples& packed = runs_.at(variant_name({method, sim::Precision::single}));
   const Samples& spray = runs_.at(name_for("spray", method));
-  BenchRow memory = row(name_for("memory_per_particle", method), threads_, "B");
-  memory.value = packed.bytes_per_particle();
-  BenchRow time = row(name_for("spray_time", method), threads_, "x packed");
-  time.value = time_ratio(spray, packed);
-  time.phases = spray.phases();
-  BenchRow bytes = row(name_for("spray_memory", method), threads_, "x packed");
-  bytes.value = memory_ratio(spray, packed);
-  rows_.insert(rows_.end(), {memory, time, bytes});
+  add(name_for("memory_per_particle", method), threads_, packed.bytes_per_particle(), "B");
+  add(name_for("spray_time", method), threads_, time_ratio(spray, packed), "x packed").phases =
+      spray.phases();
+  add(name_for("spray_memory", method), threads_, memory_ratio(spray, packed), "x packed");
   for (const ThinSpray& thin : thin_sprays) {
     const Samples& samples = runs_.at(name_for(thin.name, method));
-    BenchRow thin_time =
-        row(name_for(std::string(thin.name) + "_time", method), threads_, "x packed");
-    thin_time.value = time_ratio(samples, runs_.at(name_for("packed", method)));
-    BenchRow thin_bytes = row(name_for(std::string(thin.name) + "_memory", method), threads_, "B");
-    thin_bytes.value = samples.bytes_per_particle();
-    thin_time.particles = thin_bytes.particles = samples.runs().back().particles;
-    thin_time.phases = samples.phases();
-    rows_.insert(rows_.end(), {thin_time, thin_bytes});
+    const auto add_thin = [&](const char* what, const Statistics& value,
+                              const char* unit) -> BenchRow& {
+      BenchRow& row = add(name_for(std::string(thin.name) + what, method), threads_, value, unit);
+      row.particles = samples.runs().back().particles;
+      return row;
+    };
+    add_thin("_time", time_ratio(samples, runs_.at(name_for("packed", method))), "x packed")
+        .phases = samples.phases();
+    add_thin("_memory", samples.bytes_per_particle(), "B");
   }
 }
 
-void SimBench::add_pair(BenchMethod method, const char* name, const char* with,
-                        const char* without) {
-  BenchRow time = row(name_for(name, method), threads_, "x without");
-  time.value = time_ratio(runs_.at(name_for(with, method)), runs_.at(name_for(without, method)));
-  rows_.push_back(time);
-}
-
 void SimBench::gather_rows() {
-  for (const Variant& variant : all_variants()) add_throughput(variant);
-  for (const BenchMethod method : main_methods) add_one_thread(method);
-  for (const BenchMethod method : main_methods) add_naive(method);
+  const auto single = sim::Precision::single;
+  const auto add_ratio = [&](const char* name, int threads, BenchMethod method, const Samples& a,
+                             const Samples& b, const char* unit) {
+    add(name_for(name, method), threads, time_ratio(a, b), unit);
+  };
+  for (const Variant& variant : all_variants()) add_throughput(variant, threads_);
+  for (const BenchMethod method : main_methods) add_throughput({method, single}, 1, "_1_thread");
+  for (const BenchMethod method : main_methods)
+    add(std::string("naive_") + name(method), 1, races_.at(method).naive_throughput(),
+        throughput_unit)
+        .simd = "none";
   // One core cannot tell.
   if (threads_ > 1)
-    for (const BenchMethod method : main_methods) add_scaling(method);
+    for (const BenchMethod method : main_methods) {
+      const std::string name = variant_name({method, single});
+      add_ratio("scaling_2_threads", 2, method, runs_.at(name + "_1_thread"),
+                runs_.at(name + "_2_threads"), "x one thread");
+    }
   for (const BenchMethod method : main_methods) add_memory_and_spray(method);
-  for (const BenchMethod method : main_methods) add_pair(method, "flow_time", "flow", "stream");
-  for (const BenchMethod method : main_methods) add_pair(method, "body_time", "body", "plate");
+  for (const auto& [name, with, without] :
+       {std::array{"flow_time", "flow", "stream"}, {"body_time", "body", "plate"}})
+    for (const BenchMethod method : main_methods)
+      add_ratio(name, threads_, method, runs_.at(name_for(with, method)),
+                runs_.at(name_for(without, method)), "x without");
 }
 
 }  // namespace
@@ -302,7 +267,7 @@ std::vector<BenchRow> bench_sim(const BenchOptions& options, Progress& progress)
 }
 
 std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progress) {
-  const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
+  const int rounds = options.rounds_or(1, 3);
   const double most = options.particles > 0 ? options.particles
                       : options.is_quick    ? quick_particles
                                             : longest_curve;

@@ -1,4 +1,4 @@
-#include "app/bench/surface_bench.h"
+#include "app/bench/bench.h"
 
 #include <array>
 #include <map>
@@ -43,50 +43,29 @@ struct SurfaceCase {
   render::surface::Settings settings;
 };
 
-class SurfaceRows {
- public:
-  void add(const std::string& name, const SurfaceCase& snow, int threads, double seconds) {
-    const auto [found, is_new] = samples_.try_emplace(name);
-    if (is_new) {
-      rows_.emplace_back();
-      rows_.back().name = name;
-      rows_.back().threads = threads;
-      rows_.back().particles = snow.points.position.size();
-      rows_.back().simd = "none";
-      rows_.back().unit = "ms";
-    }
-    found->second.push_back(1e3 * seconds);
-  }
-  std::vector<BenchRow> take() {
-    for (BenchRow& row : rows_) row.value = statistics_of(samples_.at(row.name));
-    return std::move(rows_);
-  }
-
- private:
-  std::vector<BenchRow> rows_;
-  std::map<std::string, std::vector<double>> samples_;
-};
-
-void measure(const std::string& size, const SurfaceCase& snow, ThreadPool& pool,
-             SurfaceRows& rows) {
+void measure(const std::string& size, const SurfaceCase& snow, ThreadPool& pool, RowSamples& rows) {
+  const auto add = [&](const std::string& name, double seconds) {
+    rows.add({name + size, pool.thread_count(), snow.points.position.size(), "none", {}, "ms"},
+             1e3 * seconds);
+  };
   const Stopwatch watch;
   const render::surface::Surface surface = make_surface(snow.grains(), snow.settings, &pool);
-  rows.add("surface_" + size, snow, pool.thread_count(), watch.wall());
+  add("surface_", watch.wall());
   const Stopwatch again;
   render::surface::shares_of(surface.mesh.position, snow.grains(), surface.spray,
                              render::surface::attribute_reach * snow.settings.kernel.width, &pool);
-  rows.add("attributes_" + size, snow, pool.thread_count(), again.wall());
+  add("attributes_", again.wall());
 }
 
 }  // namespace
 
 std::vector<BenchRow> bench_surface(const BenchOptions& options, Progress& progress) {
   ThreadPool pool(options.threads), one(1);
-  const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 7;
+  const int rounds = options.rounds_or(1, 7);
   std::map<std::string, SurfaceCase> cases;
   for (const SurfaceSize& size : surface_sizes)
     cases.try_emplace(size.name, options.is_quick ? size.quick : size.particles);
-  SurfaceRows rows;
+  RowSamples rows;
   for (int round = 0; round < rounds; ++round) {
     for (const SurfaceSize& size : surface_sizes) {
       stop_if_interrupted();
@@ -95,7 +74,7 @@ std::vector<BenchRow> bench_surface(const BenchOptions& options, Progress& progr
     measure("300k_1_thread", cases.at("300k"), one, rows);
     progress.note("round " + std::to_string(round + 1) + " of " + std::to_string(rounds));
   }
-  std::vector<BenchRow> found = rows.take();
+  const std::vector<BenchRow> found = rows.rows();
   for (const BenchRow& row : found)
     if (row.name == main_row && !options.is_quick)
       progress.note(row.name + ": " + fixed_text(row.value.median, 1) +

@@ -1,4 +1,4 @@
-#include "app/bench/sweep_bench.h"
+#include "app/bench/bench.h"
 
 #include "app/bench/measure.h"
 #include "app/bench/scratch_folder.h"
@@ -35,10 +35,6 @@ name = "particles"
 size = [480, 270]
 )";
 
-struct Round {
-  double cores_busy = 0, overhead = 0;
-};
-
 /// Seconds that a run spent on simulating and drawing.
 double seconds_of_work(const std::filesystem::path& folder, const sweep::Run& run) {
   double seconds = 0;
@@ -48,7 +44,8 @@ double seconds_of_work(const std::filesystem::path& folder, const sweep::Run& ru
   return seconds;
 }
 
-Round measure_round(const BenchOptions& options, int cores, int run_count, Progress& progress) {
+void measure_round(const BenchOptions& options, int cores, int run_count, Progress& progress,
+                   RowSamples& rows) {
   const ScratchFolder scratch;
   output::write_file(scratch.path() / "scene.toml", scene_text);
   sweep::plan::SweepOptions sweep;
@@ -73,7 +70,12 @@ Round measure_round(const BenchOptions& options, int cores, int run_count, Progr
     overhead +=
         sweep::store::read_status(sweep::store::runs_folder(plan.folder) / run.folder).seconds -
         seconds_of_work(plan.folder, run);
-  return {result.core_seconds / (cores * result.seconds), overhead / run_count};
+  const auto add = [&](const char* name, double sample, const char* unit) {
+    rows.add({name, cores, 4500, sim::kernels::name(sim::kernels::chosen_simd_level()), {}, unit},
+             sample);
+  };
+  add("cores_busy", 100 * result.core_seconds / (cores * result.seconds), "%");
+  add("overhead_per_run", overhead / run_count, "s");
 }
 
 }  // namespace
@@ -81,25 +83,10 @@ Round measure_round(const BenchOptions& options, int cores, int run_count, Progr
 std::vector<BenchRow> bench_sweep(const BenchOptions& options, Progress& progress) {
   progress.note("neve bench sweep");
   const int cores = core_count(options.threads);
-  const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
-  const int runs = options.is_quick ? 2 * cores : 12 * cores;
-  std::vector<double> busy, overhead;
-  for (int k = 0; k < rounds; ++k) {
-    const Round round = measure_round(options, cores, runs, progress);
-    busy.push_back(100 * round.cores_busy);
-    overhead.push_back(round.overhead);
-  }
-  const auto row = [&](const char* name, const std::vector<double>& samples, const char* unit) {
-    BenchRow result;
-    result.name = name;
-    result.threads = cores;
-    result.particles = 4500;
-    result.simd = sim::kernels::name(sim::kernels::chosen_simd_level());
-    result.value = statistics_of(samples);
-    result.unit = unit;
-    return result;
-  };
-  return {row("cores_busy", busy, "%"), row("overhead_per_run", overhead, "s")};
+  RowSamples rows;
+  for (int k = 0; k < options.rounds_or(1, 3); ++k)
+    measure_round(options, cores, options.is_quick ? 2 * cores : 12 * cores, progress, rows);
+  return rows.rows();
 }
 
 }  // namespace neve::app::bench

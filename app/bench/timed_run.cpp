@@ -11,11 +11,6 @@ namespace {
 
 constexpr double shortest_measurement = 0.1;  // s
 
-constexpr double sim::PhaseSeconds::*all_phases[] = {
-    &sim::PhaseSeconds::partition,         &sim::PhaseSeconds::particles_to_grid,
-    &sim::PhaseSeconds::grid_update,       &sim::PhaseSeconds::solve,
-    &sim::PhaseSeconds::grid_to_particles, &sim::PhaseSeconds::checks};
-
 template <class Value>
 Statistics of_each(const std::vector<TimedRun>& runs, const Value& value) {
   std::vector<double> samples;
@@ -61,8 +56,8 @@ TimedRun time_run(const BenchCase& bench_case, int threads, const std::string& n
     const Stopwatch watch;
     run_steps(simulation, bench_steps);
     run.seconds += watch.wall();
-    const sim::PhaseSeconds phases = simulation.phase_seconds();
-    for (const auto phase : all_phases) run.phases.*phase += phases.*phase;
+    const sim::PhaseSeconds taken = simulation.phase_seconds();
+    for (const Phase& p : phases) run.phases.*p.seconds += taken.*p.seconds;
     run.particles = simulation.particle_count();
     run.particle_steps += static_cast<double>(run.particles) * bench_steps;
     run.bytes = simulation.memory_bytes();
@@ -87,24 +82,17 @@ sim::PhaseSeconds Samples::phases() const {
   sim::PhaseSeconds sum;
   double particle_steps = 0;
   for (const TimedRun& run : runs_) {
-    for (const auto phase : all_phases) sum.*phase += run.phases.*phase;
+    for (const Phase& p : bench::phases) sum.*p.seconds += run.phases.*p.seconds;
     particle_steps += run.particle_steps;
   }
-  for (const auto phase : all_phases) sum.*phase /= particle_steps;
+  for (const Phase& p : bench::phases) sum.*p.seconds /= particle_steps;
   return sum;
 }
 
 BenchRow Samples::throughput_row(const std::string& name) const {
   const TimedRun& last = runs_.back();
-  BenchRow row;
-  row.name = name;
-  row.threads = last.threads;
-  row.particles = last.particles;
-  row.simd = last.simd;
-  row.value = throughput();
-  row.unit = throughput_unit;
-  row.phases = phases();
-  return row;
+  return {name, last.threads, last.particles, last.simd, throughput(), throughput_unit,
+          {},   phases()};
 }
 
 Statistics time_ratio(const Samples& a, const Samples& b) {

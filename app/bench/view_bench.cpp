@@ -1,4 +1,4 @@
-#include "app/bench/view_bench.h"
+#include "app/bench/bench.h"
 
 #include <cmath>
 
@@ -97,12 +97,9 @@ class BenchFrontend : public view::frontend::Frontend {
   std::vector<double> answers_;
 };
 
-struct ViewRound {
-  double pictures_per_second = 0, answer = 0;  ///< 1/s, ms
-  std::size_t particles = 0;
-};
-
-ViewRound measure_view(const std::string& file, const BenchOptions& options, bool is_running) {
+/// @param suffix  of its rows
+void measure_view(const std::string& file, const BenchOptions& options, bool is_running,
+                  const std::string& suffix, RowSamples& rows) {
   const auto context = render::gl::open_context(options.backend);
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, {}, &pool);
@@ -118,8 +115,17 @@ ViewRound measure_view(const std::string& file, const BenchOptions& options, boo
   viewer.run();
   front.stop_clock();
   stop_if_interrupted();
-  return {front.pictures_per_second(), 1e3 * statistics_of(front.answers()).median,
-          viewer.state().live->snapshot.particles.x.size()};
+  const auto add = [&](const char* name, double sample, const char* unit) {
+    rows.add({name + suffix,
+              core_count(options.threads),
+              viewer.state().live->snapshot.particles.x.size(),
+              sim::kernels::name(sim::kernels::chosen_simd_level()),
+              {},
+              unit},
+             sample);
+  };
+  add("frames_per_second", front.pictures_per_second(), "1/s");
+  add("input_to_picture", 1e3 * statistics_of(front.answers()).median, "ms");
 }
 
 }  // namespace
@@ -128,35 +134,15 @@ std::vector<BenchRow> bench_view(const BenchOptions& options, Progress& progress
   const ScratchFolder scratch;
   const std::string file = (scratch.path() / "scene.toml").string();
   output::write_file(file, viewed_scene);
-  const int rounds = options.rounds > 0 ? options.rounds : options.is_quick ? 1 : 3;
-  std::vector<double> running_rate, running_answer, paused_rate, paused_answer;
-  std::size_t particles = 0;
+  const int rounds = options.rounds_or(1, 3);
+  RowSamples rows;
   for (int k = 0; k < rounds; ++k) {
     progress.line("round " + std::to_string(k + 1) + " of " + std::to_string(rounds));
-    const ViewRound running = measure_view(file, options, true);
-    const ViewRound paused = measure_view(file, options, false);
-    running_rate.push_back(running.pictures_per_second);
-    running_answer.push_back(running.answer);
-    paused_rate.push_back(paused.pictures_per_second);
-    paused_answer.push_back(paused.answer);
-    particles = paused.particles;
+    measure_view(file, options, true, "", rows);
+    measure_view(file, options, false, "_paused", rows);
   }
   progress.clear();
-  const int threads = core_count(options.threads);
-  const auto row = [&](const char* name, const std::vector<double>& samples, const char* unit) {
-    BenchRow result;
-    result.name = name;
-    result.threads = threads;
-    result.particles = particles;
-    result.simd = sim::kernels::name(sim::kernels::chosen_simd_level());
-    result.value = statistics_of(samples);
-    result.unit = unit;
-    return result;
-  };
-  return {row("frames_per_second", running_rate, "1/s"),
-          row("input_to_picture", running_answer, "ms"),
-          row("frames_per_second_paused", paused_rate, "1/s"),
-          row("input_to_picture_paused", paused_answer, "ms")};
+  return rows.rows();
 }
 
 }  // namespace neve::app::bench

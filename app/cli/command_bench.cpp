@@ -5,14 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/bench/frame_bench.h"
+#include "app/bench/bench.h"
 #include "app/bench/measure.h"
-#include "app/bench/render_bench.h"
-#include "app/bench/scene_bench.h"
-#include "app/bench/sim_bench.h"
-#include "app/bench/surface_bench.h"
-#include "app/bench/sweep_bench.h"
-#include "app/bench/view_bench.h"
 #include "app/cli/command_line.h"
 #include "app/options/common.h"
 #include "app/options/languages.h"
@@ -29,10 +23,8 @@ namespace {
 void print_rows(const std::vector<bench::BenchRow>& rows, const bench::BenchOptions& options) {
   if (options.is_json)
     std::cout << to_text(bench::to_json(rows)) << "\n";
-  else if (options.is_markdown)
-    bench::print_markdown(std::cout, rows);
   else
-    bench::print_table(std::cout, rows);
+    bench::print_tables(std::cout, rows, options.is_markdown);
 }
 
 /// A part of the measurements.

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "app/bench/bench_options.h"
 #include "app/compare/pair_options.h"
 #include "app/dump/dump_options.h"
 #include "app/pick/pick_options.h"
