@@ -18,16 +18,13 @@ using sim::Vec3d;
 
 /// Everything that a number of a particle follows from.
 struct ColumnSource {
-  const scene::Scene& scene;
   const Origins& origins;
   const State& state;
+  const sim::ParticleArrays& p;  ///< of the state
   Axes axes;
-  const std::vector<std::size_t>& rows;  ///< indices of the particles that are written
-  bool is_dust = false;                  ///< instead of snow
+  bool is_dust = false;  ///< instead of snow
 
-  double J(std::size_t p) const {
-    return state.particles.F_E[p].determinant() * state.particles.J_P[p];
-  }
+  double J(std::size_t k) const { return p.F_E[k].determinant() * p.J_P[k]; }
 };
 
 template <class Value>
@@ -42,15 +39,6 @@ void append(const Value& value, std::vector<double>& numbers) {
   }
 }
 
-/// @param value  of a particle by its index: a number, a vector or a tensor
-template <class Value>
-std::vector<double> values_of(const ColumnSource& source, const Value& value) {
-  std::vector<double> numbers;
-  numbers.reserve(source.rows.size());
-  for (const std::size_t p : source.rows) append(value(p), numbers);
-  return numbers;
-}
-
 enum class NumberKind { of_state, computed, whole };
 
 Numbers converted(std::vector<double> values, NumberKind kind, bool is_single) {
@@ -62,48 +50,25 @@ Numbers converted(std::vector<double> values, NumberKind kind, bool is_single) {
   return numbers;
 }
 
+using From = const ColumnSource&;
+using Index = std::size_t;
+using To = std::vector<double>&;
+
+/// The column of an attribute.
 struct ColumnForm {
+  ExportAttribute attribute;
   const char* unit;
   int components;
   NumberKind kind;
+  void (*append)(From s, Index k, To to);  ///< the numbers of a particle
 };
 
-ColumnForm form_of(ExportAttribute attribute) {
-  using enum NumberKind;
-  switch (attribute) {
-    case ExportAttribute::x:
-      return {"m", 3, computed};
-    case ExportAttribute::v:
-      return {"m/s", 3, of_state};
-    case ExportAttribute::m:
-      return {"kg", 1, of_state};
-    case ExportAttribute::V0:
-      return {"m3", 1, of_state};
-    case ExportAttribute::density:
-      return {"kg/m3", 1, computed};
-    case ExportAttribute::J_E:
-      return {"", 1, computed};
-    case ExportAttribute::J_P:
-      return {"", 1, of_state};
-    case ExportAttribute::F_E:
-      return {"", 9, of_state};
-    case ExportAttribute::stress:
-      return {"Pa", 9, computed};
-    case ExportAttribute::kirchhoff:
-      return {"Pa", 9, of_state};
-    case ExportAttribute::C:
-      return {"1/s", 9, of_state};
-    case ExportAttribute::radius:
-      return {"m", 1, computed};
-    case ExportAttribute::age:
-      return {"s", 1, computed};
-    default:  // id, material, body
-      return {"", 1, whole};
-  }
-}
-
-std::vector<double> tensors_of(const ColumnSource& s, const std::vector<Mat3d>& list) {
-  return values_of(s, [&](std::size_t p) { return s.axes.tensor(list[p]); });
+/// s, not-a-number where an emitter that waited gave birth to it.
+double age_of(From s, Index k) {
+  if (s.is_dust) return s.state.dust.age[k];
+  const std::uint32_t id = s.p.id_of(k);
+  const bool is_known = s.state.waiting.empty() || !s.origins.is_born(id);
+  return is_known ? s.state.time - s.origins.birth_of(id) : NAN;
 }
 
 /// Radius of the ball that the particle fills undeformed, m.
@@ -111,50 +76,34 @@ double radius_of(double V0) {
   return std::cbrt(3 * V0 / (4 * std::numbers::pi));
 }
 
-std::vector<double> values_of(ExportAttribute attribute, const ColumnSource& s) {
-  const sim::ParticleArrays& a = s.state.particles;
-  const auto each = [&](const auto& value) { return values_of(s, value); };
-  switch (attribute) {
-    case ExportAttribute::id:
-      return each([&](std::size_t p) { return double(a.id_of(p)); });
-    case ExportAttribute::x:
-      return each([&](std::size_t p) { return s.axes.placed(a.x[p]); });
-    case ExportAttribute::v:
-      return each([&](std::size_t p) { return s.axes.scaled(a.v[p]); });
-    case ExportAttribute::m:
-      return each([&](std::size_t p) { return a.m[p]; });
-    case ExportAttribute::V0:
-      return each([&](std::size_t p) { return a.V0[p]; });
-    case ExportAttribute::density:
-      return each([&](std::size_t p) { return a.m[p] / a.V0[p] / s.J(p); });
-    case ExportAttribute::J_E:
-      return each([&](std::size_t p) { return a.F_E[p].determinant(); });
-    case ExportAttribute::J_P:
-      return each([&](std::size_t p) { return a.J_P[p]; });
-    case ExportAttribute::F_E:
-      return tensors_of(s, a.F_E);
-    case ExportAttribute::stress:
-      return each(
-          [&](std::size_t p) { return Mat3d(s.axes.tensor(s.state.kirchhoff[p]) / s.J(p)); });
-    case ExportAttribute::kirchhoff:
-      return tensors_of(s, s.state.kirchhoff);
-    case ExportAttribute::C:
-      return tensors_of(s, a.C);
-    case ExportAttribute::material:
-      return each([&](std::size_t p) { return double(a.material[p]); });
-    case ExportAttribute::body:
-      return each([&](std::size_t p) { return double(s.origins.body_of(a.id_of(p))); });
-    case ExportAttribute::radius:
-      return each([&](std::size_t p) { return s.axes.scale() * radius_of(a.V0[p]); });
-    case ExportAttribute::age:
-      if (s.is_dust) return each([&](std::size_t p) { return s.state.dust.age[p]; });
-      return each([&](std::size_t p) {
-        const std::uint32_t id = a.id_of(p);
-        const bool is_known = s.state.waiting.empty() || !s.origins.is_born(id);
-        return is_known ? s.state.time - s.origins.birth_of(id) : NAN;
-      });
-  }
-  return {};
+const ColumnForm& form_of(ExportAttribute attribute) {
+  using enum ExportAttribute;
+  using enum NumberKind;
+  static constexpr ColumnForm forms[] = {
+      {id, "", 1, whole, [](From s, Index k, To to) { append(double(s.p.id_of(k)), to); }},
+      {x, "m", 3, computed, [](From s, Index k, To to) { append(s.axes.placed(s.p.x[k]), to); }},
+      {v, "m/s", 3, of_state, [](From s, Index k, To to) { append(s.axes.scaled(s.p.v[k]), to); }},
+      {m, "kg", 1, of_state, [](From s, Index k, To to) { append(s.p.m[k], to); }},
+      {V0, "m3", 1, of_state, [](From s, Index k, To to) { append(s.p.V0[k], to); }},
+      {density, "kg/m3", 1, computed,
+       [](From s, Index k, To to) { append(s.p.m[k] / s.p.V0[k] / s.J(k), to); }},
+      {J_E, "", 1, computed, [](From s, Index k, To to) { append(s.p.F_E[k].determinant(), to); }},
+      {J_P, "", 1, of_state, [](From s, Index k, To to) { append(s.p.J_P[k], to); }},
+      {F_E, "", 9, of_state, [](From s, Index k, To to) { append(s.axes.tensor(s.p.F_E[k]), to); }},
+      {stress, "Pa", 9, computed,
+       [](From s, Index k, To to) {
+         append(Mat3d(s.axes.tensor(s.state.kirchhoff[k]) / s.J(k)), to);
+       }},
+      {kirchhoff, "Pa", 9, of_state,
+       [](From s, Index k, To to) { append(s.axes.tensor(s.state.kirchhoff[k]), to); }},
+      {C, "1/s", 9, of_state, [](From s, Index k, To to) { append(s.axes.tensor(s.p.C[k]), to); }},
+      {material, "", 1, whole, [](From s, Index k, To to) { append(double(s.p.material[k]), to); }},
+      {body, "", 1, whole,
+       [](From s, Index k, To to) { append(double(s.origins.body_of(s.p.id_of(k))), to); }},
+      {radius, "m", 1, computed,
+       [](From s, Index k, To to) { append(s.axes.scale() * radius_of(s.p.V0[k]), to); }},
+      {age, "s", 1, computed, [](From s, Index k, To to) { append(age_of(s, k), to); }}};
+  return *std::ranges::find(forms, attribute, &ColumnForm::attribute);
 }
 
 bool is_single(const scene::Scene& scene) {
@@ -176,14 +125,22 @@ sim::files::PointColumn::Type type_of(const sim::files::PointColumn* column) {
   return column ? column->type : sim::files::PointColumn::Type::real64;
 }
 
-/// Numbers of a file's column, in the type that they have there.
-Numbers carried_numbers(const ColumnSource& s, const Carried& carried, const std::string& name) {
-  const sim::files::PointColumn* column = carried.find(name);
-  const auto value_of = [&](std::size_t p) {
-    const std::uint32_t id = s.state.particles.id_of(p);
-    return column && id < column->value.size() ? column->value[id] : 0;
-  };
-  return numbers_of_type(values_of(s, value_of), type_of(column));
+/// Numbers of a column: of an attribute, or of a file in the type that they have there.
+Numbers numbers_of(const ColumnSource& s, const Column& column, const Carried& carried,
+                   const std::vector<std::size_t>& rows, bool is_single) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  if (column.attribute) {
+    const ColumnForm& form = form_of(*column.attribute);
+    for (const std::size_t k : rows) form.append(s, k, values);
+    return converted(std::move(values), form.kind, is_single);
+  }
+  const sim::files::PointColumn* file = carried.find(column.name);
+  for (const std::size_t k : rows) {
+    const std::uint32_t id = s.p.id_of(k);
+    values.push_back(file && id < file->value.size() ? file->value[id] : 0);
+  }
+  return numbers_of_type(std::move(values), type_of(file));
 }
 
 std::vector<ExportAttribute> attributes_of(const scene::Export& e) {
@@ -227,13 +184,11 @@ const std::vector<double>& Table::places() const {
 Table make_table(const scene::Scene& scene, const scene::Export& e, const Origins& origins,
                  const Carried& carried, const State& state) {
   const std::vector<std::size_t> rows = origins.rows_of(e.bodies, state.particles);
-  const ColumnSource source{scene, origins, state, Axes(scene, e), rows, e.dust};
+  const ColumnSource source{origins, state, state.particles, Axes(scene, e), e.dust};
   Table table = empty_table(scene, e, carried);
   table.rows = rows.size();
   for (Column& column : table.columns)
-    column.numbers = column.attribute ? converted(values_of(*column.attribute, source),
-                                                  form_of(*column.attribute).kind, is_single(scene))
-                                      : carried_numbers(source, carried, column.name);
+    column.numbers = numbers_of(source, column, carried, rows, is_single(scene));
   if (e.surface) return surface_table(scene, e, state, rows, table);
   return table;
 }
@@ -241,7 +196,7 @@ Table make_table(const scene::Scene& scene, const scene::Export& e, const Origin
 Table empty_table(const scene::Scene& scene, const scene::Export& e, const Carried& carried) {
   Table table;
   for (const ExportAttribute attribute : attributes_of(e)) {
-    const ColumnForm form = form_of(attribute);
+    const ColumnForm& form = form_of(attribute);
     table.columns.push_back({attribute, scene::name(attribute), form.unit, form.components,
                              converted({}, form.kind, is_single(scene))});
   }
