@@ -6,7 +6,6 @@
 
 #include "app/exports/bytes.h"
 #include "app/support/version.h"
-#include "sim/base/hash.h"
 
 namespace neve::app::exports {
 
@@ -165,32 +164,17 @@ void append_grid(const VdbGrid& grid, std::string& bytes) {
 VdbLeaf& VdbLeaves::around(const Vec3i& voxel, int values, float fill) {
   const auto bits = [](int c) { return static_cast<std::uint64_t>((c >> 3) + (1 << 20)); };
   const std::uint64_t key = bits(voxel.x()) << 42 | bits(voxel.y()) << 21 | bits(voxel.z());
-  if (last_ != 0 && key == last_key_) return leaves_[last_ - 1];
-  if (2 * (leaves_.size() + 1) > slots_.size()) {
-    const std::vector<std::pair<std::uint64_t, std::uint32_t>> before = std::move(slots_);
-    slots_.assign(std::max<std::size_t>(64, 2 * before.size()), {0, 0});
-    for (const auto& [other, leaf] : before)
-      if (leaf != 0) slots_[slot_of(other)] = {other, leaf};
+  if (leaves_.empty() || key != last_key_) {
+    const auto [place, is_new] = places_.try_emplace(key, leaves_.size());
+    if (is_new) {
+      VdbLeaf& made = leaves_.emplace_back();
+      for (int a = 0; a < 3; ++a) made.origin[a] = voxel[a] & ~7;
+      made.value.assign(static_cast<std::size_t>(leaf_voxels * values), fill);
+    }
+    last_key_ = key;
+    last_ = place->second;
   }
-  auto& [found, leaf] = slots_[slot_of(key)];
-  if (leaf == 0) {
-    found = key;
-    VdbLeaf& made = leaves_.emplace_back();
-    for (int a = 0; a < 3; ++a) made.origin[a] = voxel[a] & ~7;
-    made.value.assign(static_cast<std::size_t>(leaf_voxels * values), fill);
-    leaf = static_cast<std::uint32_t>(leaves_.size());
-  }
-  last_key_ = key;
-  last_ = leaf;
-  return leaves_[leaf - 1];
-}
-
-/// The slot that has a key, or the free one where it would be.
-std::size_t VdbLeaves::slot_of(std::uint64_t key) const {
-  std::size_t slot = static_cast<std::size_t>(mix64(key)) & (slots_.size() - 1);
-  while (slots_[slot].second != 0 && slots_[slot].first != key)
-    slot = (slot + 1) & (slots_.size() - 1);
-  return slot;
+  return leaves_[last_];
 }
 
 std::string vdb_file(const std::vector<VdbGrid>& grids, const VdbNumbers& numbers,

@@ -6,6 +6,7 @@
 #include <bitset>
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -46,12 +47,10 @@ class VdbLeaves {
   }
 
  private:
-  std::size_t slot_of(std::uint64_t key) const;
-
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> slots_;  ///< key, and leaf + 1 or 0
+  std::unordered_map<std::uint64_t, std::size_t> places_;
   std::vector<VdbLeaf> leaves_;
   std::uint64_t last_key_ = 0;
-  std::uint32_t last_ = 0;  ///< leaf + 1 of the last key; 0: none
+  std::size_t last_ = 0;  ///< place of the last key
 };
 
 using VdbNumbers = std::vector<std::pair<std::string, double>>;
