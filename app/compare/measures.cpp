@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "app/picture/to_float.h"
+
 namespace neve::app::compare {
 
 namespace {
@@ -59,12 +61,9 @@ void color_by_displacement(const sim::ParticleArrays& other, double range, rende
   for (std::size_t p = 0; p < points.position.size(); ++p) {
     const auto index = other.index_of(points.id[p]);
     if (!index) continue;
-    const sim::Vec3d& x = other.x[*index];
-    const Vec3f there{static_cast<float>(x.x()), static_cast<float>(x.y()),
-                      static_cast<float>(x.z())};
     position.push_back(points.position[p]);
     id.push_back(points.id[p]);
-    const float distance = length(position.back() - there);
+    const float distance = length(position.back() - picture::to_float(other.x[*index]));
     value.push_back(std::isfinite(distance) ? distance : static_cast<float>(range));
   }
   points.position = std::move(position);

@@ -1,3 +1,6 @@
+#include <cstdint>
+#include <type_traits>
+
 #include "app/exports/bytes.h"
 #include "app/exports/encode.h"
 
@@ -25,16 +28,6 @@ void append_definition(const std::string& name, int size, BgeoType type, std::st
   bytes.append(static_cast<std::size_t>(4 * size), '\0');  // defaults
 }
 
-void append_word(double number, std::string& bytes) {
-  append_big(static_cast<float>(number), bytes);
-}
-void append_word(float number, std::string& bytes) {
-  append_big(number, bytes);
-}
-void append_word(std::int32_t number, std::string& bytes) {
-  append_big(number, bytes);
-}
-
 }  // namespace
 
 std::string encode_bgeo(const ExportMoment& moment) {
@@ -47,12 +40,16 @@ std::string encode_bgeo(const ExportMoment& moment) {
   append_big(static_cast<std::int32_t>(table.columns.size() - 1), bytes);
   for (int k = 0; k < 2; ++k) append_big(none, bytes);  // attributes of vertices and primitives
   append_big(details, bytes);
+  // Words of four bytes.
+  const auto put = [&](auto number) {
+    constexpr bool is_whole = std::is_integral_v<decltype(number)>;
+    append_big(static_cast<std::conditional_t<is_whole, std::int32_t, float>>(number), bytes);
+  };
   const Column* x = table.find(scene::ExportAttribute::x);
   for (const Column& column : table.columns)
     if (&column != x)
       append_definition(bgeo_name(column), column.components, bgeo_type(column), bytes);
   for (std::size_t row = 0; row < table.rows; ++row) {
-    const auto put = [&](auto number) { append_word(number, bytes); };
     for_row(*x, row, put);
     put(1.0f);  // the fourth coordinate of a place
     for (const Column& column : table.columns)
@@ -62,7 +59,7 @@ std::string encode_bgeo(const ExportMoment& moment) {
     append_definition(name, 1, bgeo_float, bytes);
   for (const double value :
        {moment.state.time, moment.frame(), moment.scene.fps, moment.spec.scale})
-    append_word(value, bytes);
+    put(value);
   bytes += '\0';
   bytes += '\xff';
   return bytes;

@@ -1,5 +1,7 @@
 #include "app/exports/stage.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
@@ -59,13 +61,6 @@ ColliderMesh collider_mesh(const sim::shapes::Shape& shape) {
   return surface;
 }
 
-std::string joined_numbers(const std::vector<std::uint32_t>& numbers) {
-  std::string text = "[";
-  for (std::size_t k = 0; k < numbers.size(); ++k)
-    text += (k > 0 ? ", " : "") + std::to_string(numbers[k]);
-  return text + "]";
-}
-
 std::string usd_points(const Axes& axes, const std::vector<Vec3d>& places) {
   std::string points = "[";
   for (std::size_t k = 0; k < places.size(); ++k)
@@ -110,8 +105,9 @@ std::string usd_collider(const scene::Scene& scene, const Axes& axes,
   const std::vector<std::uint32_t> counts(surface.corners.size() / 3, 3);
   return "        def Mesh \"" + name + "\"\n        {\n" +
          "            uniform token subdivisionScheme = \"none\"\n" +
-         "            int[] faceVertexCounts = " + joined_numbers(counts) + "\n" +
-         "            int[] faceVertexIndices = " + joined_numbers(surface.corners) + "\n" +
+         "            int[] faceVertexCounts = " + fmt::format("[{}]", fmt::join(counts, ", ")) +
+         "\n" + "            int[] faceVertexIndices = " +
+         fmt::format("[{}]", fmt::join(surface.corners, ", ")) + "\n" +
          usd_point_property(scene, axes, collider, surface, samples) +
          usd_visibility(scene, collider.name, samples) +
          usd_placed(scene, axes, collider_path(scene, collider.name, samples)) + "        }\n";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/picture/snow_volume.h"
+#include "app/picture/to_float.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/plan.h"
 #include "app/support/errors.h"
@@ -102,9 +103,7 @@ SnowGrains grains_of(const scene::Scene& scene, const sim::ParticleArrays& parti
                      std::span<const std::size_t> rows) {
   SnowGrains grains;
   for (const std::size_t p : rows) {
-    const sim::Vec3d& x = particles.x[p];
-    grains.position.push_back(
-        {static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(x.z())});
+    grains.position.push_back(picture::to_float(particles.x[p]));
     grains.volume.push_back(static_cast<float>(picture::snow_volume(scene, particles, p)));
   }
   return grains;
