@@ -1,15 +1,13 @@
 #include "app/exports/exporter.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
-#include <system_error>
 
 #include "app/exports/stage.h"
 #include "app/exports/surface_table.h"
 #include "app/output/atomic_file.h"
-#include "app/output/descriptor.h"
-#include "app/output/file_hash.h"
 #include "app/output/report_json.h"
 #include "app/output/temporary.h"
 #include "app/picture/motion.h"
@@ -20,12 +18,6 @@ namespace neve::app::exports {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string hash_digits(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
 
 Json attributes_json(const Table& columns) {
   Json list = Json::array();
@@ -130,15 +122,12 @@ std::optional<setup::Box> box_around(const std::vector<sim::Vec3d>& places) {
 }
 
 /// In the order of their numbers, in the place of the one of the same number.
-template <class Item>
-void put(std::vector<Item>& items, Item item) {
-  const auto at =
-      std::lower_bound(items.begin(), items.end(), item,
-                       [](const Item& a, const Item& b) { return a.number < b.number; });
-  if (at != items.end() && at->number == item.number)
-    *at = std::move(item);
+void put(std::vector<Sample>& samples, Sample sample) {
+  const auto at = std::ranges::lower_bound(samples, sample.number, {}, &Sample::number);
+  if (at != samples.end() && at->number == sample.number)
+    *at = std::move(sample);
   else
-    items.insert(at, std::move(item));
+    samples.insert(at, std::move(sample));
 }
 
 }  // namespace
@@ -154,25 +143,25 @@ Exporter::Exporter(const scene::Scene& scene, fs::path folder,
       moves_otherwise_(may_move_otherwise(scene, changes)) {
   output::remove_abandoned(folder_);
   for (const scene::Export& spec : scene.exports) {
-    jobs_.push_back({{spec, empty_table(scene, spec, carried_), {}}, {}, {}});
+    jobs_.push_back({spec, empty_table(scene, spec, carried_), {}, {}});
     output::remove_abandoned(folder_ / scene::folder_of(spec));
   }
 }
 
 bool Exporter::is_due(int frame) const {
   return std::any_of(jobs_.begin(), jobs_.end(),
-                     [&](const Job& job) { return frame % job.record.spec.every == 0; });
+                     [&](const Job& job) { return frame % job.spec.every == 0; });
 }
 
 std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& colliders,
                                           const sim::Simulation& simulation, int number,
                                           bool is_frame) {
   const auto is_due = [&](const Job& job) {
-    return !is_frame || scene::frame_of(scene_, number) % job.record.spec.every == 0;
+    return !is_frame || scene::frame_of(scene_, number) % job.spec.every == 0;
   };
   std::vector<scene::Export> due;
   for (const Job& job : jobs_)
-    if (is_due(job)) due.push_back(job.record.spec);
+    if (is_due(job)) due.push_back(job.spec);
   std::vector<Work> works;
   if (due.empty()) return works;
   note_colliders(colliders);
@@ -180,7 +169,7 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
   for (Job& job : jobs_)
     if (is_due(job)) {
       works.push_back(work(job, state, colliders, number));
-      if (warning_.empty()) warning_ = unknown_ages(job.record.spec, *state);
+      if (warning_.empty()) warning_ = unknown_ages(job.spec, *state);
     }
   return works;
 }
@@ -188,8 +177,7 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
 void Exporter::add_between(const std::vector<scene::Collider>& colliders,
                            const sim::Simulation& simulation, int number, bool is_frame) {
   const auto has_no_file = [&](const Job& job) {
-    return is_stage(job) &&
-           !(is_frame && scene::frame_of(scene_, number) % job.record.spec.every == 0);
+    return is_stage(job) && !(is_frame && scene::frame_of(scene_, number) % job.spec.every == 0);
   };
   if (std::ranges::none_of(jobs_, has_no_file)) return;
   note_colliders(colliders);
@@ -224,7 +212,7 @@ bool Exporter::lacks_places(int frame) const {
 }
 
 bool Exporter::is_stage(const Job& job) {
-  return job.record.spec.format == scene::ExportFormat::usda;
+  return job.spec.format == scene::ExportFormat::usda;
 }
 
 bool Exporter::follows() const {
@@ -242,17 +230,16 @@ std::optional<sim::Vec3d> Exporter::followed(const sim::ParticleArrays& particle
 /// Some come and go while a run is made.
 void Exporter::note_colliders(const std::vector<scene::Collider>& colliders) {
   for (const scene::Collider& collider : colliders)
-    if (std::none_of(colliders_.begin(), colliders_.end(),
-                     [&](const scene::Collider& known) { return known.name == collider.name; }))
+    if (std::ranges::find(colliders_, collider.name, &scene::Collider::name) == colliders_.end())
       colliders_.push_back(collider);
 }
 
 Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state,
                               const std::vector<scene::Collider>& colliders, int number) {
-  const scene::Export& spec = job.record.spec;
+  const scene::Export& spec = job.spec;
   // A frame that is made again keeps its place.
-  put(job.record.files, {number, state->time, state->hash});
   Sample sample{number, state->time, state->colliders};
+  sample.hash = state->hash;
   if (is_stage(job)) {
     sample.is_elsewhere = !are_as_in(scene_, state->colliders, state->time);
     sample.followed = followed(state->particles, state->time, colliders);
@@ -278,28 +265,32 @@ Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state,
 std::vector<output::WrittenFile> Exporter::finish() const {
   std::vector<output::WrittenFile> written;
   for (const Job& job : jobs_) {
-    const scene::Export& spec = job.record.spec;
+    const scene::Export& spec = job.spec;
     const std::string series = series_name(spec);
     if (job.samples.empty()) continue;
     if (series.ends_with(".pvd"))
       written.push_back(output::write_hashed(folder_ / series, encode_pvd(spec, job.samples)));
     if (spec.format != scene::ExportFormat::usda) continue;
     written.push_back(output::write_hashed(folder_ / scene::folder_of(spec) / "manifest.usda",
-                                           encode_manifest(scene_, spec, job.record.columns)));
+                                           encode_manifest(scene_, spec, job.columns)));
     written.push_back(output::write_hashed(
         folder_ / series,
-        encode_stage(scene_, colliders_, spec, job.record.columns, job.samples, job.between)));
+        encode_stage(scene_, colliders_, spec, job.columns, job.samples, job.between)));
   }
   return written;
 }
 
 void Exporter::resume(const Json& list, int last_number) {
   for (Job& job : jobs_) {
-    const std::string folder = scene::folder_of(job.record.spec);
+    const std::string folder = scene::folder_of(job.spec);
     for (const Json& e : list) {
       if (e.value("name", "") != folder) continue;
       for (const Json& file : e.at("files"))
-        if (whole_number<int>(file.at("number")) <= last_number) resume(file, job);
+        if (whole_number<int>(file.at("number")) <= last_number) {
+          Sample sample = sample_of(file, scene_);
+          sample.hash = std::stoull(file.at("state_hash").get<std::string>(), nullptr, 16);
+          put(job.samples, std::move(sample));
+        }
       for (const Json& frame : e.value("frames_between", Json::array()))
         if (whole_number<int>(frame.at("number")) <= last_number)
           put(job.between, sample_of(frame, scene_));
@@ -307,38 +298,27 @@ void Exporter::resume(const Json& list, int last_number) {
   }
 }
 
-void Exporter::resume(const Json& file, Job& job) const {
-  const int number = whole_number<int>(file.at("number"));
-  const double time = file.at("time").get<double>();
-  put(job.record.files,
-      {number, time, std::stoull(file.at("state_hash").get<std::string>(), nullptr, 16)});
-  put(job.samples, sample_of(file, scene_));
-}
-
 Json Exporter::to_json(const std::string& below) const {
   Json list = Json::array();
   for (const Job& job : jobs_) {
-    const scene::Export& spec = job.record.spec;
+    const scene::Export& spec = job.spec;
     const std::string series = series_name(spec), folder = below + scene::folder_of(spec) + "/";
-    Json json = {
-        {"name", scene::folder_of(spec)},
-        {"format", scene::name(spec.format)},
-        {"up", scene::name(spec.up)},
-        {"scale", spec.scale},
-        {"attributes", has_grid(spec) ? Json::array() : attributes_json(job.record.columns)}};
+    Json json = {{"name", scene::folder_of(spec)},
+                 {"format", scene::name(spec.format)},
+                 {"up", scene::name(spec.up)},
+                 {"scale", spec.scale},
+                 {"attributes", has_grid(spec) ? Json::array() : attributes_json(job.columns)}};
     if (spec.dust) json["dust"] = true;
     if (!spec.bodies.empty()) json["bodies"] = spec.bodies;
     json["surface"] = spec.surface ? surface_json(scene_, spec) : Json();
     json["series"] = series.empty() ? Json() : Json(below + series);
     json["files"] = Json::array();
-    // Each file has its sample, in the same order.
-    for (std::size_t k = 0; k < job.record.files.size(); ++k) {
-      const Record::File& file = job.record.files[k];
-      json["files"].push_back({{"file", folder + file_name(spec, file.number)},
-                               {"number", file.number},
-                               {"time", number_or_null(file.time)},
-                               {"state_hash", hash_digits(file.hash)}});
-      add_places(job.samples[k], json["files"].back());
+    for (const Sample& sample : job.samples) {
+      json["files"].push_back({{"file", folder + file_name(spec, sample.number)},
+                               {"number", sample.number},
+                               {"time", number_or_null(sample.time)},
+                               {"state_hash", fmt::format("{:016x}", sample.hash)}});
+      add_places(sample, json["files"].back());
     }
     for (const Sample& sample : job.between) {
       Json frame{{"number", sample.number}, {"time", number_or_null(sample.time)}};

@@ -15,18 +15,6 @@
 
 namespace neve::app::exports {
 
-/// An export and the files that it has written so far.
-struct Record {
-  struct File {
-    int number = 0;
-    double time = 0;         ///< s
-    std::uint64_t hash = 0;  ///< of the state
-  };
-  scene::Export spec;
-  Table columns;  ///< without rows
-  std::vector<File> files;
-};
-
 class Exporter {
  public:
   using Work = std::function<std::vector<output::WrittenFile>()>;
@@ -69,8 +57,10 @@ class Exporter {
   Json to_json(const std::string& below) const;
 
  private:
+  /// An export and the files that it has written so far.
   struct Job {
-    Record record;
+    scene::Export spec;
+    Table columns;                ///< without rows
     std::vector<Sample> samples;  ///< one per file
     std::vector<Sample> between;  ///< frames of a stage where the scene alone says too little
   };
@@ -81,7 +71,6 @@ class Exporter {
   std::optional<sim::Vec3d> followed(const sim::ParticleArrays& particles, double time,
                                      const std::vector<scene::Collider>& colliders) const;
   void note_colliders(const std::vector<scene::Collider>& colliders);
-  void resume(const Json& file, Job& job) const;
 
   scene::Scene scene_;
   std::vector<scene::Collider> colliders_;  ///< all that there were at any moment

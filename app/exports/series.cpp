@@ -1,7 +1,8 @@
 #include "app/exports/series.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 
 #include "app/exports/bytes.h"
 #include "app/scene/names.h"
@@ -16,9 +17,7 @@ const PlacedShape* Sample::find(const std::string& collider) const {
 }
 
 std::string file_name(const scene::Export& spec, int number) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%04d.", number);
-  return digits + std::string(scene::name(spec.format));
+  return fmt::format("{:04}.{}", number, scene::name(spec.format));
 }
 
 std::string series_name(const scene::Export& spec) {

@@ -23,6 +23,7 @@ struct Sample {
   bool is_elsewhere = false;             ///< the scene alone does not say where colliders are
   std::optional<sim::Vec3d> followed{};  ///< m, what a camera that follows has moved by
   std::optional<setup::Box> snow{};      ///< m, around the snow; of files of a stage
+  std::uint64_t hash = 0;                ///< of the state; of files
 };
 
 /// "0024.ply"

@@ -1,7 +1,7 @@
 #include "app/exports/vdb_file.h"
 
-#include <algorithm>
-#include <cstdio>
+#include <fmt/core.h>
+
 #include <map>
 
 #include "app/exports/bytes.h"
@@ -184,12 +184,8 @@ std::string vdb_file(const std::vector<VdbGrid>& grids, const VdbNumbers& number
   for (const std::uint32_t number : {vdb_version, library_major, library_minor})
     append_little(number, bytes);
   bytes.push_back(1);  // grids say where they end
-  char uuid[40];
-  std::snprintf(uuid, sizeof uuid, "%08x-%04x-%04x-%04x-%012llx",
-                static_cast<unsigned>(identity >> 32),
-                static_cast<unsigned>(identity >> 16 & 0xffff),
-                static_cast<unsigned>(identity & 0xffff), 0x6e65u, 0x7665ull);
-  bytes += uuid;
+  bytes += fmt::format("{:08x}-{:04x}-{:04x}-6e65-000000007665", identity >> 32,
+                       identity >> 16 & 0xffff, identity & 0xffff);
   append_little(static_cast<std::uint32_t>(numbers.size() + 1), bytes);
   append_text_entry("creator", "neve " + std::string(version), bytes);
   for (const auto& [name, value] : numbers) {
