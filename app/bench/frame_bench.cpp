@@ -1,6 +1,5 @@
 #include "app/bench/bench.h"
 
-
 #include <algorithm>
 #include <memory>
 
@@ -13,7 +12,6 @@
 #include "app/scene/toml/value.h"
 #include "app/setup/resolve.h"
 #include "app/setup/seed_scene.h"
-#include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"

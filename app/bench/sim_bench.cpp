@@ -5,7 +5,6 @@
 #include <map>
 
 #include "app/bench/bench_case.h"
-#include "app/bench/measure.h"
 #include "app/bench/race.h"
 #include "app/bench/timed_run.h"
 #include "app/support/errors.h"

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 
 #include "app/cli/commands.h"
@@ -29,10 +28,8 @@
 #include "app/scene/check.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/override.h"
-#include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/resolve.h"
-#include "app/setup/snow_pieces.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/text.h"

@@ -6,7 +6,6 @@
 #include "app/cli/report_error.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
-#include "app/support/json.h"
 
 namespace neve::app::cli {
 

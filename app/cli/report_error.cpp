@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,7 +13,6 @@
 #include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
-#include "app/support/json.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"

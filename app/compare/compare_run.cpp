@@ -11,7 +11,6 @@
 #include "app/scene/live_change.h"
 #include "app/scene/read.h"
 #include "app/support/errors.h"
-#include "app/support/interrupt.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"
 

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <array>
 
-#include "app/output/sequence.h"
 #include "app/picture/frame_builder.h"
 #include "app/scene/check.h"
 #include "app/scene/flat.h"
 #include "app/scene/live_change.h"
-#include "app/support/errors.h"
 #include "app/support/film_rate.h"
 #include "app/support/text.h"
 

@@ -3,15 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <set>
 
 #include "app/output/atomic_file.h"
-#include "app/output/movie.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/record/earlier.h"
 #include "app/support/errors.h"
-#include "app/support/json.h"
 #include "app/support/version.h"
 
 namespace neve::app::compare {

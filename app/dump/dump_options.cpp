@@ -1,8 +1,6 @@
 #include "app/dump/dump_options.h"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "app/advice/suggest.h"
 #include "app/dump/quantities.h"

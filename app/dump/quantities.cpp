@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/advice/suggest.h"

@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "app/exports/encode.h"
 #include "app/exports/mesh_distance.h"

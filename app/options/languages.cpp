@@ -5,10 +5,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "app/advice/suggest.h"
 #include "app/scene/scene_file.h"
-#include "app/scene/toml/value.h"
-#include "app/support/errors.h"
 #include "app/support/lower_text.h"
 
 namespace neve::app::options {

@@ -1,10 +1,8 @@
 #include "app/options/option.h"
 
-#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <new>
-#include <string>
 #include <system_error>
 
 #include "app/output/json_file.h"

@@ -7,7 +7,6 @@
 
 #include "app/output/descriptor.h"
 #include "app/output/file_hash.h"
-#include "app/output/sequence.h"
 #include "app/record/verify.h"
 #include "app/support/errors.h"
 

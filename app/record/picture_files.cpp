@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "app/output/file_hash.h"
 #include "app/record/run_json.h"

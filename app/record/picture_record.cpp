@@ -11,7 +11,6 @@
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
-#include "app/support/version.h"
 #include "render/image/exr.h"
 
 namespace neve::app::record {

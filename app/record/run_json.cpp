@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
-#include <stdexcept>
 
 #include "app/output/atomic_file.h"
 #include "app/output/json_file.h"

@@ -1,9 +1,7 @@
 #include "app/record/verify.h"
 
 #include <algorithm>
-#include <map>
 #include <new>
-#include <optional>
 #include <set>
 #include <system_error>
 

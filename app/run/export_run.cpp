@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
-#include <optional>
 #include <set>
 
 #include "app/output/atomic_file.h"

@@ -2,9 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-#include <memory>
-
 #include "app/scene/flat.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"

@@ -3,15 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <new>
 #include <optional>
-#include <vector>
 
 #include "app/output/json_file.h"
 #include "app/output/sequence.h"
 #include "app/record/picture_files.h"
 #include "app/run/resume.h"
-#include "app/scene/flat.h"
 #include "app/scene/read.h"
 #include "app/support/text.h"
 #include "app/support/version.h"

@@ -5,7 +5,6 @@
 
 #include "app/output/atomic_file.h"
 #include "app/output/movie_format.h"
-#include "app/output/sequence.h"
 #include "app/record/earlier.h"
 #include "app/record/verify.h"
 #include "app/run/identity.h"

@@ -12,7 +12,6 @@
 #include "app/forecast/forecast.h"
 #include "app/output/sequence.h"
 #include "app/scene/read.h"
-#include "app/scene/toml/error.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
 #include "app/support/progress.h"

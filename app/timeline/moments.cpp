@@ -4,8 +4,6 @@
 #include <iterator>
 #include <limits>
 #include <new>
-#include <optional>
-#include <set>
 #include <utility>
 
 #include "app/output/atomic_file.h"
