@@ -28,12 +28,12 @@ output::MovieStyle movie_for(const PairOptions& options, TargetKind kind) {
   if (kind != TargetKind::movie) return movie;
   const output::MovieFormat format = *movie_format_of(options.out);
   const bool is_same =
-      std::string(output::movie_suffix(movie.format)) == output::movie_suffix(format);
+      std::string(output::info_of(movie.format).suffix) == output::info_of(format).suffix;
   if (movie.is_chosen && movie.has_format && (!is_same || !movie.is_made))
     throw UsageError(
         std::string("--movie ") + (movie.is_made ? output::name(movie.format) : "none"),
         "does not fit " + options.out,
-        std::string("omit it, or name a file ") + output::movie_suffix(movie.format));
+        std::string("omit it, or name a file ") + output::info_of(movie.format).suffix);
   if (!movie.has_format) movie.format = format;
   movie.is_chosen = movie.has_format = true;
   return movie;

@@ -27,7 +27,7 @@ void check_backend(const std::string& flag, const std::string& name) {
 
 std::vector<std::string> format_names() {
   std::vector<std::string> names;
-  for (const output::MovieFormat format : output::all_movie_formats())
+  for (const output::MovieFormat format : output::all_movie_formats)
     names.emplace_back(output::name(format));
   names.emplace_back("none");
   return names;

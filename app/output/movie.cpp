@@ -257,9 +257,10 @@ void require_gif_rate(const MovieStyle& style, double fps) {
 /// Those that this ffmpeg has an encoder for.
 std::vector<MovieFormat> formats_of(const fs::path& ffmpeg) {
   const ProcessResult listed = run_process(ffmpeg, {"-v", "error", "-encoders"}, "/", 60);
-  std::vector<MovieFormat> formats = all_movie_formats();
+  std::vector<MovieFormat> formats(all_movie_formats.begin(), all_movie_formats.end());
   std::erase_if(formats, [&](MovieFormat format) {
-    return listed.output.find(std::string(" ") + movie_encoder(format) + " ") == std::string::npos;
+    return listed.output.find(std::string(" ") + info_of(format).encoder + " ") ==
+           std::string::npos;
   });
   return formats;
 }
@@ -292,8 +293,8 @@ MovieStyle available_movie(const MovieStyle& style, double fps) {
   std::string others;
   for (const MovieFormat format : formats)
     others += (others.empty() ? "" : ", ") + std::string(name(format));
-  throw IoError(flag + ": " + ffmpeg->string() + " has no encoder " + movie_encoder(style.format) +
-                    "; install a complete ffmpeg" +
+  throw IoError(flag + ": " + ffmpeg->string() + " has no encoder " +
+                    info_of(style.format).encoder + "; install a complete ffmpeg" +
                     (others.empty() ? ", or leave pictures with --movie none"
                                     : ", or choose a format that this one makes: " + others),
                 ffmpeg->string(), others.empty() ? "--movie none" : "choose another format");
@@ -302,7 +303,7 @@ MovieStyle available_movie(const MovieStyle& style, double fps) {
 std::string other_format_text(const MovieStyle& wanted, const MovieStyle& available) {
   if (wanted.format == available.format) return {};
   return std::string("ffmpeg here makes no ") + name(wanted.format) + ": movies are " +
-         name(available.format) + ", *" + movie_suffix(available.format);
+         name(available.format) + ", *" + info_of(available.format).suffix;
 }
 
 }  // namespace neve::app::output

@@ -117,7 +117,7 @@ std::vector<std::string> movie_arguments(const MovieRequest& request,
              "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"});
   if (holds_time_code(format) && !request.time_code.empty())
     arguments.insert(arguments.end(), {"-timecode", request.time_code});
-  arguments.insert(arguments.end(), {"-c:v", movie_encoder(format)});
+  arguments.insert(arguments.end(), {"-c:v", info_of(format).encoder});
   append_words(arguments, encoder_words(request));
   arguments.push_back(std::filesystem::absolute(target).string());
   return arguments;

@@ -1,24 +1,44 @@
 #pragma once
 /// Formats of movies: what they are called, which files hold them, which encoder makes them.
 
-#include <filesystem>
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace neve::app::output {
 
 enum class MovieFormat { h264, h265, vp9, prores, gif, webp };
 
-const char* name(MovieFormat format);
-const std::vector<MovieFormat>& all_movie_formats();
-/// Of a name, or of the suffix of a file without its point: "mp4" is h264.
-std::optional<MovieFormat> movie_format_named(const std::string& word);
+inline constexpr std::array all_movie_formats{MovieFormat::h264, MovieFormat::h265,
+                                              MovieFormat::vp9,  MovieFormat::prores,
+                                              MovieFormat::gif,  MovieFormat::webp};
 
-/// ".mp4"
-const char* movie_suffix(MovieFormat format);
-/// The encoder of ffmpeg: "libx264".
-const char* movie_encoder(MovieFormat format);
+struct MovieFormatInfo {
+  const char *name, *suffix, *encoder;  ///< of ffmpeg
+};
+/// In their order. The first of a suffix is the format of files that are only named by it.
+inline constexpr std::array<MovieFormatInfo, all_movie_formats.size()> movie_format_infos{
+    {{"h264", ".mp4", "libx264"},
+     {"h265", ".mp4", "libx265"},
+     {"vp9", ".webm", "libvpx-vp9"},
+     {"prores", ".mov", "prores_ks"},
+     {"gif", ".gif", "gif"},
+     {"webp", ".webp", "libwebp_anim"}}};
+
+constexpr const MovieFormatInfo& info_of(MovieFormat format) {
+  return movie_format_infos[static_cast<std::size_t>(format)];
+}
+constexpr const char* name(MovieFormat format) {
+  return info_of(format).name;
+}
+
+/// Of a name, or of the suffix of a file without its point: "mp4" is h264.
+inline std::optional<MovieFormat> movie_format_named(const std::string& word) {
+  for (const MovieFormat format : all_movie_formats)
+    if (name(format) == word || info_of(format).suffix == "." + word) return format;
+  return std::nullopt;
+}
 
 /// Whether files of this format say the time code of their first picture.
 constexpr bool holds_time_code(MovieFormat format) {

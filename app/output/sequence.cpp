@@ -1,7 +1,8 @@
 #include "app/output/sequence.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace neve::app::output {
 
@@ -16,9 +17,7 @@ bool is_plain_name(const std::string& name) {
 }
 
 fs::path frame_path(const fs::path& folder, const std::string& view, int number) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%04d.png", number);
-  return folder / view / name;
+  return folder / view / fmt::format("{:04}.png", number);
 }
 
 fs::path channels_path(const fs::path& folder, const std::string& view, int number) {
@@ -26,7 +25,7 @@ fs::path channels_path(const fs::path& folder, const std::string& view, int numb
 }
 
 fs::path movie_path(const fs::path& folder, const std::string& view, MovieFormat format) {
-  return folder / (view + movie_suffix(format));
+  return folder / (view + info_of(format).suffix);
 }
 
 fs::path diverged_path(const fs::path& folder, const std::string& view) {

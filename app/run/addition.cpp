@@ -116,7 +116,7 @@ scene::Scene with_views_of(const scene::Scene& earlier, const scene::Scene& now)
 /// Movies of a view, by the names of their files.
 std::vector<std::string> movies_of(const std::string& view, const record::FileHashes& files) {
   std::vector<std::string> movies;
-  for (const output::MovieFormat format : output::all_movie_formats())
+  for (const output::MovieFormat format : output::all_movie_formats)
     if (const std::string name = output::movie_path({}, view, format).string();
         files.contains(name) && std::ranges::find(movies, name) == movies.end())
       movies.push_back(name);

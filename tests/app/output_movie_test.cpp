@@ -135,7 +135,7 @@ std::pair<std::size_t, std::string> signature_of(app::output::MovieFormat format
 }
 
 TEST_F(Movie, EveryFormatHoldsEveryFrameAlsoEqualOnes) {
-  for (const app::output::MovieFormat format : app::output::all_movie_formats()) {
+  for (const app::output::MovieFormat format : app::output::all_movie_formats) {
     const Fixture f;
     write_pictures(f.folder, 3, 8);
     for (const int equal : {5, 6})
@@ -162,7 +162,7 @@ TEST_F(Movie, EveryFormatHoldsEveryFrameAlsoEqualOnes) {
 TEST_F(Movie, MoviesSayThatTheirColoursAreThoseOfBt709) {
   const auto ffprobe = app::output::find_program("ffprobe");
   if (!ffprobe) SKIP_OR_FAIL("no ffprobe in PATH (Debian: ffmpeg)");
-  for (const app::output::MovieFormat format : app::output::all_movie_formats()) {
+  for (const app::output::MovieFormat format : app::output::all_movie_formats) {
     if (format == app::output::MovieFormat::gif || format == app::output::MovieFormat::webp)
       continue;  // they are RGB
     const Fixture f;
@@ -202,7 +202,7 @@ TEST_F(Movie, LessQualityIsASmallerFileAndTheRateIsThatOfTheStyle) {
         << app::output::name(format);
     return fs::file_size(wanted.file);
   };
-  for (const app::output::MovieFormat format : app::output::all_movie_formats()) {
+  for (const app::output::MovieFormat format : app::output::all_movie_formats) {
     const auto low = size_with(format, 30);
     EXPECT_LT(1.1 * static_cast<double>(low), static_cast<double>(size_with(format, 95)))
         << app::output::name(format);

@@ -108,7 +108,8 @@ void write_sheet_movie(const fs::path& folder, const store::Manifest& manifest,
   const output::MovieResult movie = output::write_movie(request);
   if (movie.outcome == output::MovieOutcome::written) outputs.add(request.file);
   if (movie.outcome == output::MovieOutcome::no_ffmpeg)
-    progress.note("no " + name + output::movie_suffix(style.format) + ": ffmpeg is not installed");
+    progress.note("no " + name + output::info_of(style.format).suffix +
+                  ": ffmpeg is not installed");
   const std::string failure = "no movie " + request.file.string() + ": " + movie.reason;
   if (movie.outcome == output::MovieOutcome::failed) progress.warning(failure);
   if (movie.outcome == output::MovieOutcome::unwritable)

@@ -25,8 +25,8 @@ bool is_page(const std::string& stem, const std::string& name) {
 }
 
 bool is_movie(const fs::path& file) {
-  return std::ranges::any_of(output::all_movie_formats(), [&](output::MovieFormat format) {
-    return file.extension() == output::movie_suffix(format);
+  return std::ranges::any_of(output::all_movie_formats, [&](output::MovieFormat format) {
+    return file.extension() == output::info_of(format).suffix;
   });
 }
 
