@@ -1,6 +1,7 @@
 #include <unistd.h>
 
-#include <cstdio>
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <iostream>
 
@@ -155,9 +156,8 @@ std::string dump_text(const run::RenderJob& job, const dump::DumpOptions& option
 
 /// "fields_0002.vtp" for "fields.vtp".
 std::filesystem::path numbered(const std::filesystem::path& file, std::size_t number) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "_%04zu", number);
-  return file.parent_path() / (file.stem().string() + digits + file.extension().string());
+  return file.parent_path() /
+         fmt::format("{}_{:04}{}", file.stem().string(), number, file.extension().string());
 }
 
 /// Collects the moments that are asked for, and puts them where they are wanted.

@@ -24,10 +24,6 @@ namespace {
 
 constexpr std::size_t max_at_once = 16;
 
-int open_temporary(const std::filesystem::path& temporary) {
-  return ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-}
-
 /// "link", "folder", "device"; nothing for regular or missing files.
 const char* special_kind(const std::filesystem::path& path) {
   struct stat status {};
@@ -48,6 +44,23 @@ void rename_or_fail(const std::filesystem::path& temporary, const std::filesyste
   const int reason = errno;
   ::unlink(temporary.c_str());
   fail_writing(path, "cannot rename the finished file", reason);
+}
+
+/// @param path  that it is to replace, named in errors; the temporary file is gone then
+void write_temporary(const std::filesystem::path& temporary, const std::filesystem::path& path,
+                     std::span<const std::uint8_t> bytes, Durability durability,
+                     const Prepare& prepare = {}) {
+  Descriptor file(
+      ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666));
+  if (file.get() < 0) fail_writing(path, "cannot create", errno);
+  int reason = write_all(file.get(), bytes);
+  if (reason == 0 && prepare) reason = prepare(file.get());
+  if (reason == 0 && durability == Durability::synced && ::fsync(file.get()) != 0) reason = errno;
+  const int close_reason = file.close();
+  if (reason == 0) reason = close_reason;
+  if (reason == 0) return;
+  ::unlink(temporary.c_str());
+  fail_writing(path, "cannot write " + std::to_string(bytes.size()) + " bytes", reason);
 }
 
 void refuse_special(const std::filesystem::path& path) {
@@ -80,18 +93,7 @@ int write_all(int fd, std::span<const std::uint8_t> bytes) {
 void replace_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
                   Durability durability, const Prepare& prepare) {
   const std::filesystem::path temporary = temporary_name(path);
-  Descriptor file(open_temporary(temporary));
-  if (file.get() < 0) fail_writing(path, "cannot create", errno);
-
-  int reason = write_all(file.get(), bytes);
-  if (reason == 0 && prepare) reason = prepare(file.get());
-  if (reason == 0 && durability == Durability::synced && ::fsync(file.get()) != 0) reason = errno;
-  const int close_reason = file.close();
-  if (reason == 0) reason = close_reason;
-  if (reason != 0) {
-    ::unlink(temporary.c_str());
-    fail_writing(path, "cannot write " + std::to_string(bytes.size()) + " bytes", reason);
-  }
+  write_temporary(temporary, path, bytes, durability, prepare);
   rename_or_fail(temporary, path);
   if (durability == Durability::synced) sync_folder(path.parent_path());
 }
@@ -128,14 +130,7 @@ void write_together(const std::vector<FileToWrite>& files) {
   try {
     for (const FileToWrite& file : files) {
       temporaries.push_back(temporary_name(file.path));
-      Descriptor to(open_temporary(temporaries.back()));
-      if (to.get() < 0) fail_writing(file.path, "cannot create", errno);
-      int reason = write_all(to.get(), file.bytes);
-      const int close_reason = to.close();
-      if (reason == 0) reason = close_reason;
-      if (reason != 0)
-        fail_writing(file.path, "cannot write " + std::to_string(file.bytes.size()) + " bytes",
-                     reason);
+      write_temporary(temporaries.back(), file.path, file.bytes, Durability::cached);
     }
     for (std::size_t k = 0; k < files.size(); ++k) rename_or_fail(temporaries[k], files[k].path);
   } catch (...) {

@@ -4,10 +4,11 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <system_error>
 
@@ -50,9 +51,7 @@ std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
 
 /// Names sort by frame, then by steps.
 std::string file_name(const Checkpoint& c) {
-  char name[64];
-  std::snprintf(name, sizeof name, "%06d-%012zu.ckpt", c.frame, c.steps);
-  return name;
+  return fmt::format("{:06}-{:012}.ckpt", c.frame, c.steps);
 }
 
 /// That a file is named after; -1 for other names.
@@ -253,9 +252,7 @@ FoundCheckpoint read_state(const fs::path& folder, int frame) {
 }
 
 std::string state_name(int frame) {
-  char name[32];
-  std::snprintf(name, sizeof name, "states/%06d.ckpt", frame);
-  return name;
+  return fmt::format("states/{:06}.ckpt", frame);
 }
 
 KeptFiles check_kept(const fs::path& folder) {

@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <fmt/chrono.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -35,14 +37,6 @@ constexpr std::size_t longest_holder = 400;
                     : or_other_place());
 }
 
-std::string now_text() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  char text[32] = "";
-  if (::gmtime_r(&now, &parts)) std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", &parts);
-  return text;
-}
-
 /// What write_holder() wrote, or nothing: another process may just be writing it.
 bool is_ours(int fd) {
   char bytes[longest_holder];
@@ -69,8 +63,9 @@ Descriptor open_lock(const fs::path& file) {
 }
 
 void write_holder(const fs::path& file, int fd, const std::string& holder) {
-  const std::string text = holder + ", process " + std::to_string(::getpid()) + " on " +
-                           host_name() + ", since " + now_text() + "\n";
+  const std::string text =
+      fmt::format("{}, process {} on {}, since {:%Y-%m-%d %H:%M:%S} UTC\n", holder, ::getpid(),
+                  host_name(), fmt::gmtime(std::time(nullptr)));
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
   int reason = ::ftruncate(fd, 0) == 0 ? 0 : errno;
   if (reason == 0) reason = write_all(fd, {bytes, text.size()});

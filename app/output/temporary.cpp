@@ -3,10 +3,11 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <fmt/core.h>
+
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <optional>
 #include <random>
@@ -111,12 +112,10 @@ bool is_abandoned(const fs::path& file, const Owner& owner) {
 
 fs::path temporary_name(const fs::path& path) {
   static thread_local std::mt19937_64 random{std::random_device{}()};
-  char digits[random_digits + 1];
-  std::snprintf(digits, sizeof digits, "%08x", static_cast<unsigned>(random() >> 32));
   const pid_t process = ::getpid();
-  const std::string end = '.' + plain_host() + '.' + std::to_string(process) + '.' +
-                          std::to_string(life_of(process).value_or(Life{}).start) + '.' + digits +
-                          std::string(suffix);
+  const std::string end =
+      fmt::format(".{}.{}.{}.{:08x}{}", plain_host(), process,
+                  life_of(process).value_or(Life{}).start, random() >> 32, suffix);
   const std::string name = path.filename().string().substr(0, longest_name - 1 - end.size());
   return path.parent_path() / ('.' + name + end);
 }

@@ -1,7 +1,8 @@
 #include "app/record/run_json.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <new>
 
 #include "app/output/atomic_file.h"
@@ -39,9 +40,7 @@ const char* name(RunStatus status) {
 }
 
 std::string hash_text(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+  return fmt::format("{:016x}", hash);
 }
 
 std::string hash_of(const std::string& text) {
