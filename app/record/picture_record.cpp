@@ -4,7 +4,6 @@
 #include <array>
 #include <fstream>
 #include <functional>
-#include <sstream>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
@@ -73,14 +72,6 @@ class TextReader {
     } catch (const std::runtime_error& error) {
       fail(error.what());
     }
-  }
-
-  /// Separated by commas.
-  std::vector<std::string> list(const char* key) const {
-    std::vector<std::string> words;
-    std::istringstream in(text(key));
-    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
-    return words;
   }
 
   /// Lines of a caption.
@@ -255,7 +246,7 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
   if (text.contains("neve:shutter")) record.shutter = reader.number<double>("neve:shutter");
   if (!(record.shutter >= 0 && record.shutter <= 360))
     reader.fail("its shutter is not from 0 to 360");
-  if (text.contains("neve:passes")) record.passes = reader.list("neve:passes");
+  if (text.contains("neve:passes")) record.passes = comma_separated(reader.text("neve:passes"));
   record.has_caption = !text.contains("neve:caption");
   if (text.contains("neve:strip")) record.strip = reader.strip("neve:strip");
   if (text.contains(card_key))
