@@ -1,5 +1,7 @@
 #include "app/dump/histogram.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,10 +35,6 @@ std::vector<double> magnitudes(const Listing& listing, const Quantity& quantity,
 
 double quantile(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
-std::string padded(const std::string& text, std::size_t width) {
-  return text + std::string(text.size() < width ? width - text.size() : 0, ' ');
 }
 
 }  // namespace
@@ -123,9 +121,9 @@ std::vector<std::string> histogram_lines(const Histogram& h) {
                                  : rough_text(h.low);
     // A bin that is not empty has a bar.
     const std::size_t length = (h.counts[bin] * bar_width + most - 1) / most;
-    lines.push_back((h.is_outside_expected(bin) && h.counts[bin] > 0 ? "! " : "  ") +
-                    padded(ends, 24) + padded(std::string(length, '#'), bar_width + 2) +
-                    std::to_string(h.counts[bin]));
+    lines.push_back(fmt::format("{}{:24}{:{}}{}",
+                                h.is_outside_expected(bin) && h.counts[bin] > 0 ? "! " : "  ", ends,
+                                std::string(length, '#'), bar_width + 2, h.counts[bin]));
   }
   return lines;
 }

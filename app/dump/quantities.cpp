@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "app/advice/suggest.h"
@@ -17,40 +18,25 @@ namespace {
 using sim::Mat3d;
 using sim::Vec3d;
 
-Quantity quantity(const char* name, const char* unit, int components,
+/// Numbers, vectors or tensors at all places.
+template <class Value>
+Quantity quantity(const char* name, const char* unit, const std::vector<Value>& values,
                   const std::optional<health::Expectation>& expected = std::nullopt) {
-  Quantity q;
-  q.name = name;
-  q.unit = unit;
-  q.components = components;
+  constexpr int components = std::is_same_v<Value, Vec3d>   ? 3
+                             : std::is_same_v<Value, Mat3d> ? 9
+                                                            : 1;
+  Quantity q{name, unit, components, {}, std::nullopt, ""};
+  for (const Value& value : values)
+    if constexpr (components == 1) {
+      q.values.push_back(value);
+    } else {
+      const auto rows = value.transpose().eval();  // stored by columns
+      q.values.insert(q.values.end(), rows.data(), rows.data() + components);
+    }
   if (expected) {
     q.expected = expected->range;
     q.why = expected->why;
   }
-  return q;
-}
-
-Quantity scalars(const char* name, const char* unit, const std::vector<double>& values,
-                 const std::optional<health::Expectation>& expected = std::nullopt) {
-  Quantity q = quantity(name, unit, 1, expected);
-  q.values = values;
-  return q;
-}
-
-Quantity vectors(const char* name, const char* unit, const std::vector<Vec3d>& values,
-                 const std::optional<health::Expectation>& expected = std::nullopt) {
-  Quantity q = quantity(name, unit, 3, expected);
-  for (const Vec3d& v : values)
-    for (int a = 0; a < 3; ++a) q.values.push_back(v[a]);
-  return q;
-}
-
-Quantity tensors(const char* name, const char* unit, const std::vector<Mat3d>& values,
-                 const std::optional<health::Expectation>& expected = std::nullopt) {
-  Quantity q = quantity(name, unit, 9, expected);
-  for (const Mat3d& F : values)
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) q.values.push_back(F(a, b));
   return q;
 }
 
@@ -77,16 +63,16 @@ void add_stretches(const std::vector<Mat3d>& F, const health::Expected& expected
     least.push_back(s[2]);
     greatest.push_back(s[0]);
   }
-  listing.quantities.push_back(scalars("stretch_min", "", least, expected.stretch()));
-  listing.quantities.push_back(scalars("stretch_max", "", greatest, expected.stretch()));
+  listing.quantities.push_back(quantity("stretch_min", "", least, expected.stretch()));
+  listing.quantities.push_back(quantity("stretch_max", "", greatest, expected.stretch()));
 }
 
 void add_deformation(const sim::ParticleArrays& p, const health::Expected& expected,
                      Listing& listing) {
-  listing.quantities.push_back(tensors("F_E", "", p.F_E));
-  listing.quantities.push_back(scalars("J_E", "", determinants(p.F_E), expected.J_E()));
+  listing.quantities.push_back(quantity("F_E", "", p.F_E));
+  listing.quantities.push_back(quantity("J_E", "", determinants(p.F_E), expected.J_E()));
   add_stretches(p.F_E, expected, listing);
-  listing.quantities.push_back(scalars("J_P", "", p.J_P, expected.J_P()));
+  listing.quantities.push_back(quantity("J_P", "", p.J_P, expected.J_P()));
 }
 
 std::vector<double> elastic_energies(const scene::Scene& scene, const sim::ParticleArrays& p) {
@@ -113,8 +99,8 @@ std::vector<double> ids(const sim::ParticleArrays& p) {
 Listing particles_at(const sim::ParticleArrays& p) {
   Listing listing;
   listing.place = p.x;
-  listing.quantities.push_back(scalars("id", "", ids(p)));
-  listing.quantities.push_back(vectors("x", "m", p.x));
+  listing.quantities.push_back(quantity("id", "", ids(p)));
+  listing.quantities.push_back(quantity("x", "m", p.x));
   return listing;
 }
 
@@ -137,23 +123,23 @@ Listing nodes_after(const StepInspection& inside, const health::Expected& expect
   for (const double mass : n.mass)
     listing.is_negligible.push_back(mass < expected.negligible_mass());
   auto& q = listing.quantities;
-  q.push_back(vectors("node", "", index));
-  q.push_back(scalars("mass", "kg", n.mass, expected.node_mass()));
-  q.push_back(vectors("momentum", "kg m/s", n.momentum, expected.momentum()));
-  q.push_back(vectors("v_old", "m/s", n.v_old, expected.speed()));
+  q.push_back(quantity("node", "", index));
+  q.push_back(quantity("mass", "kg", n.mass, expected.node_mass()));
+  q.push_back(quantity("momentum", "kg m/s", n.momentum, expected.momentum()));
+  q.push_back(quantity("v_old", "m/s", n.v_old, expected.speed()));
   const auto reached = [&](sim::Stage other) { return stage >= other; };
   if (reached(sim::Stage::elastic_forces))
-    q.push_back(vectors("force", "N", n.force, expected.force()));
+    q.push_back(quantity("force", "N", n.force, expected.force()));
   if (reached(sim::Stage::grid_velocities)) {
-    q.push_back(vectors("v_free", "m/s", n.v_free, expected.speed()));
-    q.push_back(vectors("dv", "m/s", difference(n.v_free, n.v_old), expected.velocity_change()));
+    q.push_back(quantity("v_free", "m/s", n.v_free, expected.speed()));
+    q.push_back(quantity("dv", "m/s", difference(n.v_free, n.v_old), expected.velocity_change()));
   }
   if (reached(sim::Stage::grid_collisions))
-    q.push_back(vectors("v_star", "m/s", n.v_star, expected.speed()));
+    q.push_back(quantity("v_star", "m/s", n.v_star, expected.speed()));
   if (reached(sim::Stage::implicit_solve)) {
-    q.push_back(vectors("v_new", "m/s", n.v_new, expected.speed()));
+    q.push_back(quantity("v_new", "m/s", n.v_new, expected.speed()));
     if (inside.scene.solver.is_implicit())
-      q.push_back(vectors("dv_solve", "m/s", difference(n.v_new, n.v_star)));
+      q.push_back(quantity("dv_solve", "m/s", difference(n.v_new, n.v_star)));
   }
   return listing;
 }
@@ -226,14 +212,14 @@ Listing list_state(const StepInspection& inside) {
   const health::Expected expected(inside.scene, p, inside.dt);
   Listing listing = particles_at(p);
   auto& q = listing.quantities;
-  q.push_back(vectors("v", "m/s", p.v, expected.speed()));
-  q.push_back(scalars("m", "kg", p.m));
-  q.push_back(scalars("V0", "m3", p.V0, expected.volume()));
-  q.push_back(scalars("volume", "m3", current_volumes(p)));
+  q.push_back(quantity("v", "m/s", p.v, expected.speed()));
+  q.push_back(quantity("m", "kg", p.m));
+  q.push_back(quantity("V0", "m3", p.V0, expected.volume()));
+  q.push_back(quantity("volume", "m3", current_volumes(p)));
   add_deformation(p, expected, listing);
-  q.push_back(tensors("kirchhoff", "Pa", inside.simulation.kirchhoff(), expected.stress()));
-  q.push_back(scalars("elastic_energy", "J", elastic_energies(inside.scene, p)));
-  q.push_back(tensors("C", "1/s", p.C));
+  q.push_back(quantity("kirchhoff", "Pa", inside.simulation.kirchhoff(), expected.stress()));
+  q.push_back(quantity("elastic_energy", "J", elastic_energies(inside.scene, p)));
+  q.push_back(quantity("C", "1/s", p.C));
   return listing;
 }
 
@@ -247,27 +233,27 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage) {
   auto& q = listing.quantities;
   switch (stage) {
     case volumes:
-      q.push_back(scalars("m", "kg", step.after.m));
-      q.push_back(scalars("V0", "m3", step.after.V0, expected.volume()));
+      q.push_back(quantity("m", "kg", step.after.m));
+      q.push_back(quantity("V0", "m3", step.after.V0, expected.volume()));
       break;
     case deformation:
-      q.push_back(tensors("grad_v", "1/s", step.grad_v, expected.strain_rate()));
-      q.push_back(tensors("F_E_trial", "", step.F_E_trial));
+      q.push_back(quantity("grad_v", "1/s", step.grad_v, expected.strain_rate()));
+      q.push_back(quantity("F_E_trial", "", step.F_E_trial));
       add_deformation(step.after, expected, listing);
       break;
     case particle_velocities:
-      q.push_back(vectors("v_before", "m/s", inside.before.v, expected.speed()));
-      q.push_back(vectors("v", "m/s", step.v_before_collision, expected.speed()));
+      q.push_back(quantity("v_before", "m/s", inside.before.v, expected.speed()));
+      q.push_back(quantity("v", "m/s", step.v_before_collision, expected.speed()));
       break;
     case particle_collisions:
-      q.push_back(vectors("v_before", "m/s", step.v_before_collision, expected.speed()));
-      q.push_back(vectors("v", "m/s", step.after.v, expected.speed()));
+      q.push_back(quantity("v_before", "m/s", step.v_before_collision, expected.speed()));
+      q.push_back(quantity("v", "m/s", step.after.v, expected.speed()));
       break;
     default:  // advection, and the colliders that move with it
-      q.push_back(vectors(
+      q.push_back(quantity(
           "moved", "m", difference(step.after.x, inside.before.x),
           health::Expectation{{0, expected.speed().range.max * inside.dt}, "speed times dt"}));
-      q.push_back(vectors("v", "m/s", step.after.v, expected.speed()));
+      q.push_back(quantity("v", "m/s", step.after.v, expected.speed()));
   }
   return listing;
 }

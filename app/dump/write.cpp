@@ -1,22 +1,15 @@
 #include "app/dump/write.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 
+#include "app/exports/bytes.h"
+#include "app/exports/encode.h"
 #include "app/support/text.h"
 
 namespace neve::app::dump {
 
 namespace {
-
-/// The shortest text that reads as the same bits.
-template <class T>
-std::string digits(T value) {
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 /// Of a run in single precision; its places are of double precision all the same.
 bool is_single(const Quantity& q) {
@@ -53,13 +46,6 @@ std::string found_text(const Quantity& q, double value) {
 /// Padded on the right to a width, at least one space.
 std::string column_text(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 1, ' ');
-}
-
-template <class T>
-void append_block(const std::vector<T>& values, std::string& bytes) {
-  const std::uint64_t size = values.size() * sizeof(T);
-  bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
-  bytes.append(reinterpret_cast<const char*>(values.data()), size);
 }
 
 }  // namespace
@@ -99,7 +85,10 @@ std::string to_table(const Listing& listing, const std::vector<std::string>& hea
       const auto width = static_cast<std::size_t>(q.components);
       for (std::size_t at = row * width; at < (row + 1) * width; ++at) {
         if (text.size() > begin) text += '\t';
-        text += are_single[k] ? digits(static_cast<float>(q.values[at])) : digits(q.values[at]);
+        if (are_single[k])
+          exports::append_text(static_cast<float>(q.values[at]), text);
+        else
+          exports::append_text(q.values[at], text);
       }
     }
     text += '\n';
@@ -108,42 +97,14 @@ std::string to_table(const Listing& listing, const std::vector<std::string>& hea
 }
 
 std::string to_vtk(const Listing& listing) {
-  const std::size_t count = listing.place.size();
+  exports::Table table;
+  table.rows = listing.place.size();
   std::vector<double> points;
-  for (const sim::Vec3d& x : listing.place)
-    for (int a = 0; a < 3; ++a) points.push_back(x[a]);
-  std::vector<std::int64_t> vertices(count), ends(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    vertices[k] = static_cast<std::int64_t>(k);
-    ends[k] = static_cast<std::int64_t>(k + 1);
-  }
-  std::size_t offset = 0;
-  const auto array = [&](const char* type, const std::string& name, int components,
-                         std::size_t numbers) {
-    std::string xml = std::string("<DataArray type=\"") + type + "\" Name=\"" + name +
-                      "\" NumberOfComponents=\"" + std::to_string(components) +
-                      "\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
-    offset += sizeof(std::uint64_t) + 8 * numbers;
-    return xml;
-  };
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-      std::to_string(count) + "\" NumberOfVerts=\"" + std::to_string(count) +
-      "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n";
-  text += array("Float64", "Points", 3, points.size());
-  text += "</Points>\n<Verts>\n";
-  text += array("Int64", "connectivity", 1, count);
-  text += array("Int64", "offsets", 1, count);
-  text += "</Verts>\n<PointData>\n";
+  for (const sim::Vec3d& x : listing.place) points.insert(points.end(), x.data(), x.data() + 3);
+  table.columns.push_back({scene::ExportAttribute::x, "x", "m", 3, points});
   for (const Quantity& q : listing.quantities)
-    text += array("Float64", q.name, q.components, q.values.size());
-  text += "</PointData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  append_block(points, text);
-  append_block(vertices, text);
-  append_block(ends, text);
-  for (const Quantity& q : listing.quantities) append_block(q.values, text);
-  return text + "\n</AppendedData>\n</VTKFile>\n";
+    table.columns.push_back({std::nullopt, q.name, q.unit, q.components, q.values});
+  return exports::vtp_text(table);
 }
 
 std::vector<std::string> probe_lines(const Listing& listing, std::size_t row) {

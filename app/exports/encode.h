@@ -36,6 +36,8 @@ std::string encode_npz(const ExportMoment& moment);
 /// VTK XML PolyData: a vertex per particle, or the triangles of a surface and vertices for the
 /// spray; raw appended arrays.
 std::string encode_vtp(const ExportMoment& moment);
+/// The same of a table alone. @param time  its field data
+std::string vtp_text(const Table& table, const std::string& time = "");
 
 /// VTK XML ImageData: mass and velocity of all nodes in the box around the snow.
 /// @throws LimitError when particles far apart make the box too large

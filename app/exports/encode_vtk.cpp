@@ -144,13 +144,16 @@ DenseGrid dense_grid(const sim::RasterizedNodes& nodes, const Axes& axes) {
 }  // namespace
 
 std::string encode_vtp(const ExportMoment& moment) {
-  const Table& table = moment.table;
+  return vtp_text(moment.table, vtk_time(moment));
+}
+
+std::string vtp_text(const Table& table, const std::string& time) {
   const std::size_t first = table.mesh ? table.mesh->vertices : 0;
   std::vector<std::int64_t> points(table.rows - first);
   std::iota(points.begin(), points.end(), static_cast<std::int64_t>(first));
   const std::size_t triangles = table.mesh ? table.mesh->triangles() : 0;
   AppendedArrays arrays;
-  std::string text = vtk_start("PolyData") + ">\n" + vtk_time(moment) + "<Piece NumberOfPoints=\"" +
+  std::string text = vtk_start("PolyData") + ">\n" + time + "<Piece NumberOfPoints=\"" +
                      std::to_string(table.rows) + "\" NumberOfVerts=\"" +
                      std::to_string(points.size()) +
                      "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +

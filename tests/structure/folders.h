@@ -103,7 +103,7 @@ inline constexpr Folder folders[] = {
      "app/timeline app/run"},
     {"app/dump",
      "sim/base sim/types sim/health sim app/support app/scene/toml app/advice app/scene app/record "
-     "app/setup app/health app/run"},
+     "app/setup app/health app/exports app/run"},
     {"app/sweep", "app/scene app/setup"},
     {"app/sweep/read",
      "app/support app/scene/toml app/advice app/scene app/setup app/options app/sweep"},
