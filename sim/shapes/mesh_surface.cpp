@@ -11,29 +11,6 @@
 namespace neve::sim::shapes {
 namespace {
 
-/// The place of a triangle that is nearest to p.
-/// Source: Ericson, Real-Time Collision Detection, section 5.1.5.
-Vec3d nearest_on_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
-  const Vec3d ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const Vec3d bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + (d1 > d3 ? d1 / (d1 - d3) : 0.0) * ab;
-  const Vec3d cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + (d2 > d6 ? d2 / (d2 - d6) : 0.0) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  const double u = d4 - d3, w = d5 - d6;
-  if (va <= 0 && u >= 0 && w >= 0) return b + (u + w > 0 ? u / (u + w) : 0.0) * (c - b);
-  const double sum = va + vb + vc;
-  return sum > 0 ? Vec3d(a + (vb / sum) * ab + (vc / sum) * ac) : a;
-}
-
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// Whether faces may have the inside, or the outside, on both of their sides.
@@ -161,6 +138,28 @@ std::vector<std::uint32_t> distinct(const std::vector<Triangle>& triangles) {
 }
 
 }  // namespace
+
+/// Source: Ericson, Real-Time Collision Detection, section 5.1.5.
+Vec3d nearest_on_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
+  const Vec3d ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const Vec3d bp = p - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + (d1 > d3 ? d1 / (d1 - d3) : 0.0) * ab;
+  const Vec3d cp = p - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + (d2 > d6 ? d2 / (d2 - d6) : 0.0) * ac;
+  const double va = d3 * d6 - d5 * d4;
+  const double u = d4 - d3, w = d5 - d6;
+  if (va <= 0 && u >= 0 && w >= 0) return b + (u + w > 0 ? u / (u + w) : 0.0) * (c - b);
+  const double sum = va + vb + vc;
+  return sum > 0 ? Vec3d(a + (vb / sum) * ab + (vc / sum) * ac) : a;
+}
 
 using Box3 = Eigen::AlignedBox<double, 3>;
 

@@ -71,6 +71,9 @@ std::shared_ptr<const MeshSurface> mesh_surface(const Mesh& mesh);
 /// @throws ShapeError where a face crosses itself: it has no surface
 void require_faces(const SolidMesh& mesh, const std::string& file);
 
+/// The place of a triangle that is nearest to p.
+Vec3d nearest_on_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p);
+
 /// Tells one content of a file from another: path, size and time of the last change.
 std::string file_stamp(const std::string& path);
 
