@@ -18,7 +18,6 @@
 #include "app/predict/predict.h"
 #include "app/record/picture_record.h"
 #include "app/run/fork.h"
-#include "app/run/lut.h"
 #include "app/run/passes.h"
 #include "app/run/plate.h"
 #include "app/run/render_job.h"

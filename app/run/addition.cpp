@@ -23,18 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const scene::View* view_called(const scene::Scene& scene, const std::string& name) {
-  for (const scene::View& view : scene.views)
-    if (view.name == name) return &view;
-  return nullptr;
-}
-
-const scene::Mosaic* mosaic_called(const scene::Scene& scene, const std::string& name) {
-  for (const scene::Mosaic& mosaic : scene.mosaics)
-    if (mosaic.name == name) return &mosaic;
-  return nullptr;
-}
-
 /// The view with what it takes from its scene as its own.
 scene::View with_settings_of(const scene::Scene& scene, scene::View view) {
   view.size = setup::size_of(scene, view);
@@ -249,10 +237,10 @@ std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
                        const std::string& view) {
   scene::Scene scene = without_views(job.scene);
   const auto add = [&](const std::string& name) {
-    if (const scene::View* own = view_called(job.scene, name))
-      scene.views.push_back(with_settings_of(job.scene, *own));
+    for (const scene::View& own : job.scene.views)
+      if (own.name == name) scene.views.push_back(with_settings_of(job.scene, own));
   };
-  if (const scene::Mosaic* mosaic = mosaic_called(job.scene, view)) {
+  if (const scene::Mosaic* mosaic = find_mosaic(job.scene, view)) {
     scene.mosaics.push_back(with_settings_of(job.scene, *mosaic));
     for (const std::string& tile : mosaic->views) add(tile);
     picture.passes.clear();

@@ -9,7 +9,6 @@
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/picture/shutter.h"
-#include "app/run/lut.h"
 #include "app/run/plate.h"
 #include "app/run/slate.h"
 #include "app/timeline/snapshot.h"
@@ -206,9 +205,7 @@ render::PngText Drawing::slate_text(const std::string& view, int number) const {
 record::PictureRecord Drawing::record_of(const std::string& view) const {
   record::PictureRecord record = record_;
   record.view = view;
-  record.has_caption =
-      job_.options.has_caption ||
-      std::ranges::find(job_.scene.mosaics, view, &scene::Mosaic::name) == job_.scene.mosaics.end();
+  record.has_caption = job_.options.has_caption || !find_mosaic(job_.scene, view);
   if (!job_.plate.empty()) {
     const std::filesystem::path plate = plate_path(job_.plate, record.frame);
     record.files[plate.string()] = record::hash_text(output::hash_file(plate));

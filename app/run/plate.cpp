@@ -143,4 +143,11 @@ render::Image read_plate(const RenderJob& job, int frame, const std::string& vie
   return image;
 }
 
+render::CubeLut read_lut(const std::string& file) {
+  const auto bytes = output::read_file(file);
+  return output::decoded(file, "a look is a .cube file, as grading programs export it", [&] {
+    return render::parse_cube({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+  });
+}
+
 }  // namespace neve::app::run

@@ -1,11 +1,12 @@
 #pragma once
-/// The plate of --plate: a picture behind each frame.
+/// The plate of --plate, a picture behind each frame, and the look of --lut.
 
 #include <filesystem>
 #include <string>
 
 #include "app/run/render_job.h"
 #include "app/scene/scene.h"
+#include "render/image/cube_lut.h"
 #include "render/image/image.h"
 
 namespace neve::app::run {
@@ -19,5 +20,8 @@ std::filesystem::path plate_path(const std::string& pattern, int frame);
 /// view, or a picture names it that was not made with it; LimitError
 render::Image read_plate(const RenderJob& job, int frame, const std::string& view,
                          scene::PictureSize size);
+
+/// The look of --lut. @throws IoError; Error when it is no .cube file
+render::CubeLut read_lut(const std::string& file);
 
 }  // namespace neve::app::run

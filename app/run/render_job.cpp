@@ -1,8 +1,9 @@
 #include "app/run/render_job.h"
 #include "app/record/picture_files.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <system_error>
 
@@ -21,12 +22,6 @@ namespace {
 
 /// Degrees at final quality: half of each frame, as film cameras have it.
 constexpr double usual_shutter = 180;
-
-const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name) {
-  for (const scene::Mosaic& mosaic : scene.mosaics)
-    if (mosaic.name == name) return &mosaic;
-  return nullptr;
-}
 
 /// Keeps the views and mosaics of these names, and the views that the mosaics need.
 void choose_views(const std::vector<std::string>& names, RenderJob& job) {
@@ -68,9 +63,7 @@ void check_texts(const RenderJob& job) {
 
 /// The view of a picture, and how it was drawn.
 void take_picture(const record::PictureRecord& picture, RenderJob& job) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%04d-again", picture.frame);
-  job.folder = out_folder() / name;
+  job.folder = out_folder() / fmt::format("{:04}-again", picture.frame);
   job.quality = setup::quality_named(picture.quality);
   job.passes = picture.passes;
   job.prediction = picture.prediction;
@@ -106,6 +99,11 @@ void set_sizes(const RenderOptions& options, scene::Scene& scene) {
 }
 
 }  // namespace
+
+const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name) {
+  const auto found = std::ranges::find(scene.mosaics, name, &scene::Mosaic::name);
+  return found == scene.mosaics.end() ? nullptr : &*found;
+}
 
 RenderJob make_job(const RenderOptions& options) {
   if (options.from && (options.coarsening || options.is_fast))

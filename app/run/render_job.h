@@ -39,6 +39,9 @@ struct RenderJob : timeline::Origin {
   bool has_movies() const { return options.has_movies && options.movie.is_made; }
 };
 
+/// Null where there is no mosaic of the name.
+const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name);
+
 /// @throws SceneError, UsageError, IoError, Error
 RenderJob make_job(const RenderOptions& options);
 

@@ -10,7 +10,6 @@
 #include "app/output/file_hash.h"
 #include "app/output/sequence.h"
 #include "app/run/identity.h"
-#include "app/run/slowdown.h"
 #include "app/run/step_warnings.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"

@@ -1,9 +1,11 @@
 #pragma once
-/// Warnings of a run about its steps.
+/// Warnings of a run about its steps and about frames that take long.
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/record/run_json.h"
 #include "app/scene/scene.h"
 #include "sim/simulation.h"
 
@@ -14,5 +16,9 @@ namespace neve::app::run {
 /// compaction has one, too.
 std::vector<std::string> step_warnings(const scene::Scene& scene,
                                        const sim::Simulation& simulation);
+
+/// Compares the slowest frame with the first that took steps: how many times as long it took, and
+/// why. Nothing while both are alike, or all are short.
+std::optional<std::string> slowdown_warning(const std::vector<record::FrameRecord>& frames);
 
 }  // namespace neve::app::run

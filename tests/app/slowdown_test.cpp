@@ -1,6 +1,6 @@
 /// The warning about runs that become slow.
 
-#include "app/run/slowdown.h"
+#include "app/run/step_warnings.h"
 
 #include <gtest/gtest.h>
 
