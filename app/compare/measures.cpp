@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "app/picture/to_float.h"
 
@@ -25,12 +26,10 @@ using Places = std::map<Vec3i, std::pair<const float*, const float*>, BlockOrder
 
 Places places_of(const picture::FieldSamples& a, const picture::FieldSamples& b) {
   Places places;
-  if (a.lattice)
-    for (std::size_t k = 0; k < a.lattice->block.size(); ++k)
-      places[a.lattice->block[k]].first = a.density.data() + nodes_of_block * k;
-  if (b.lattice)
-    for (std::size_t k = 0; k < b.lattice->block.size(); ++k)
-      places[b.lattice->block[k]].second = b.density.data() + nodes_of_block * k;
+  for (const auto& [run, place] :
+       {std::pair{&a, &Places::mapped_type::first}, std::pair{&b, &Places::mapped_type::second}})
+    for (std::size_t k = 0; run->lattice && k < run->lattice->block.size(); ++k)
+      places[run->lattice->block[k]].*place = run->density.data() + nodes_of_block * k;
   return places;
 }
 

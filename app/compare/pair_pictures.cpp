@@ -140,11 +140,6 @@ std::array<render::Frame, 2> PairPainter::frames_for(Mode mode) const {
   return frames;
 }
 
-std::array<StripWords, 2> words_of(const Pair& pair) {
-  return {StripWords{"A   " + pair.a.job.scene_file, pair.a.values},
-          StripWords{"B   " + pair.b.job.scene_file, pair.b.values}};
-}
-
 std::string PairPainter::line_for(Mode mode) const {
   std::string line = fmt::format("frame {}   t = {}", scene::number_of(a_.scene, a_.snapshot.frame),
                                  time_text(a_.snapshot.time, a_.scene.fps));
@@ -159,7 +154,11 @@ std::string PairPainter::line_for(Mode mode) const {
 
 render::Image PairPainter::draw_with_words(std::vector<render::Image> images, Mode mode) const {
   for (render::Image& image : images) image = opaque(std::move(image));
-  return with_strip(images, words_of(pair_), line_for(mode), renderer_);
+  const auto words_of = [](const char* name, const Side& side) {
+    return StripWords{name + side.job.scene_file, side.values};
+  };
+  return with_strip(images, {words_of("A   ", pair_.a), words_of("B   ", pair_.b)}, line_for(mode),
+                    renderer_);
 }
 
 render::Image PairPainter::draw(Mode mode) const {

@@ -28,9 +28,6 @@ class PairPainter {
   /// @throws LimitError for a picture of a mode that is too large to be drawn
   void check_sizes(const std::vector<Mode>& modes) const;
 
-  /// m, displacement that has the last colour.
-  double range() const { return range_; }
-
  private:
   struct Taken {
     scene::Scene scene;
@@ -48,14 +45,11 @@ class PairPainter {
   const Pair& pair_;
   render::Renderer& renderer_;
   scene::View view_;
-  double range_ = 0;
+  double range_ = 0;           ///< m, displacement that has the last colour
   double full_density_ = 400;  ///< kg/m3
   Taken a_, b_;
   Displacement displacement_;
   MassDifference mass_;
 };
-
-/// Titles and values of both runs.
-std::array<StripWords, 2> words_of(const Pair& pair);
 
 }  // namespace neve::app::compare
