@@ -97,10 +97,6 @@ const char* wished(const WishChange& change) {
   return change.is_more ? change.more : change.less;
 }
 
-std::string padded(const std::string& text, std::size_t width) {
-  return text + std::string(width > text.size() ? width - text.size() : 0, ' ');
-}
-
 }  // namespace
 
 const std::vector<Wish>& wishes() {
@@ -119,19 +115,13 @@ std::vector<const Wish*> wishes_for(const std::string& text) {
 }
 
 std::string wishes_table(const std::vector<const Wish*>& wishes) {
-  constexpr std::size_t wish_width = 12, address_width = 38, advice_width = 9, value_width = 14;
-  std::string text = padded("I WANT IT", wish_width) + padded("PARAMETER", address_width) +
-                     padded("MAKE IT", advice_width) + padded("AS IN", value_width) +
-                     "MORE OF IT MEANS\n";
-  for (const Wish* wish : wishes) {
-    std::string name = wish->name;
-    for (const WishChange& change : wish->changes) {
-      text += padded(name, wish_width) + padded(change.address, address_width) +
-              padded(advice(change), advice_width) + padded(wished(change), value_width) +
-              change.effect + "\n";
-      name.clear();
-    }
-  }
+  constexpr const char* row = "{:12}{:38}{:9}{:14}{}\n";
+  std::string text =
+      fmt::format(row, "I WANT IT", "PARAMETER", "MAKE IT", "AS IN", "MORE OF IT MEANS");
+  for (const Wish* wish : wishes)
+    for (const WishChange& change : wish->changes)
+      text += fmt::format(row, &change == &wish->changes.front() ? wish->name : "", change.address,
+                          advice(change), wished(change), change.effect);
   text +=
       "\nThe law of a material is its model: that of cam clay in scenes of neve new, otherwise the "
       "paper's snow.\n"
