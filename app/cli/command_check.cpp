@@ -202,8 +202,8 @@ predict::Prediction predicted(const run::RenderJob& job, const health::Check& ch
 
 }  // namespace
 
-int run_check(const CheckCommand& command) {
-  run::RenderOptions options = command.run;
+int run_check(const run::RenderOptions& given) {
+  run::RenderOptions options = given;
   options.is_start_only = true;
   const run::RenderJob job = run::make_job(options);
   const setup::Plan plan = setup::make_plan(job.scene, job.frames, job.quality, options.threads);
@@ -216,7 +216,7 @@ int run_check(const CheckCommand& command) {
   const forecast::FastLook look = possible_look(options, job);
   const bool is_quiet = options.verbosity == Verbosity::quiet;
   std::optional<predict::Prediction> prediction;
-  if (command.predicts) prediction = predicted(job, check, options);
+  if (options.predicts) prediction = predicted(job, check, options);
   if (options.is_json) {
     Json json = check_json(check, job, look);
     if (prediction) json["prediction"] = predict::to_json(*prediction);

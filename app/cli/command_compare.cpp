@@ -38,13 +38,13 @@ render::Image read_picture(const std::string& file) {
 }
 
 int compare_pictures(const CompareOptions& options) {
-  const render::Image a = read_picture(options.a), b = read_picture(options.b);
+  const render::Image a = read_picture(options.pictures.a), b = read_picture(options.pictures.b);
   if (a.width != b.width || a.height != b.height || a.channels != b.channels)
     throw Error(exit_check_failed,
                 "the pictures have different sizes: " + std::to_string(a.width) + "x" +
                     std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
                     std::to_string(b.height),
-                options.b);
+                options.pictures.b);
   const render::Difference difference = render::compare(a, b);
   const bool is_same =
       difference.mean <= options.threshold && difference.local <= options.local_threshold;
@@ -96,7 +96,7 @@ KnownStates read_states(const fs::path& folder) {
 }
 
 int compare_runs(const CompareOptions& options) {
-  const KnownStates a = read_states(options.a), b = read_states(options.b);
+  const KnownStates a = read_states(options.pictures.a), b = read_states(options.pictures.b);
   int compared = 0;
   std::optional<int> first_different, first_other_dust;
   for (const auto& [frame, state] : a.at) {
@@ -107,8 +107,8 @@ int compare_runs(const CompareOptions& options) {
       throw UsageError(
           "",
           fmt::format("frame {} of {} is at {} s and frame {} of {} at {} s",
-                      a.first_number + frame, options.a, rough_text(state.time),
-                      b.first_number + frame, options.b, rough_text(other->second.time)),
+                      a.first_number + frame, options.pictures.a, rough_text(state.time),
+                      b.first_number + frame, options.pictures.b, rough_text(other->second.time)),
           "compare runs with the same fps");
     ++compared;
     if (!first_different && other->second.hash != state.hash) first_different = frame;
@@ -190,7 +190,7 @@ int draw_pair(const CompareOptions& options) {
   const compare::PairOptions& pictures = options.pictures;
   Progress progress(std::cerr, pictures.verbosity, can_update_lines(STDERR_FILENO),
                     pictures.progress);
-  const bool is_plain = has_only_pixels(options.a) || has_only_pixels(options.b);
+  const bool is_plain = has_only_pixels(options.pictures.a) || has_only_pixels(options.pictures.b);
   const compare::PairResult result = is_plain ? compare::compare_plain_pictures(pictures)
                                               : compare::compare_run(pictures, progress);
   progress.clear();
@@ -206,23 +206,23 @@ int draw_pair(const CompareOptions& options) {
 
 int run_compare(const CompareOptions& options) {
   std::error_code error;
-  for (const std::string& path : {options.a, options.b})
+  for (const std::string& path : {options.pictures.a, options.pictures.b})
     if (!fs::exists(path, error))
       throw IoError(path + ": error: does not exist", path,
                     "compare two pictures or two run folders");
-  const bool is_a_run = fs::is_directory(options.a, error);
-  const bool is_b_run = fs::is_directory(options.b, error);
+  const bool is_a_run = fs::is_directory(options.pictures.a, error);
+  const bool is_b_run = fs::is_directory(options.pictures.b, error);
   if (!options.pictures.out.empty()) {
-    if (is_a_run) check_run_folder(options.a);
-    if (is_b_run) check_run_folder(options.b);
+    if (is_a_run) check_run_folder(options.pictures.a);
+    if (is_b_run) check_run_folder(options.pictures.b);
     return draw_pair(options);
   }
   if (is_a_run != is_b_run)
     throw UsageError("", "one is a folder and the other is not",
                      "compare two pictures or two run folders");
   if (!is_a_run) return compare_pictures(options);
-  check_run_folder(options.a);
-  check_run_folder(options.b);
+  check_run_folder(options.pictures.a);
+  check_run_folder(options.pictures.b);
   return compare_runs(options);
 }
 

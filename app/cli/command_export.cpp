@@ -10,7 +10,14 @@
 
 namespace neve::app::cli {
 
-int run_export_command(const run::ExportOptions& options) {
+int run_export(const ExportCommand& command) {
+  run::ExportOptions options{command.run, {}, command.at};
+  for (const scene::ExportFormat format : command.formats) {
+    options.exports.push_back(command.common);
+    options.exports.back().format = format;
+    // As those of a scene file have that are given none.
+    options.exports.back().name = std::to_string(options.exports.size());
+  }
   const run::ExportJob job = run::make_export_job(options);
   const setup::Plan plan =
       setup::make_plan(job.run.scene, job.run.frames, setup::Quality::draft, options.run.threads);

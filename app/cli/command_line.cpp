@@ -9,12 +9,7 @@
 
 #include "app/card/card_options.h"
 #include "app/cli/commands.h"
-#include "app/cli/describe.h"
-#include "app/cli/manual.h"
-#include "app/cli/surroundings.h"
-#include "app/cli/usage_hints.h"
 #include "app/options/help.h"
-#include "app/options/parse.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
 #include "app/support/other_place.h"
@@ -61,17 +56,6 @@ int print_version(const PlainOptions& options) {
   else
     std::cout << "neve " << version << " (" << build_text(simd_in_use()) << ")\n";
   return exit_ok;
-}
-
-int run_export(const ExportCommand& command) {
-  run::ExportOptions options{command.run, {}, command.at};
-  for (const scene::ExportFormat format : command.formats) {
-    options.exports.push_back(command.common);
-    options.exports.back().format = format;
-    // As those of a scene file have that are given none.
-    options.exports.back().name = std::to_string(options.exports.size());
-  }
-  return run_export_command(options);
 }
 
 int print_manual(const PlainOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The command line: all commands, and the one that is called.
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -39,6 +40,22 @@ Entry program();
 /// Parses and runs. @return the exit code
 /// @throws UsageError, and the errors of the command
 int run_command_line(const std::vector<std::string>& words);
+
+/// Writes DIR/man1/neve-render.1 and so on, DIR/bash/neve, DIR/zsh/_neve and DIR/fish/neve.fish:
+/// man pages and completions of shells, from the same descriptions as --help. @throws IoError
+void write_manual(const Entry& program, const std::filesystem::path& folder);
+
+/// The words have to start with a command, and with a part of one that does nothing without.
+/// @throws UsageError
+void check_command(Entry& program, const std::vector<std::string>& words);
+/// Refuses a word that no option of the command takes. @throws UsageError
+[[noreturn]] void refuse_leftover(const Entry& entry, const std::string& word);
+/// Refuses to help with what is no part of a command. @throws UsageError
+[[noreturn]] void refuse_help(const Entry& entry, const std::string& word);
+
+/// Warns of variables of the environment that look like those of neve and are read by nothing, and
+/// of many more threads than cores, on standard error.
+void warn_of_surroundings(const options::Command& command, const ErrorOutput& output);
 
 /// Finds out where the flags want errors; works on command lines that do not parse.
 ErrorOutput error_output(const std::vector<std::string>& words);

@@ -22,12 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Findings {
-  std::string status;
-  std::size_t files = 0;
-  std::vector<record::Flaw> flaws;
+struct Findings : record::Verification {
   /// Why a folder without flaws is not finished; "" if it is.
-  std::string unfinished;
+  std::string unfinished{};
   bool is_in_use = false;  ///< by a process that still runs
   bool is_run = true;      ///< or a sweep: they can be resumed
 
@@ -41,21 +38,22 @@ record::Verification verify_whole_run(const fs::path& folder) {
 }
 
 Findings verify_run_folder(const fs::path& folder) {
-  record::Verification found = verify_whole_run(folder);
-  Findings findings{found.status, found.files, std::move(found.flaws), {}, false};
-  if (found.status == "ok" || found.status == "diverged" || found.status.empty()) return findings;
+  Findings findings{verify_whole_run(folder)};
+  if (findings.status == "ok" || findings.status == "diverged" || findings.status.empty())
+    return findings;
   findings.is_in_use = output::FolderLock::is_held(folder);
   findings.unfinished =
       "the run is not finished: " +
       (findings.is_in_use
            ? "it is in use by " + output::FolderLock::holder_of(folder) + "; wait for it"
-           : "its status is " + found.status);
+           : "its status is " + findings.status);
   return findings;
 }
 
 /// The folder of `neve export --out`, or of `neve compare --out`.
 Findings verify_listed_folder(const record::Verification& found) {
-  Findings findings{found.status, found.files, found.flaws, {}, false, false};
+  Findings findings{found};
+  findings.is_run = false;
   if (found.status == "interrupted") findings.unfinished = "the export is not finished";
   return findings;
 }

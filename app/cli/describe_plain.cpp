@@ -1,6 +1,6 @@
 /// Options of the commands that take little.
 
-#include "app/cli/describe.h"
+#include "app/cli/commands.h"
 #include "app/options/common.h"
 #include "app/options/languages.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <set>
 
-#include "app/cli/describe.h"
+#include "app/cli/commands.h"
 #include "app/options/common.h"
 #include "app/options/languages.h"
 #include "app/scene/describe.h"
@@ -127,14 +127,13 @@ void describe_formats(Command& visit, ExportCommand& o) {
 
 }  // namespace
 
-void describe_check(Command& visit, CheckCommand& command) {
-  run::RenderOptions& o = command.run;
+void describe_check(Command& visit, run::RenderOptions& o) {
   visit.about("check",
               "Forecast the cost of a scene and the limits of its steps, and warn of likely "
               "mistakes; takes a few steps and runs a coarse copy");
   visit.other_place = "name another file with --open-edges";
   describe_scene(visit, o, run::origin_help);
-  visit("--predict", command.predicts,
+  visit("--predict", o.predicts,
         "Run coarse copies to the end, and say what the scene itself will do at its last frame: "
         "breaks, holds or undecided, and its size, each with an interval that holds four times in "
         "five; costs about a third of the run");
@@ -238,10 +237,10 @@ void describe_compare(Command& visit, CompareOptions& o) {
               "Compare two pictures, or the states of two runs frame by frame; with --out as "
               "pictures, movies and curves");
   visit.other_place = "name another place with --out";
-  visit("A", o.a, options::text(""),
+  visit("A", pictures.a, options::text(""),
         "A PNG, or the folder of a run; for one run of a sweep: DIR/runs/0000")
       .required();
-  visit("B", o.b, options::text(""), "The other PNG or folder").required();
+  visit("B", pictures.b, options::text(""), "The other PNG or folder").required();
   const options::Language<double> mean =
       options::number<double>("MEAN", 0, 255, "a number from 0 to 255");
   visit("--threshold", o.threshold, mean, "Largest mean difference of pictures allowed, 0 to 255")
@@ -283,10 +282,6 @@ void describe_compare(Command& visit, CompareOptions& o) {
   options::describe_progress(visit, pictures.progress);
   options::describe_verbosity(visit, pictures.verbosity);
   visit("--json", o.is_json, "Print the result as JSON");
-  visit.check([&o] {
-    o.pictures.a = o.a;
-    o.pictures.b = o.b;
-  });
 }
 
 }  // namespace neve::app::cli

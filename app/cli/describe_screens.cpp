@@ -1,6 +1,6 @@
 /// Options of the commands that have a screen: a window, a page or a script.
 
-#include "app/cli/describe.h"
+#include "app/cli/commands.h"
 #include "app/options/common.h"
 #include "app/options/languages.h"
 #include "app/support/errors.h"

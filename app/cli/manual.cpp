@@ -1,4 +1,4 @@
-#include "app/cli/manual.h"
+#include "app/cli/command_line.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "app/cli/surroundings.h"
+#include "app/cli/command_line.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -40,8 +40,9 @@ std::string many_threads(const options::Command& command) {
       threads, cores, cores == 1 ? "core" : "cores");
 }
 
-}  // namespace
-
+/// Sentences on variables that look like those of neve and are read by nothing.
+/// @param environment  "NAME=VALUE"
+/// @param flags        of the command, as in "--threads"
 std::vector<std::string> misnamed_variables(const std::vector<std::string>& environment,
                                             const std::vector<std::string>& flags) {
   std::vector<std::string> sentences;
@@ -57,6 +58,8 @@ std::vector<std::string> misnamed_variables(const std::vector<std::string>& envi
   }
   return sentences;
 }
+
+}  // namespace
 
 void warn_of_surroundings(const options::Command& command, const ErrorOutput& output) {
   std::vector<std::string> environment;

@@ -1,4 +1,4 @@
-#include "app/cli/usage_hints.h"
+#include "app/cli/command_line.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,7 +1,5 @@
 #include "app/options/help.h"
 
-#include <sstream>
-
 #include "app/support/text.h"
 
 namespace neve::app::options {
@@ -29,16 +27,8 @@ std::string row(const std::string& heading, const std::string& text, std::size_t
     line += "\n" + std::string(column, ' ');
   else
     line.resize(column, ' ');
-  std::istringstream words(text);
-  std::string rest;
-  std::size_t used = column;
-  for (std::string word; words >> word;) {
-    const bool is_full = width > column + 20 && used > column && used + word.size() > width;
-    rest += is_full ? "\n" + std::string(column, ' ') : (used > column ? " " : "");
-    used = (is_full ? column : used) + word.size() + 1;
-    rest += word;
-  }
-  return line + rest + "\n";
+  const std::size_t room = width > column + 20 ? width - column : text.size();
+  return line + joined(broken_lines(text, room), "\n" + std::string(column, ' ')) + "\n";
 }
 
 }  // namespace

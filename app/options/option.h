@@ -128,6 +128,12 @@ struct Command {
 /// @throws UsageError where an output would replace a file that is read
 void refuse_input(const std::string& flag, const std::string& output, const std::string& input);
 
+/// Reads words as they follow the name of the command: "--flag VALUE", "--flag=VALUE", "-fVALUE",
+/// "-qv", arguments in their order; after "--" all words are arguments. Command::check_all() is
+/// left to the caller.
+/// @return words that no option takes; then no value has been read @throws UsageError
+std::vector<std::string> parse(Command& command, const std::vector<std::string>& words);
+
 template <class Member, class T>
 Option& Command::operator()(const char* names, Member& member, const Language<T>& language,
                             const std::string& sentence) {

@@ -1,4 +1,4 @@
-#include "app/options/parse.h"
+#include "app/options/option.h"
 
 #include <algorithm>
 

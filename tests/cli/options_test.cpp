@@ -7,7 +7,7 @@
 #include "app/cli/command_line.h"
 #include "app/options/arguments.h"
 #include "app/options/languages.h"
-#include "app/options/parse.h"
+#include "app/options/option.h"
 #include "app/run/render_options.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "tests/cli/run_neve.h"
