@@ -4,8 +4,10 @@
 #include <cassert>
 #include <cctype>
 #include <map>
+#include <utility>
 
 #include "app/support/lower_text.h"
+#include "app/support/text.h"
 
 namespace neve::app::advice {
 
@@ -20,10 +22,8 @@ std::vector<std::string> split(std::string_view text, char between) {
   std::vector<std::string> parts;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(between), text.size());
-    std::string_view part = text.substr(0, end);
-    while (part.starts_with(' ')) part.remove_prefix(1);
-    while (part.ends_with(' ')) part.remove_suffix(1);
-    if (!part.empty()) parts.emplace_back(part);
+    if (std::string part = trimmed(text.substr(0, end), " "); !part.empty())
+      parts.push_back(std::move(part));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return parts;

@@ -94,9 +94,7 @@ std::vector<render::PhaseTime> phases_of(render::Renderer& renderer, const rende
 }
 
 double phase_seconds(const std::vector<render::PhaseTime>& times, const std::string& phase) {
-  const auto found = std::find_if(times.begin(), times.end(), [&](const render::PhaseTime& time) {
-    return time.phase == phase;
-  });
+  const auto found = std::ranges::find(times, phase, &render::PhaseTime::phase);
   return found == times.end() ? 0 : found->seconds;
 }
 
@@ -187,8 +185,7 @@ std::vector<BenchRow> RenderBench::run() {
 
 void RenderBench::compare_with_targets(const std::vector<BenchRow>& rows) {
   for (const SphereTarget& target : targets) {
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&](const BenchRow& r) { return r.name == target.row; });
+    const auto row = std::ranges::find(rows, std::string(target.row), &BenchRow::name);
     if (row == rows.end()) continue;
     progress_.note(
         std::string(target.row) + ": " + fixed_text(row->value.median, 1) +

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <iostream>
 #include <memory>
 #include <string>
@@ -37,7 +35,7 @@ struct BenchPart {
 /// Prints the circumstances of the figures: the machine, the build, and the load by others.
 int run_bench(const bench::BenchOptions& options, const BenchPart& part) {
   catch_interrupts();
-  Progress progress(std::cerr, Verbosity::normal, can_update_lines(STDERR_FILENO));
+  Progress progress(Verbosity::normal);
   progress.note(machine_text());
   if (!bench::build_fault().empty())
     progress.warning(bench::build_fault() +

@@ -1,4 +1,3 @@
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,10 +44,8 @@ std::string seconds_text(double seconds) {
 }
 
 const forecast::FrameForecast& busiest(const std::vector<forecast::FrameForecast>& frames) {
-  return *std::max_element(frames.begin(), frames.end(),
-                           [](const forecast::FrameForecast& a, const forecast::FrameForecast& b) {
-                             return a.steps * a.cost < b.steps * b.cost;
-                           });
+  return *std::ranges::max_element(
+      frames, {}, [](const forecast::FrameForecast& f) { return f.steps * f.cost; });
 }
 
 Json range_json(const forecast::Cost& cost) {
@@ -195,7 +192,7 @@ void write_open_edges(const run::RenderOptions& options, const scene::Scene& sce
 predict::Prediction predicted(const run::RenderJob& job, const health::Check& check,
                               const run::RenderOptions& options) {
   setup::check_limits(job.scene, check.plan, job.coarsening);
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO));
+  Progress progress(options.verbosity);
   return predict::make_prediction(job.scene, job.frames.last, check.seconds().expected,
                                   options.threads, progress);
 }
@@ -229,9 +226,8 @@ int run_check(const run::RenderOptions& given) {
   std::cout.flush();
   if (!options.open_edges.empty()) write_open_edges(options, job.scene);
   setup::check_limits(job.scene, check.plan, job.coarsening);
-  const bool has_error =
-      std::any_of(check.findings.begin(), check.findings.end(),
-                  [](const health::Finding& f) { return f.severity == health::Severity::error; });
+  const bool has_error = std::ranges::find(check.findings, health::Severity::error,
+                                           &health::Finding::severity) != check.findings.end();
   return has_error ? exit_check_failed : exit_ok;
 }
 

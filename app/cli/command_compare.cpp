@@ -1,6 +1,4 @@
 #include <fmt/core.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -188,8 +186,7 @@ void print_pair(const CompareOptions& options, const compare::PairResult& result
 int draw_pair(const CompareOptions& options) {
   catch_interrupts();
   const compare::PairOptions& pictures = options.pictures;
-  Progress progress(std::cerr, pictures.verbosity, can_update_lines(STDERR_FILENO),
-                    pictures.progress);
+  Progress progress(pictures.verbosity, pictures.progress);
   const bool is_plain = has_only_pixels(options.pictures.a) || has_only_pixels(options.pictures.b);
   const compare::PairResult result = is_plain ? compare::compare_plain_pictures(pictures)
                                               : compare::compare_run(pictures, progress);

@@ -93,16 +93,14 @@ int run_doctor(const PlainOptions& options) {
     for (const Examination& examination : examinations) print_line(examination);
     for (const sim::checks::SelfTestResult& result : physics) print_line(result);
   }
-  const auto count = [&](auto is_true) {
-    return std::count_if(examinations.begin(), examinations.end(), is_true);
-  };
-  const bool is_physics_right =
-      std::all_of(physics.begin(), physics.end(),
-                  [](const sim::checks::SelfTestResult& r) { return r.passed; });
-  if (!is_physics_right || count([](const Examination& e) { return !e.picture_fault.empty(); }) > 0)
-    return exit_check_failed;
-  return count([](const Examination& e) { return e.attempt.available; }) > 0 ? exit_ok
-                                                                             : exit_no_backend;
+  const bool is_right = std::ranges::all_of(physics, &sim::checks::SelfTestResult::passed) &&
+                        std::ranges::all_of(examinations, [](const Examination& e) {
+                          return e.picture_fault.empty();
+                        });
+  if (!is_right) return exit_check_failed;
+  const bool is_any_there =
+      std::ranges::any_of(examinations, [](const Examination& e) { return e.attempt.available; });
+  return is_any_there ? exit_ok : exit_no_backend;
 }
 
 }  // namespace neve::app::cli

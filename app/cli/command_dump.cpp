@@ -241,8 +241,7 @@ int run_dump(const dump::DumpOptions& given) {
   setup::check_limits(job.scene, plan, job.coarsening);
   check_dump_output(options);
   catch_interrupts();
-  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
-                    options.run.progress);
+  Progress progress(options.run.verbosity, options.run.progress);
   timeline::Timeline timeline = timeline::open(job, options.run.threads, progress);
   const sim::Simulation& simulation = timeline.simulation();
   progress.start(timeline::frame_at(options.at.back(), job.scene.fps));

@@ -1,7 +1,3 @@
-#include <unistd.h>
-
-#include <iostream>
-
 #include "app/cli/commands.h"
 #include "app/cli/report_error.h"
 #include "app/exports/encode.h"
@@ -25,8 +21,7 @@ int run_export(const ExportCommand& command) {
   for (const scene::Export& e : job.run.scene.exports)
     exports::check_capacity(e, exports::empty_table(job.run.scene, e, {}), plan.particles);
   catch_interrupts();
-  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
-                    options.run.progress);
+  Progress progress(options.run.verbosity, options.run.progress);
   const run::ExportResult result = run::run_export(job, options.run.threads, progress);
   const std::string folder = job.run.folder.string();
   if (options.run.is_json) {

@@ -117,8 +117,7 @@ std::string Entry::name() const {
 }
 
 Entry* Entry::part(const std::string& name) {
-  const auto found = std::find_if(parts.begin(), parts.end(),
-                                  [&](const Entry& part) { return part.name() == name; });
+  const auto found = std::ranges::find(parts, name, &Entry::name);
   return found == parts.end() ? nullptr : &*found;
 }
 

@@ -1,5 +1,4 @@
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
@@ -406,8 +405,7 @@ int run_render(const run::RenderOptions& options) {
   }
   catch_interrupts();
   std::optional<NothingToKeep> reading(std::in_place);
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
-                    options.progress);
+  Progress progress(options.verbosity, options.progress);
   if (const std::string other = output::other_format_text(options.movie, job.options.movie);
       !other.empty())
     progress.note(other);

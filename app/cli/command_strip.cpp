@@ -1,7 +1,3 @@
-#include <unistd.h>
-
-#include <iostream>
-
 #include "app/cli/commands.h"
 #include "app/cli/report_error.h"
 #include "app/support/errors.h"
@@ -15,8 +11,7 @@ int run_strip_command(const run::StripOptions& options) {
       setup::make_plan(job.run.scene, job.run.frames, job.run.quality, options.run.threads);
   setup::check_limits(job.run.scene, plan, job.run.coarsening);
   catch_interrupts();
-  Progress progress(std::cerr, options.run.verbosity, can_update_lines(STDERR_FILENO),
-                    options.run.progress);
+  Progress progress(options.run.verbosity, options.run.progress);
   const run::StripResult result = run::run_strip(job, options.run, progress);
   const std::string file = job.file.string();
   if (options.run.is_json) {

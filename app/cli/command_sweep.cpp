@@ -1,6 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -446,8 +444,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   retry_of(options.retry_failed);  // a wrong word is refused before anything is planned
   sweep::plan::SweepPlan plan = sweep::plan::plan_sweep(options);
   const int cores = core_count(options.threads);
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
-                    options.progress);
+  Progress progress(options.verbosity, options.progress);
   if (plan.fast) progress.note(plan.fast->sentence());
   for (const std::string& value : sweep::read::repeated_values(plan.sweep))
     progress.warning(value + " is in its list twice: the run is made once and shown twice");
@@ -538,8 +535,7 @@ std::vector<int> chosen_beginnings(const std::string& which,
 
 int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
   catch_interrupts();
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
-                    options.progress);
+  Progress progress(options.verbosity, options.progress);
   const sweep::store::Manifest manifest = sweep::store::read_manifest(options.folder);
   // One that makes its runs under the keys of another build mixes them in one table.
   if (!manifest.sources.empty() && manifest.sources != build().sources)
@@ -572,8 +568,7 @@ int run_sweep_run(const sweep::plan::SweepRunOptions& options) {
 
 int run_sweep_collect(const sweep::plan::CollectOptions& options) {
   catch_interrupts();
-  Progress progress(std::cerr, options.verbosity, can_update_lines(STDERR_FILENO),
-                    options.progress);
+  Progress progress(options.verbosity, options.progress);
   const output::MovieStyle movie =
       output::available_movie(options.movie, sweep::store::read_manifest(options.folder).fps);
   sweep::sheet::collect_sweep(options.folder, movie, options.has_review, options.backend,

@@ -71,8 +71,7 @@ std::vector<std::size_t> listed_metrics(const std::vector<PairMoment>& moments) 
 }
 
 std::vector<double> metrics_at(int frame, const std::vector<FrameRecord>& records) {
-  const auto record = std::find_if(records.begin(), records.end(),
-                                   [&](const FrameRecord& r) { return r.frame == frame; });
+  const auto record = std::ranges::find(records, frame, &FrameRecord::frame);
   std::vector<double> values;
   if (record == records.end()) return values;
   for (const PairMetric& metric : pair_metrics) values.push_back(metric.of(*record));

@@ -31,8 +31,7 @@ Carried::Carried(const scene::Scene& scene, const std::vector<std::size_t>& body
 }
 
 void Carried::add(const PointColumn& column, std::size_t first, std::size_t ids) {
-  auto known = std::find_if(columns_.begin(), columns_.end(),
-                            [&](const PointColumn& other) { return other.name == column.name; });
+  auto known = std::ranges::find(columns_, column.name, &PointColumn::name);
   if (known == columns_.end())
     known = columns_.insert(known, {column.name, column.type, std::vector<double>(ids)});
   // Files may disagree: doubles hold the numbers of both.

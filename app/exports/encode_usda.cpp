@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "app/exports/encode.h"
 #include "app/exports/usda.h"
@@ -125,14 +128,12 @@ std::string usd_columns(const Table& table, UsdPrim prim, RowRange rows, const s
 }
 
 std::string usd_faces(const MeshRows& mesh, const std::string& time) {
-  return usd_sample(
-             "int[]", "faceVertexCounts", time,
-             usd_list({0, mesh.triangles()}, [](std::size_t, std::string& list) { list += '3'; })) +
-         usd_sample("int[]", "faceVertexIndices", time,
-                    usd_list({0, mesh.corners.size()},
-                             [&](std::size_t k, std::string& list) {
-                               append_text(mesh.corners[k], list);
-                             })) +
+  const auto joined = [](const auto& numbers) {
+    return fmt::format("[{}]", fmt::join(numbers, ", "));
+  };
+  return usd_sample("int[]", "faceVertexCounts", time,
+                    joined(std::vector<int>(mesh.triangles(), 3))) +
+         usd_sample("int[]", "faceVertexIndices", time, joined(mesh.corners)) +
          usd_sample("normal3f[]", "normals", time,
                     usd_list({0, mesh.vertices}, [&](std::size_t v, std::string& list) {
                       const float* n = mesh.normal.data() + 3 * v;

@@ -149,8 +149,7 @@ Exporter::Exporter(const scene::Scene& scene, fs::path folder,
 }
 
 bool Exporter::is_due(int frame) const {
-  return std::any_of(jobs_.begin(), jobs_.end(),
-                     [&](const Job& job) { return frame % job.spec.every == 0; });
+  return std::ranges::any_of(jobs_, [&](const Job& job) { return frame % job.spec.every == 0; });
 }
 
 std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& colliders,

@@ -10,9 +10,7 @@
 namespace neve::app::exports {
 
 const PlacedShape* Sample::find(const std::string& collider) const {
-  const auto found =
-      std::find_if(colliders.begin(), colliders.end(),
-                   [&](const PlacedShape& placed) { return placed.collider == collider; });
+  const auto found = std::ranges::find(colliders, collider, &PlacedShape::collider);
   return found == colliders.end() ? nullptr : &*found;
 }
 

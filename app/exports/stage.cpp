@@ -206,8 +206,7 @@ std::string usd_point_property(const scene::Scene& scene, const Axes& axes,
 /// Empty for a collider that there is at every sample.
 std::string usd_visibility(const scene::Scene& scene, const std::string& collider,
                            const std::vector<Sample>& samples) {
-  if (std::all_of(samples.begin(), samples.end(),
-                  [&](const Sample& sample) { return sample.find(collider) != nullptr; }))
+  if (std::ranges::all_of(samples, [&](const Sample& s) { return s.find(collider) != nullptr; }))
     return {};
   Values values;
   for (const Sample& sample : samples)
@@ -251,10 +250,8 @@ std::string usd_colliders(const scene::Scene& scene, const std::vector<scene::Co
   std::string text = "    def Xform \"colliders\"\n    {\n";
   std::set<std::string> names;
   for (const scene::Collider& collider : colliders) {
-    const bool is_seen = std::any_of(samples.begin(), samples.end(), [&](const Sample& sample) {
-      return sample.find(collider.name) != nullptr;
-    });
-    if (!is_seen) continue;
+    if (std::ranges::none_of(samples, [&](const Sample& s) { return s.find(collider.name); }))
+      continue;
     std::string name = usd_name(collider.name);
     while (!names.insert(name).second) name += "_";
     const ColliderMesh surface = collider_mesh(collider.shape);

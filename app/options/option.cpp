@@ -13,8 +13,8 @@
 namespace neve::app::options {
 
 std::string Option::long_name() const {
-  const auto found = std::find_if(names.begin(), names.end(),
-                                  [](const std::string& name) { return name.starts_with("--"); });
+  const auto found =
+      std::ranges::find_if(names, [](const std::string& name) { return name.starts_with("--"); });
   return found == names.end() ? "" : *found;
 }
 

@@ -83,21 +83,6 @@ int wait_for(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// The command in the form that exec takes.
-class Arguments {
- public:
-  explicit Arguments(const Command& command) : words_{command.program.string()} {
-    words_.insert(words_.end(), command.arguments.begin(), command.arguments.end());
-    for (std::string& word : words_) pointers_.push_back(word.data());
-    pointers_.push_back(nullptr);
-  }
-  char* const* argv() const { return pointers_.data(); }
-
- private:
-  std::vector<std::string> words_;
-  std::vector<char*> pointers_;
-};
-
 /// Copies first: a given file may be a standard stream itself, which another one replaces.
 void set_streams(const StartOptions& options) {
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
@@ -135,13 +120,17 @@ int start_error(Pipe& report) {
 }  // namespace
 
 pid_t start_process(const Command& command, const StartOptions& options) {
-  const Arguments arguments(command);
+  std::vector<std::string> words{command.program.string()};
+  words.insert(words.end(), command.arguments.begin(), command.arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
   const std::string folder = command.folder.string();
   Pipe report;
   if (report.read_end < 0) throw std::system_error(errno, std::generic_category());
   const pid_t parent = ::getpid(), child = ::fork();
   if (child == 0) {
-    const int reason = become(folder.c_str(), arguments.argv(), options, parent);
+    const int reason = become(folder.c_str(), argv.data(), options, parent);
     ::_exit(::write(report.write_end, &reason, sizeof reason) < 0 ? 126 : 127);
   }
   if (child < 0) throw std::system_error(errno, std::generic_category());

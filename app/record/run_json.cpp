@@ -164,9 +164,7 @@ std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance, const si
 }
 
 void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame) {
-  const auto place =
-      std::lower_bound(frames.begin(), frames.end(), frame.frame,
-                       [](const FrameRecord& other, int number) { return other.frame < number; });
+  const auto place = std::ranges::lower_bound(frames, frame.frame, {}, &FrameRecord::frame);
   if (place != frames.end() && place->frame == frame.frame)
     *place = frame;
   else

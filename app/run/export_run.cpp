@@ -41,9 +41,8 @@ void check_exports(const scene::Scene& scene) {
 
 /// Cameras that frame the snow, for formats that have cameras.
 void place_camera(scene::Scene& scene) {
-  const bool has_camera =
-      std::any_of(scene.exports.begin(), scene.exports.end(),
-                  [](const scene::Export& e) { return e.format == scene::ExportFormat::usda; });
+  const bool has_camera = std::ranges::find(scene.exports, scene::ExportFormat::usda,
+                                            &scene::Export::format) != scene.exports.end();
   if (has_camera && setup::needs_framing(scene))
     setup::resolve_cameras(scene, setup::coarse_run(scene));
 }

@@ -90,10 +90,8 @@ std::optional<std::string> slowdown_warning(const std::vector<record::FrameRecor
   };
   const auto first = std::find_if(frames.begin(), frames.end(), moves);
   if (first == frames.end()) return std::nullopt;
-  const record::FrameRecord& slow = *std::max_element(
-      first, frames.end(), [](const record::FrameRecord& a, const record::FrameRecord& b) {
-        return a.seconds_sim < b.seconds_sim;
-      });
+  const record::FrameRecord& slow =
+      *std::ranges::max_element(first, frames.end(), {}, &record::FrameRecord::seconds_sim);
   const double ratio = slow.seconds_sim / first->seconds_sim;
   if (!(ratio >= worth_a_word && slow.seconds_sim >= short_frame)) return std::nullopt;
   std::string text = fmt::format("frame {} took {} s, {} times as long as frame {}", slow.frame,

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <iostream>
 
 #include "app/support/errors.h"
 #include "app/support/film_rate.h"
@@ -96,6 +97,9 @@ Progress::Progress(std::ostream& out, Verbosity verbosity, bool updates,
       shown_at_(Clock::now()) {
   if (!options.log.empty()) open_log(options.log);
 }
+
+Progress::Progress(Verbosity verbosity, const ProgressOptions& options)
+    : Progress(std::cerr, verbosity, can_update_lines(STDERR_FILENO), options) {}
 
 void Progress::open_log(const std::string& file) {
   const auto fail = [&](int reason) {

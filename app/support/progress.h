@@ -78,6 +78,8 @@ class Progress {
   /// @throws IoError for a log that cannot be opened
   Progress(std::ostream& out, Verbosity verbosity, bool updates,
            const ProgressOptions& options = {});
+  /// The same on standard error, with a line that is rewritten where that is a terminal.
+  explicit Progress(Verbosity verbosity, const ProgressOptions& options = {});
   ~Progress();
 
   /// @param first_number  of frame 0, in lines and events

@@ -63,9 +63,8 @@ std::string live_addresses() {
 }  // namespace
 
 std::size_t count_until(const std::vector<scene::LiveChange>& changes, std::size_t steps) {
-  const auto later =
-      std::find_if(changes.begin(), changes.end(),
-                   [&](const scene::LiveChange& change) { return change.step > steps; });
+  const auto later = std::ranges::find_if(
+      changes, [&](std::size_t step) { return step > steps; }, &scene::LiveChange::step);
   return static_cast<std::size_t>(later - changes.begin());
 }
 
@@ -114,14 +113,9 @@ void require_live(const scene::Scene& before, const scene::Scene& after, const c
 }
 
 scene::Scene in_order_of(const scene::Scene& before, scene::Scene after) {
-  const auto place_of = [&](const scene::Collider& collider) {
-    return std::find_if(before.colliders.begin(), before.colliders.end(),
-                        [&](const scene::Collider& other) { return other.name == collider.name; });
-  };
-  std::stable_sort(after.colliders.begin(), after.colliders.end(),
-                   [&](const scene::Collider& a, const scene::Collider& b) {
-                     return place_of(a) < place_of(b);
-                   });
+  std::ranges::stable_sort(after.colliders, {}, [&](const scene::Collider& collider) {
+    return std::ranges::find(before.colliders, collider.name, &scene::Collider::name);
+  });
   return after;
 }
 
