@@ -50,16 +50,12 @@ bool are_as_in(const scene::Scene& scene, const std::vector<PlacedShape>& collid
 /// Exact: a run that is resumed writes the same stage.
 Json places_json(const Sample& sample) {
   Json list = Json::array();
-  for (const PlacedShape& placed : sample.colliders) {
-    Json matrix = Json::array();
-    for (int row = 0; row < 3; ++row)
-      matrix.push_back(output::vector_json(placed.pose.rotation.row(row)));
+  for (const PlacedShape& placed : sample.colliders)
     list.push_back({{"collider", placed.collider},
                     {"time", placed.time},
                     {"position", output::vector_json(placed.pose.point)},
                     {"angular_velocity", output::vector_json(placed.pose.angular_velocity)},
-                    {"rotation", std::move(matrix)}});
-  }
+                    {"rotation", output::matrix_json(placed.pose.rotation)}});
   return list;
 }
 

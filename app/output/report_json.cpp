@@ -4,19 +4,14 @@
 
 namespace neve::app::output {
 
-namespace {
+Json vector_json(const sim::Vec3d& v) {
+  return Json::array({number_or_null(v.x()), number_or_null(v.y()), number_or_null(v.z())});
+}
 
-/// Rows of a 3x3 matrix.
 Json matrix_json(const sim::Mat3d& matrix) {
   Json rows = Json::array();
   for (int row = 0; row < 3; ++row) rows.push_back(vector_json(matrix.row(row).transpose()));
   return rows;
-}
-
-}  // namespace
-
-Json vector_json(const sim::Vec3d& v) {
-  return Json::array({number_or_null(v.x()), number_or_null(v.y()), number_or_null(v.z())});
 }
 
 double number_or_nan(const Json& json) {
