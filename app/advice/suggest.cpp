@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "app/scene/toml/value.h"
-#include "app/support/lower_text.h"
 #include "app/support/text.h"
 
 namespace neve::app::advice {

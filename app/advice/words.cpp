@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "app/support/lower_text.h"
 #include "app/support/text.h"
 
 namespace neve::app::advice {

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "app/bench/measure.h"
-#include "app/bench/scratch_folder.h"
 #include "app/bench/timed_run.h"
 #include "app/picture/frame_builder.h"
 #include "app/scene/coarsen.h"

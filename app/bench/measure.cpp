@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "app/output/process.h"
-#include "app/support/errors.h"
 #include "app/support/interrupt.h"
 
 namespace neve::app::bench {

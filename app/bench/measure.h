@@ -1,12 +1,16 @@
 #pragma once
 /// Clocks, and the state of the machine during a measurement.
 
+#include <stdlib.h>
+
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/bench/bench.h"
 #include "app/support/clock.h"
+#include "app/support/errors.h"
 
 namespace neve::app::bench {
 
@@ -37,6 +41,27 @@ class OtherLoad {
   };
   static Counters now();
   Counters start_;
+};
+
+/// A folder for temporary files.
+class ScratchFolder {
+ public:
+  /// @throws IoError
+  ScratchFolder() {
+    std::string path = (std::filesystem::temp_directory_path() / "neve-bench-XXXXXX").string();
+    if (!::mkdtemp(path.data())) throw IoError("cannot make the folder " + path, path);
+    path_ = path;
+  }
+  ~ScratchFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
 };
 
 /// Why the figures of this build mean nothing; empty when they do.

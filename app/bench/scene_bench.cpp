@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "app/bench/measure.h"
-#include "app/bench/scratch_folder.h"
 #include "app/record/run_json.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"

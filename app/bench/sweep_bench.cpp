@@ -1,7 +1,6 @@
 #include "app/bench/bench.h"
 
 #include "app/bench/measure.h"
-#include "app/bench/scratch_folder.h"
 #include "app/output/atomic_file.h"
 #include "app/record/run_json.h"
 #include "app/support/errors.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "app/bench/measure.h"
-#include "app/bench/scratch_folder.h"
 #include "app/output/atomic_file.h"
 #include "app/support/machine.h"
 #include "app/view/viewer.h"

@@ -9,7 +9,6 @@
 
 #include "app/card/card_options.h"
 #include "app/cli/commands.h"
-#include "app/options/help.h"
 #include "app/support/errors.h"
 #include "app/support/json.h"
 #include "app/support/other_place.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/options/help.h"
 #include "app/output/atomic_file.h"
 #include "app/output/temporary.h"
 #include "app/support/text.h"

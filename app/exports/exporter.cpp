@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/exports/stage.h"
 #include "app/exports/surface_table.h"
 #include "app/output/atomic_file.h"
 #include "app/output/report_json.h"

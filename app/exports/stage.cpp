@@ -1,5 +1,3 @@
-#include "app/exports/stage.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -8,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "app/exports/series.h"
 #include "app/exports/stage_path.h"
 #include "app/exports/usda.h"
 #include "app/picture/collider_looks.h"

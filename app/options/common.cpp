@@ -8,7 +8,6 @@
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
 #include "app/support/film_rate.h"
-#include "app/support/lower_text.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"
 

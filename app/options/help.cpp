@@ -1,4 +1,4 @@
-#include "app/options/help.h"
+#include "app/options/option.h"
 
 #include "app/support/text.h"
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "app/scene/scene_file.h"
-#include "app/support/lower_text.h"
 
 namespace neve::app::options {
 

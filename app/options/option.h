@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/support/json.h"
 #include "app/support/other_place.h"
 
 namespace neve::app::options {
@@ -133,6 +134,20 @@ void refuse_input(const std::string& flag, const std::string& output, const std:
 /// left to the caller.
 /// @return words that no option takes; then no value has been read @throws UsageError
 std::vector<std::string> parse(Command& command, const std::vector<std::string>& words);
+
+/// The options of a command for people.
+/// @param parts  commands below it
+/// @param width  of the lines; 0: they are not broken
+std::string help_text(const Command& command, const std::vector<const Command*>& parts, int width);
+
+/// Name, help and options: a list of name, letter, type, default, help, is_repeatable, is_required.
+Json to_json(const Command& command);
+
+/// "neve sweep run [OPTIONS] DIR"
+std::string usage_line(const Command& command, bool has_parts);
+
+/// The help of an option, with its default.
+std::string sentence_of(const Option& option);
 
 template <class Member, class T>
 Option& Command::operator()(const char* names, Member& member, const Language<T>& language,

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "app/output/atomic_file.h"
-#include "app/output/movie_arguments.h"
 #include "app/output/process.h"
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"

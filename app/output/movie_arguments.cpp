@@ -1,4 +1,4 @@
-#include "app/output/movie_arguments.h"
+#include "app/output/movie.h"
 
 #include <algorithm>
 #include <cmath>

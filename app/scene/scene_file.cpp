@@ -14,7 +14,6 @@
 #include "app/scene/toml/toml_text.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
-#include "app/support/lower_text.h"
 #include "app/support/machine.h"
 #include "app/support/out_folder.h"
 #include "app/support/text.h"

@@ -5,7 +5,6 @@
 #include "app/advice/wishes.h"
 #include "app/advice/words.h"
 #include "app/scene/params.h"
-#include "app/support/lower_text.h"
 #include "app/support/text.h"
 
 namespace neve::app::scene {

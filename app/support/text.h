@@ -41,6 +41,8 @@ std::optional<Number> number_of(std::string_view text) {
 }
 /// A finite number that is all of the text.
 std::optional<double> finite_number(std::string_view text);
+/// With A to Z as a to z, whatever the locale; other bytes stay.
+std::string lower_text(std::string_view text);
 /// Without the blanks around it.
 std::string trimmed(std::string_view text, std::string_view blanks = " \t");
 /// Its words in lines of at most so many bytes, but for longer words; none of a text without words.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "app/support/lower_text.h"
 #include "app/support/text.h"
 
 namespace neve::app::view::web {
