@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/cli/command_line.h"
-#include "app/cli/report_error.h"
 #include "app/output/atomic_file.h"
 
 namespace {

@@ -1,11 +1,10 @@
-#include "app/advice/number_advice.h"
+#include "app/advice/suggest.h"
 
 #include <charconv>
 #include <cmath>
 #include <sstream>
 #include <vector>
 
-#include "app/advice/words.h"
 #include "app/support/text.h"
 
 namespace neve::app::advice {

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "app/advice/words.h"
+#include "app/advice/suggest.h"
 #include "app/support/json.h"
 
 namespace neve::app::advice {

@@ -1,4 +1,4 @@
-#include "app/advice/words.h"
+#include "app/advice/suggest.h"
 
 #include <algorithm>
 #include <cassert>

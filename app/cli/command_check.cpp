@@ -4,8 +4,8 @@
 #include <iostream>
 #include <optional>
 
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
-#include "app/cli/report_error.h"
 #include "app/health/check.h"
 #include "app/output/atomic_file.h"
 #include "app/picture/collider_looks.h"

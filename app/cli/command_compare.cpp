@@ -10,9 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
-#include "app/cli/folder_advice.h"
-#include "app/cli/report_error.h"
 #include "app/compare/compare_run.h"
 #include "app/output/json_file.h"
 #include "app/output/read_picture.h"

@@ -5,13 +5,12 @@
 #include <filesystem>
 #include <iostream>
 
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
-#include "app/cli/report_error.h"
 #include "app/dump/histogram.h"
 #include "app/dump/quantities.h"
-#include "app/dump/write.h"
 #include "app/health/expected.h"
-#include "app/output/named_file.h"
+#include "app/output/atomic_file.h"
 #include "app/record/run_json.h"
 #include "app/run/render_job.h"
 #include "app/scene/names.h"

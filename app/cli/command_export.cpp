@@ -1,5 +1,5 @@
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
-#include "app/cli/report_error.h"
 #include "app/exports/encode.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"

@@ -1,8 +1,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
-#include "app/cli/folder_advice.h"
 #include "app/output/folder_lock.h"
 #include "app/output/json_file.h"
 #include "app/output/sequence.h"

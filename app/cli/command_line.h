@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/report_error.h"
 #include "app/options/option.h"
+#include "app/support/json.h"
 
 namespace neve::app::cli {
 
@@ -53,11 +53,47 @@ void check_command(Entry& program, const std::vector<std::string>& words);
 /// Refuses to help with what is no part of a command. @throws UsageError
 [[noreturn]] void refuse_help(const Entry& entry, const std::string& word);
 
+/// Says where an error is written.
+struct ErrorOutput {
+  bool is_json = false;           ///< on stdout too, as JSON
+  bool is_progress_json = false;  ///< on stderr as an event of --progress json
+  std::string log;                ///< of --log; empty: none
+};
+
+/// Keeps the answer of --json until the command ends: with an error after it, both are one document
+/// on stdout.
+void set_answer(Json answer);
+
+/// Lets a request to stop that comes before anything is made be answered like an error.
+void prepare_interrupt(const ErrorOutput& output);
+
+/// Call it while an exception is handled. Prints one message on stderr and, if wanted, a JSON
+/// object on stdout. @return the exit code
+int report_current_error(const ErrorOutput& output);
+
+/// Prints the answer, if there is one, and flushes std::cout. A reader that stops early is no
+/// error: `neve dump ... | head`.
+/// @throws IoError when it cannot be written for another reason
+void finish_output();
+
 /// Warns of variables of the environment that look like those of neve and are read by nothing, and
 /// of many more threads than cores, on standard error.
 void warn_of_surroundings(const options::Command& command, const ErrorOutput& output);
 
 /// Finds out where the flags want errors; works on command lines that do not parse.
 ErrorOutput error_output(const std::vector<std::string>& words);
+
+struct FolderAdvice {
+  std::string what;  ///< "is the folder of a sweep, not of a run"
+  std::string hint;
+};
+
+/// About a folder without run.json.
+FolderAdvice advice_on_folder(const std::filesystem::path& folder);
+
+/// Refuses a regular file that is no picture, with advice by its suffix.
+/// @param command  "neve compare"
+/// @throws Error
+void require_picture(const std::filesystem::path& file, const std::string& command);
 
 }  // namespace neve::app::cli

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iostream>
 
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
-#include "app/cli/report_error.h"
 #include "app/health/check.h"
 #include "app/health/findings.h"
 #include "app/health/mesh_findings.h"
@@ -16,9 +16,9 @@
 #include "app/picture/mosaic.h"
 #include "app/predict/predict.h"
 #include "app/record/picture_record.h"
+#include "app/run/drawing.h"
 #include "app/run/fork.h"
 #include "app/run/passes.h"
-#include "app/run/plate.h"
 #include "app/run/render_job.h"
 #include "app/run/render_run.h"
 #include "app/run/step_warnings.h"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
-#include "app/cli/folder_advice.h"
 #include "app/output/folder_lock.h"
 #include "app/output/sequence.h"
 #include "app/record/verify.h"

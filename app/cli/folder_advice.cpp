@@ -1,4 +1,4 @@
-#include "app/cli/folder_advice.h"
+#include "app/cli/command_line.h"
 
 #include <algorithm>
 #include <system_error>

@@ -1,4 +1,4 @@
-#include "app/compare/measures.h"
+#include "app/compare/series.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "app/support/film_rate.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
-#include "app/timeline/snapshot.h"
+#include "app/timeline/timeline.h"
 
 namespace neve::app::compare {
 

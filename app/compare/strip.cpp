@@ -1,4 +1,4 @@
-#include "app/compare/strip.h"
+#include "app/compare/pair_pictures.h"
 
 #include <algorithm>
 #include <cmath>

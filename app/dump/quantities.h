@@ -10,6 +10,7 @@
 
 #include "app/record/run_json.h"
 #include "app/scene/scene.h"
+#include "app/support/json.h"
 #include "sim/simulation.h"
 #include "sim/staged.h"
 
@@ -85,5 +86,20 @@ Extremes extremes(const Listing& listing, const Quantity& quantity);
 /// Keeps the named ones.
 /// @throws UsageError with the nearest name
 void keep_only(Listing& listing, const std::vector<std::string>& names);
+
+/// One line per quantity: least and greatest magnitude, expected range, number outside.
+std::vector<std::string> summary_lines(const Listing& listing);
+
+/// The lines above behind '#', a header line, one line per node or particle; tabs between columns.
+std::string to_table(const Listing& listing, const std::vector<std::string>& heading);
+
+/// VTK XML PolyData (.vtp), raw little-endian float64: points with all quantities as arrays.
+std::string to_vtk(const Listing& listing);
+
+/// Quantity, value and expected range of one row.
+std::vector<std::string> probe_lines(const Listing& listing, std::size_t row);
+
+Json summary_json(const Listing& listing);
+Json probe_json(const Listing& listing, std::size_t row);
 
 }  // namespace neve::app::dump

@@ -1,4 +1,4 @@
-#include "app/dump/write.h"
+#include "app/dump/quantities.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/exports/carried.h"
+#include "app/exports/columns.h"
 
 #include <algorithm>
 

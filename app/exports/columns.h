@@ -8,11 +8,30 @@
 #include <vector>
 
 #include "app/exports/axes.h"
-#include "app/exports/carried.h"
 #include "app/exports/origins.h"
 #include "app/exports/state.h"
+#include "app/scene/scene.h"
+#include "sim/shapes/placed_points.h"
 
 namespace neve::app::exports {
+
+class Carried {
+ public:
+  Carried() = default;
+  /// Reads the columns that the exports of the scene name.
+  /// @param body_end  see Origins
+  /// @throws ShapeError for a file that cannot be read
+  Carried(const scene::Scene& scene, const std::vector<std::size_t>& body_end);
+
+  /// The column of a name, its values by id, its type exact for all of them. Null if no file has
+  /// it. Particles whose file has no such column have 0; ids past its end come from no file.
+  const sim::files::PointColumn* find(const std::string& name) const;
+
+ private:
+  void add(const sim::files::PointColumn& column, std::size_t first, std::size_t ids);
+
+  std::vector<sim::files::PointColumn> columns_;  ///< values by id
+};
 
 /// Numbers that the state has in single precision are float, so that no bit is lost or invented.
 /// Places, and all that is computed from several numbers, are double.

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "app/support/json.h"
-#include "app/support/other_place.h"
+#include "app/support/out_folder.h"
 
 namespace neve::app::options {
 

@@ -16,7 +16,7 @@
 
 #include "app/output/descriptor.h"
 #include "app/output/temporary.h"
-#include "app/support/other_place.h"
+#include "app/support/out_folder.h"
 
 namespace neve::app::output {
 

@@ -68,4 +68,11 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
 /// Full disks and closed pipes then come back as errors of write() instead of killing the process.
 void ignore_write_signals();
 
+/// Writes a file that the user names, which may be anything: a link, pipe, device, file of another.
+/// Follows links. A regular file is replaced as a whole and keeps owner, mode and access list; one
+/// with several names (hard links) or of another owner is written in place, once there is room for
+/// all of it. Pipes, terminals and other character devices are written in place.
+/// @throws IoError, also for folders, sockets and block devices
+void write_named_file(const std::filesystem::path& path, std::string_view text);
+
 }  // namespace neve::app::output

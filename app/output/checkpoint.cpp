@@ -17,7 +17,7 @@
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/support/errors.h"
-#include "app/support/other_place.h"
+#include "app/support/out_folder.h"
 #include "app/support/room.h"
 #include "app/support/text.h"
 

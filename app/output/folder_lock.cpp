@@ -20,7 +20,7 @@
 #include "app/output/temporary.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
-#include "app/support/other_place.h"
+#include "app/support/out_folder.h"
 
 namespace neve::app::output {
 

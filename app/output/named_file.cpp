@@ -1,4 +1,4 @@
-#include "app/output/named_file.h"
+#include "app/output/atomic_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,7 +11,6 @@
 #include <string>
 #include <system_error>
 
-#include "app/output/atomic_file.h"
 #include "app/output/descriptor.h"
 #include "app/output/temporary.h"
 #include "app/support/text.h"

@@ -1,9 +1,8 @@
-#include "app/record/extremes.h"
+#include "app/record/run_json.h"
 
 #include <algorithm>
 
 #include "app/output/report_json.h"
-#include "app/record/run_json.h"
 
 namespace neve::app::record {
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,7 +11,6 @@
 
 #include "app/output/report_json.h"
 #include "app/record/bodies.h"
-#include "app/record/extremes.h"
 #include "app/record/metrics.h"
 #include "app/scene/live_change.h"
 #include "app/scene/scene.h"
@@ -42,6 +42,17 @@ struct FrameRecord {
   Metrics metrics;
   std::vector<ColliderForce> forces;  ///< of all colliders; empty where there was no step
   std::vector<BodyRecord> bodies;     ///< at the end, those that move by themselves
+};
+
+/// The greatest that happened in a run, over all of its frames: also those that were not drawn.
+struct Extremes {
+  int frame = 0;     ///< number of the last frame that they know
+  double steps = 0;  ///< in all
+  double max_speed = 0, max_force = 0, max_pressure = 0;  ///< m/s, N, Pa
+  std::optional<double> max_body_speed{};                 ///< m/s
+
+  /// The frame after the last one.
+  void add(const FrameRecord& frame);
 };
 
 /// The state that a run is measured from, where its frames begin later.
@@ -185,5 +196,17 @@ ViewFrames frames_of(const RunRecord& run, const std::string& view);
 
 /// @throws IoError
 void write_run_json(const std::filesystem::path& folder, const RunRecord& run);
+
+Json to_json(const Extremes& extremes);
+/// @throws nlohmann::json::exception
+Extremes extremes_of(const Json& json);
+
+/// Of a run from its start to a frame, or to its last one if it has fewer. Nothing where its frames
+/// begin later and it does not know what was before.
+std::optional<Extremes> extremes_until(const Json& run, int last);
+/// The same to the last one, of a run whose frames and start are read already.
+std::optional<Extremes> extremes_of_run(const Json& run, const std::vector<FrameRecord>& frames,
+                                        const std::optional<RunStart>& start,
+                                        int last = std::numeric_limits<int>::max());
 
 }  // namespace neve::app::record

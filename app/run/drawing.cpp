@@ -9,9 +9,7 @@
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/picture/shutter.h"
-#include "app/run/plate.h"
-#include "app/run/slate.h"
-#include "app/timeline/snapshot.h"
+#include "app/timeline/timeline.h"
 #include "render/image/mean_image.h"
 
 namespace neve::app::run {

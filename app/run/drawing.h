@@ -1,6 +1,7 @@
 #pragma once
 /// The pictures of a run: views and mosaics with plate, shutter and channels.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,8 +12,10 @@
 #include "app/picture/frame_builder.h"
 #include "app/run/passes.h"
 #include "app/run/render_job.h"
+#include "app/scene/scene.h"
 #include "app/timeline/timeline.h"
 #include "render/image/cube_lut.h"
+#include "render/image/image.h"
 #include "render/renderer.h"
 
 namespace neve::app::run {
@@ -74,5 +77,29 @@ class Drawing {
   std::vector<picture::PlotSample> history_;  ///< of the snapshot that was read
   std::vector<render::channels::PointNumbers> pass_numbers_;
 };
+
+/// Words of a slate besides those of the scene.
+struct SlateWords {
+  int number = 0;                       ///< of the slate
+  std::string view;                     ///< or mosaic
+  std::vector<std::string> parameters;  ///< lines, see picture::FrameBuilder::slate
+};
+
+/// @param like  a picture of the view: its size and channels
+render::Image draw_slate(const scene::Scene& scene, const SlateWords& words,
+                         const render::Image& like, render::Renderer& renderer);
+
+/// The file of a frame: "street/%04d.png" with the number in the place of %04d; a name without a
+/// place is one picture for all frames. @throws UsageError for any other use of %
+std::filesystem::path plate_path(const std::string& pattern, int frame);
+
+/// That of a job: a PNG, a JPEG, or the RGB or Y of an OpenEXR file in linear light; alpha lies
+/// over black. @return RGB @throws IoError; Error when it is none of them, not of the size of the
+/// view, or a picture names it that was not made with it; LimitError
+render::Image read_plate(const RenderJob& job, int frame, const std::string& view,
+                         scene::PictureSize size);
+
+/// The look of --lut. @throws IoError; Error when it is no .cube file
+render::CubeLut read_lut(const std::string& file);
 
 }  // namespace neve::app::run

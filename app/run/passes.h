@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/exports/carried.h"
+#include "app/exports/columns.h"
 #include "app/exports/origins.h"
 #include "app/picture/motion.h"
 #include "app/record/picture_record.h"

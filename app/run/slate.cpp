@@ -1,4 +1,4 @@
-#include "app/run/slate.h"
+#include "app/run/drawing.h"
 
 #include <fmt/core.h>
 

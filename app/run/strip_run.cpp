@@ -12,7 +12,7 @@
 #include "app/support/errors.h"
 #include "app/support/film_rate.h"
 #include "app/support/text.h"
-#include "app/timeline/snapshot.h"
+#include "app/timeline/timeline.h"
 #include "app/timeline/times.h"
 #include "render/frame/compose.h"
 #include "render/gl/context.h"

@@ -11,7 +11,6 @@
 #include "app/support/errors.h"
 #include "app/support/film_rate.h"
 #include "app/support/text.h"
-#include "app/support/time_code.h"
 
 namespace neve::app::scene {
 

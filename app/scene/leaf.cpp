@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <string_view>
 
-#include "app/advice/number_advice.h"
 #include "app/advice/suggest.h"
 #include "app/advice/wishes.h"
 #include "app/scene/presets.h"

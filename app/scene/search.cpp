@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "app/advice/suggest.h"
 #include "app/advice/wishes.h"
-#include "app/advice/words.h"
 #include "app/scene/params.h"
 #include "app/support/text.h"
 

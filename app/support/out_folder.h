@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 #include <system_error>
 
 namespace neve::app {
@@ -18,5 +19,15 @@ inline bool is_sweep_folder(const std::filesystem::path& folder) {
   std::error_code error;
   return std::filesystem::is_regular_file(folder / "manifest.json", error);
 }
+
+/// That of commands with --out whose outputs go into out_folder() without it.
+inline constexpr const char* usual_other_place = "choose another folder with --out or NEVE_OUT";
+
+/// Before the command runs. @param advice  "": it writes nowhere that a person chooses
+void set_other_place(const std::string& advice);
+
+/// "wait for it, or choose another folder with --out or NEVE_OUT".
+/// @param first  what else helps; "": nothing
+std::string or_other_place(const std::string& first = {});
 
 }  // namespace neve::app

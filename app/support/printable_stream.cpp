@@ -1,11 +1,31 @@
-#include "app/support/printable_stream.h"
+#include <ostream>
+#include <streambuf>
 
 #include "app/support/text.h"
 
 namespace neve::app {
 
+namespace {
+
 /// Controls of two bytes begin with this one.
 constexpr char first_of_control = '\xc2';
+
+/// Passes text on as printable_text() writes it.
+class PrintableBuffer : public std::streambuf {
+ public:
+  explicit PrintableBuffer(std::streambuf& out) : out_(out) {}
+
+ protected:
+  int_type overflow(int_type c) override;
+  std::streamsize xsputn(const char* text, std::streamsize count) override;
+  int sync() override;
+
+ private:
+  bool put(std::string text);
+
+  std::streambuf& out_;
+  std::string begun_;  ///< the first byte of a character whose second one is to come
+};
 
 bool PrintableBuffer::put(std::string text) {
   text = begun_ + text;
@@ -33,6 +53,8 @@ int PrintableBuffer::sync() {
   begun_.clear();
   return is_written && out_.pubsync() == 0 ? 0 : -1;
 }
+
+}  // namespace
 
 void make_printable(std::ostream& out) {
   // Never destroyed: streams are used to the last moment.

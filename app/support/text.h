@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +32,8 @@ std::optional<double> bytes_of(std::string_view text);
 std::string printable_text(const std::string& text);
 /// The same on one line: line feeds and tabs are written out too.
 std::string line_text(const std::string& text);
+/// Lets a stream pass its text through printable_text(), to the end of the program.
+void make_printable(std::ostream& out);
 /// The number that a text is, and nothing else, not even blanks.
 template <class Number = double>
 std::optional<Number> number_of(std::string_view text) {

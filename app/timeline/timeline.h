@@ -5,8 +5,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "app/picture/snapshot.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/progress.h"
 #include "app/timeline/moments.h"
@@ -130,5 +132,12 @@ class Timeline {
   std::optional<Rehearsed> rehearsed_;
   mutable std::optional<sim::Summary> summary_;
 };
+
+/// What pictures show of a run where it is. With the history, the steps and the changes of the run
+/// so far. The history is that of the timeline: who draws while it moves keeps a copy.
+/// @param scene  that is drawn: of the timeline, perhaps with other views
+/// @param views  that will be drawn, not only those of the scene
+picture::Snapshot take_snapshot(const Timeline& timeline, const scene::Scene& scene,
+                                std::span<const scene::View> views, int frame);
 
 }  // namespace neve::app::timeline

@@ -16,7 +16,6 @@
 #include <thread>
 
 #include "app/output/folder_lock.h"
-#include "app/output/named_file.h"
 #include "app/output/temporary.h"
 #include "app/support/machine.h"
 #include "tests/support/child.h"

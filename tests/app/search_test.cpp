@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "app/advice/suggest.h"
 #include "app/advice/wishes.h"
-#include "app/advice/words.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/support/json.h"

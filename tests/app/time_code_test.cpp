@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/support/time_code.h"
+#include "app/support/film_rate.h"
 
 namespace neve::test {
 namespace {

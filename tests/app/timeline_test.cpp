@@ -11,7 +11,6 @@
 #include "app/support/errors.h"
 #include "app/timeline/changes.h"
 #include "app/timeline/origin.h"
-#include "app/timeline/snapshot.h"
 #include "app/timeline/timeline.h"
 #include "app/timeline/times.h"
 #include "sim/laws/list.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/compare/measures.h"
+#include "app/compare/series.h"
 #include "app/output/atomic_file.h"
 #include "render/image/image.h"
 #include "tests/cli/run_neve.h"

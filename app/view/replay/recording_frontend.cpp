@@ -1,6 +1,6 @@
 #include "app/view/replay/recording_frontend.h"
 
-#include "app/output/named_file.h"
+#include "app/output/atomic_file.h"
 #include "app/support/errors.h"
 #include "app/view/replay/replay_script.h"
 

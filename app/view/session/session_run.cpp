@@ -8,7 +8,7 @@
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
-#include "app/timeline/snapshot.h"
+#include "app/timeline/timeline.h"
 #include "app/timeline/times.h"
 #include "app/view/session/session.h"
 #include "app/view/session/stage_summary.h"

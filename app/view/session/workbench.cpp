@@ -5,7 +5,6 @@
 
 #include "app/forecast/fast.h"
 #include "app/output/atomic_file.h"
-#include "app/output/named_file.h"
 #include "app/record/picture_files.h"
 #include "app/record/run_json.h"
 #include "app/scene/edit_text.h"

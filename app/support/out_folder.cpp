@@ -1,4 +1,4 @@
-#include "app/support/other_place.h"
+#include "app/support/out_folder.h"
 
 namespace neve::app {
 
