@@ -27,12 +27,11 @@ Quantity quantity(const char* name, const char* unit, const std::vector<Value>& 
                                                             : 1;
   Quantity q{name, unit, components, {}, std::nullopt, ""};
   for (const Value& value : values)
-    if constexpr (components == 1) {
+    if constexpr (components == 1)
       q.values.push_back(value);
-    } else {
-      const auto rows = value.transpose().eval();  // stored by columns
-      q.values.insert(q.values.end(), rows.data(), rows.data() + components);
-    }
+    else
+      for (Eigen::Index k = 0; k < components; ++k)
+        q.values.push_back(value(k / value.cols(), k % value.cols()));
   if (expected) {
     q.expected = expected->range;
     q.why = expected->why;

@@ -66,8 +66,8 @@ std::string vtk_cells(const std::string& kind, const std::vector<Number>& points
   std::vector<std::int64_t> ends(points.size() / size);
   for (std::size_t k = 0; k < ends.size(); ++k) ends[k] = static_cast<std::int64_t>((k + 1) * size);
   const std::vector<std::int64_t> numbers(points.begin(), points.end());
-  return "<" + kind + ">\n" + arrays.add("connectivity", 1, numbers) +
-         arrays.add("offsets", 1, ends) + "</" + kind + ">\n";
+  const std::string connectivity = arrays.add("connectivity", 1, numbers);
+  return "<" + kind + ">\n" + connectivity + arrays.add("offsets", 1, ends) + "</" + kind + ">\n";
 }
 
 /// The smallest box of nodes around all blocks.

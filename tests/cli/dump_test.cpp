@@ -1,5 +1,6 @@
 /// neve dump: numbers inside a step, and that looking changes nothing.
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -158,6 +159,26 @@ TEST_F(Dump, ATableHasOneLineForEach) {
   }
   EXPECT_GT(comments, 3u);
   EXPECT_EQ(static_cast<int>(rows), json({})["particles"].get<int>());
+}
+
+TEST_F(Dump, TensorsHaveTheirRowsAsInExports) {
+  const auto dumped =
+      neve({"dump", "scene.toml", "--at", "0.05", "--field", "id", "--field", "F_E", "--quiet"});
+  ASSERT_EQ(dumped.exit_code, 0) << dumped.errors;
+  const auto exported = neve({"export", "scene.toml", "--at", "0.05", "--format", "csv",
+                              "--attributes", "id,F_E", "--out", "e", "--quiet"});
+  ASSERT_EQ(exported.exit_code, 0) << exported.errors;
+  const auto bytes = app::output::read_file(folder / "e" / "csv" / "0000.csv");
+  std::istringstream rows(dumped.output), others(std::string(bytes.begin(), bytes.end()));
+  std::size_t compared = 0;
+  for (std::string row, other; std::getline(rows, row);) {
+    if (row.starts_with("#")) continue;
+    ASSERT_TRUE(std::getline(others, other));
+    std::ranges::replace(row, '\t', ',');
+    EXPECT_TRUE(other.ends_with(row)) << row << " is not in " << other;
+    ++compared;
+  }
+  EXPECT_GT(compared, 10u);
 }
 
 /// The offsets of a .vtp and the sizes in front of its blocks have to agree with each other.
