@@ -60,7 +60,10 @@ class MeshPly {
   PolygonMesh read() {
     const PlyHeader header = read_ply_header(lines_, name_);
     PlyNumbers numbers(lines_.rest(), header.format, name_);
-    for (const PlyElement& element : header.elements) read_element(element, numbers);
+    for (const PlyElement& element : header.elements) {
+      has_faces_ = has_faces_ || (element.name == "face" && element.count > 0);
+      read_element(element, numbers);
+    }
     const bool has_more =
         header.format == PlyFormat::ascii
             ? numbers.has_more_text()
@@ -85,7 +88,9 @@ class MeshPly {
   }
 
   static bool has_corners(const PlyProperty& property) {
-    return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+    const std::string& name = property.name;
+    return property.count &&
+           (name == "vertex_indices" || name == "vertex_index" || name == "indices");
   }
 
   void read_element(const PlyElement& element, PlyNumbers& numbers) {
@@ -151,9 +156,11 @@ class MeshPly {
 
   void check() const {
     if (mesh_.polygons.empty())
-      refuse_input(name_,
-                   "no faces: the PLY has points only. shape = { points = { file = ... } } "
-                   "makes a body of them");
+      refuse_input(name_, has_faces_
+                              ? "its faces have no list of their vertices; expected one that is "
+                                "called vertex_indices"
+                              : "no faces: the PLY has points only. shape = { points = { file = "
+                                "... } } makes a body of them");
     for (const Vec3d& x : mesh_.vertices)
       if (!x.allFinite()) refuse_input(name_, "a coordinate is not a finite number");
     for (std::size_t p = 0; p < mesh_.polygons.size(); ++p) {
@@ -174,6 +181,7 @@ class MeshPly {
   const std::string& name_;
   std::vector<std::uint32_t> strip_;  ///< corners of the present one
   PolygonMesh mesh_;
+  bool has_faces_ = false;  ///< by its header
 };
 
 }  // namespace

@@ -170,6 +170,17 @@ TEST(MeshReader, NamesOfAPlyMayBeCapitals) {
   EXPECT_EQ(mesh.vertices, files::parse_mesh(ply("ascii"), "m.ply").vertices);
 }
 
+TEST(MeshReader, FacesOfAPlyMayHaveIndices) {
+  const auto with_list = [](const std::string& name) {
+    std::string bytes = ply("ascii");
+    return bytes.replace(bytes.find("vertex_indices"), std::string("vertex_indices").size(), name);
+  };
+  EXPECT_EQ(files::parse_mesh(with_list("indices"), "m.ply").corners,
+            files::parse_mesh(ply("ascii"), "m.ply").corners);
+  const std::string message = mesh_message(with_list("corners_of_it"), "m.ply");
+  EXPECT_NE(message.find("its faces have no list of their vertices"), std::string::npos) << message;
+}
+
 TEST(MeshReader, AByteOrderMarkShiftsNoIndex) {
   const std::string text =
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 9 9 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n"
