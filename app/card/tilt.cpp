@@ -55,6 +55,12 @@ double elastic_way(const sim::Material& m, double angle) {
 }
 constexpr double swing = 1.5;  // times the elastic way, at most, of a load that grows
 
+/// Share of its height that the lowest snow of the layer loses under the rest.
+double squeezed_by_weight(const sim::Material& m) {
+  const sim::Lame lame = sim::lame(m.youngs_modulus, m.poisson_ratio);
+  return m.density * gravity_at(0).norm() * depth / (lame.lambda + 2 * lame.mu);
+}
+
 /// What the slope bears.
 class Balance {
  public:
@@ -141,11 +147,14 @@ Experiment tilt(const Subject& subject) {
   e.measures = {{"angle", slides ? slides_at : NAN}};
   // One that did not end says how far it got, if it was tilted at all.
   const bool has_ended = e.failure.empty();
+  constexpr double too_soft = 0.05;
   if (slides)
     e.words.push_back("slides at " + rough_text(slides_at) + "\u00b0");
   else if (has_ended || !e.x.empty())
     e.words.push_back((has_ended ? "holds at " : "held up to ") +
                       rough_text(has_ended ? angle : e.x.back()) + "\u00b0");
+  if (slides && squeezed_by_weight(subject.material) > too_soft)
+    e.words.push_back("too soft to bear its weight: slides early");
   return e;
 }
 

@@ -24,6 +24,18 @@ TEST(CardTilt, SandSlidesAtTheAngleOfItsFriction) {
   }
 }
 
+/// A layer that its weight squeezes by a tenth slides degrees too early.
+TEST(CardTilt, SandThatIsTooSoftSaysSo) {
+  const auto words = [](double E) {
+    neve::sim::Material sand = dry_sand(30);
+    sand.youngs_modulus = E;
+    return tilt(subject_of(sand)).words;
+  };
+  EXPECT_EQ(words(1e6).size(), 1u);
+  ASSERT_EQ(words(2e4).size(), 2u);
+  EXPECT_NE(words(2e4)[1].find("too soft"), std::string::npos);
+}
+
 TEST(CardTilt, ElasticLayersHold) {
   neve::sim::Material m;
   m.model = neve::sim::laws::model::corotated;
