@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -244,15 +246,19 @@ std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& addres
   return std::nullopt;
 }
 
-/// The default, or what --coarsen makes of it.
-bool is_usual(const scene::FlatParam& param, double coarsening) {
+/// The default, or what --coarsen makes of it. A scene that was written coarse does not say by how
+/// much: its thresholds do, and where it has none, that both steps have grown alike.
+bool is_usual(const scene::Scene& scene, const scene::FlatParam& param, double coarsening) {
   if (param.is_default()) return true;
-  const double* value = param.value ? std::get_if<double>(&param.value->data) : nullptr;
-  const sim::SolverSettings usual;
-  const double meant = param.address == "solver.dt"       ? coarsening * usual.dt
-                       : param.address == "solver.max_dt" ? coarsening * usual.max_dt
-                                                          : 0;
-  return value && *value > 0.999 * meant && *value < 1.001 * meant;
+  const sim::SolverSettings &s = scene.solver, usual;
+  const bool is_dt = param.address == "solver.dt";
+  if (!is_dt && param.address != "solver.max_dt") return false;
+  const double growth = is_dt ? s.dt / usual.dt : s.max_dt / usual.max_dt,
+               other = is_dt ? s.max_dt / usual.max_dt : s.dt / usual.dt,
+               written = s.threshold_cell > 0 ? s.cell_size / s.threshold_cell : other;
+  return std::ranges::any_of(std::array{coarsening, written}, [&](double factor) {
+    return factor >= 1 && std::abs(growth / factor - 1) < 1e-3;
+  });
 }
 
 bool is_set_by_preset(const scene::Scene& scene, const std::string& address) {
@@ -266,7 +272,7 @@ bool is_set_by_preset(const scene::Scene& scene, const std::string& address) {
 void check_switched_off(const scene::Scene& scene, double coarsening,
                         std::vector<Finding>& findings) {
   for (const scene::FlatParam& param : scene::flatten(scene)) {
-    if (is_usual(param, coarsening) || setup::curve_of(scene, param.address)) continue;
+    if (is_usual(scene, param, coarsening) || setup::curve_of(scene, param.address)) continue;
     if (param.address.starts_with("dust.")) continue;  // told with the dust
     if (is_set_by_preset(scene, param.address)) continue;
     if (const std::optional<Idle> idle = idle_at(scene, param.address))
@@ -302,7 +308,7 @@ void check_curves(const scene::Scene& scene, double coarsening, std::vector<Find
                      setup::curve_values(scene, scene::last_frame(scene))[k].value),
          "the forecast follows it in a coarse copy"});
     for (const scene::FlatParam& param : params)
-      if (param.address == curve.parameter && !is_usual(param, coarsening) &&
+      if (param.address == curve.parameter && !is_usual(scene, param, coarsening) &&
           value_text(param.value) != first[k].value)
         findings.push_back({Severity::warning, curve.parameter,
                             fmt::format("{} is not used: the curve {} begins with {}",

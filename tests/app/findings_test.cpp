@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/coarsen.h"
 #include "app/scene/read.h"
 #include "app/setup/coarse_run.h"
 
@@ -84,6 +85,31 @@ TEST(Findings, ACameraThatTurnsIsLookedThroughAtAllTimes) {
   EXPECT_TRUE(findings("").empty());
   ASSERT_EQ(findings("orbit = 180\n").size(), 1u);
   EXPECT_NE(findings("orbit = 180\n")[0].what.find("outside of the picture"), std::string::npos);
+}
+
+/// A run of --coarsen keeps its scene with longer steps, which nobody has set.
+TEST(Findings, AResolvedSceneOfACoarseRunWarnsOfNoStepThatNobodySet) {
+  const auto idle = [](const char* settings, double factor) {
+    scene::Scene scene = scene::read_scene_text(
+        std::string("[solver]\ncell_size = 0.02\n") + settings +
+            "[[body]]\nshape = { sphere = { center = [0, 0.2, 0], radius = 0.2 } }\n",
+        "coarse.toml");
+    scene::coarsen(scene, factor);
+    std::vector<health::Finding> findings;
+    health::check_unused(scene::read_scene_text(scene::write_scene(scene), "scene.toml"), 1,
+                         findings);
+    std::string addresses;
+    for (const health::Finding& finding : findings) addresses += finding.address + " ";
+    return addresses;
+  };
+  const std::string fixed = "time_step = \"fixed\"\n", sand = "[material.snow]\nmodel = \"sand\"\n";
+  EXPECT_EQ(idle("", 1), "");
+  EXPECT_EQ(idle("", 2.5), "");
+  EXPECT_EQ(idle(fixed.c_str(), 2.5), "");
+  EXPECT_EQ(idle((fixed + sand).c_str(), 2), "");
+  EXPECT_EQ(idle("dt = 1e-3\n", 1), "solver.dt ");
+  EXPECT_EQ(idle("dt = 1e-3\n", 2), "solver.dt ");
+  EXPECT_EQ(idle((fixed + "max_dt = 0.02\n").c_str(), 2), "solver.max_dt ");
 }
 
 }  // namespace
