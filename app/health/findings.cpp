@@ -8,6 +8,7 @@
 #include <map>
 
 #include "app/health/point_findings.h"
+#include "app/health/softness.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/camera_path.h"
@@ -337,6 +338,9 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
            fmt::format("{}.material = \"{}\"", pieces.front().address, material.name)});
     }
   }
+  if (const auto birth = dense_birth(scene))
+    findings.push_back(
+        {Severity::warning, birth->address, evidence_text(*birth), advice_text(*birth)});
   check_senses(scene, findings);
   const double g = scene.solver.gravity.norm();
   if (g > line(Law::gravity))

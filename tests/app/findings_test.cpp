@@ -112,5 +112,21 @@ TEST(Findings, AResolvedSceneOfACoarseRunWarnsOfNoStepThatNobodySet) {
   EXPECT_EQ(idle((fixed + "max_dt = 0.02\n").c_str(), 2), "solver.max_dt ");
 }
 
+TEST(Findings, SnowThatBeginsDenserThanIceIsFound) {
+  const auto findings = [](const char* J_P) {
+    std::vector<health::Finding> found;
+    health::check_units(scene::read_scene_text(
+                            std::string("[[body]]\nname = \"ball\"\nJ_P = ") + J_P +
+                                "\nshape = { sphere = { center = [0, 0.2, 0], radius = 0.2 } }\n",
+                            "dense.toml"),
+                        found);
+    return found;
+  };
+  EXPECT_TRUE(findings("0.5").empty());
+  ASSERT_EQ(findings("0.4").size(), 1u);
+  EXPECT_EQ(findings("0.4")[0].address, "body.ball.J_P");
+  EXPECT_NE(findings("0.4")[0].what.find("denser than ice"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace neve::app
