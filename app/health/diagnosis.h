@@ -32,25 +32,10 @@ enum class Cause {
 };
 
 constexpr auto names(Cause) {
-  using enum Cause;
-  return std::array{scene::Name{bypass, "bypass"},
-                    scene::Name{initial_state, "initial_state"},
-                    scene::Name{units, "units"},
-                    scene::Name{raised_limits, "raised_limits"},
-                    scene::Name{density, "density"},
-                    scene::Name{stiffness, "stiffness"},
-                    scene::Name{time_step, "time_step"},
-                    scene::Name{hardening, "hardening"},
-                    scene::Name{collider_speed, "collider_speed"},
-                    scene::Name{colliders_closing, "colliders_closing"},
-                    scene::Name{incompressible, "incompressible"},
-                    scene::Name{shock, "shock"},
-                    scene::Name{too_soft, "too_soft"},
-                    scene::Name{law, "law"},
-                    scene::Name{rounding, "rounding"},
-                    scene::Name{thin, "thin"},
-                    scene::Name{far_flight, "far_flight"},
-                    scene::Name{unexplained, "unexplained"}};
+  return scene::in_order<Cause::unexplained>(
+      "bypass", "initial_state", "units", "raised_limits", "density", "stiffness", "time_step",
+      "hardening", "collider_speed", "colliders_closing", "incompressible", "shock", "too_soft",
+      "law", "rounding", "thin", "far_flight", "unexplained");
 }
 
 struct Diagnosis {

@@ -21,36 +21,38 @@ struct Name {
 template <class E>
 Name(E, const char*) -> Name<E>;
 
+/// The names of all values of a choice, in the order of its declaration.
+/// @tparam last  of the values
+template <auto last, class... Text>
+constexpr auto in_order(Text... texts) {
+  using E = decltype(last);
+  static_assert(sizeof...(texts) == static_cast<std::size_t>(last) + 1);
+  std::array<Name<E>, sizeof...(texts)> names{};
+  std::size_t k = 0;
+  ((names[k] = {static_cast<E>(k), texts}, ++k), ...);
+  return names;
+}
+
 constexpr auto names(sim::Kernel) {
-  using enum sim::Kernel;
-  return std::array{Name{cubic, "cubic"}, Name{quadratic, "quadratic"}};
+  return in_order<sim::Kernel::quadratic>("cubic", "quadratic");
 }
 constexpr auto names(sim::Transfer) {
-  using enum sim::Transfer;
-  return std::array{Name{flip, "flip"}, Name{apic, "apic"}, Name{mls, "mls"}, Name{aflip, "aflip"},
-                    Name{asflip, "asflip"}};
+  return in_order<sim::Transfer::asflip>("flip", "apic", "mls", "aflip", "asflip");
 }
 constexpr auto names(sim::Advect) {
-  using enum sim::Advect;
-  return std::array{Name{particle, "particle"}, Name{pic, "pic"}};
+  return in_order<sim::Advect::pic>("particle", "pic");
 }
 constexpr auto names(sim::ContactAt) {
-  using enum sim::ContactAt;
-  return std::array{Name{particles, "particles"}, Name{nodes, "nodes"}};
+  return in_order<sim::ContactAt::nodes>("particles", "nodes");
 }
 constexpr auto names(sim::shapes::HeldAxis) {
-  using enum sim::shapes::HeldAxis;
-  return std::array{Name{x, "x"},           Name{y, "y"},           Name{z, "z"},
-                    Name{turn_x, "turn_x"}, Name{turn_y, "turn_y"}, Name{turn_z, "turn_z"}};
+  return in_order<sim::shapes::HeldAxis::turn_z>("x", "y", "z", "turn_x", "turn_y", "turn_z");
 }
 constexpr auto names(sim::shapes::Joint) {
-  using enum sim::shapes::Joint;
-  return std::array{Name{none, "none"}, Name{ball, "ball"}, Name{hinge, "hinge"},
-                    Name{slider, "slider"}};
+  return in_order<sim::shapes::Joint::slider>("none", "ball", "hinge", "slider");
 }
 constexpr auto names(sim::TimeStep) {
-  using enum sim::TimeStep;
-  return std::array{Name{adaptive, "adaptive"}, Name{fixed, "fixed"}};
+  return in_order<sim::TimeStep::fixed>("adaptive", "fixed");
 }
 constexpr auto names(sim::Stage) {
   std::array<Name<sim::Stage>, sim::stage_names.size()> all{};
@@ -59,12 +61,10 @@ constexpr auto names(sim::Stage) {
   return all;
 }
 constexpr auto names(sim::OnDivergence) {
-  using enum sim::OnDivergence;
-  return std::array{Name{stop, "stop"}, Name{retry, "retry"}, Name{ignore, "ignore"}};
+  return in_order<sim::OnDivergence::ignore>("stop", "retry", "ignore");
 }
 constexpr auto names(sim::Precision) {
-  using enum sim::Precision;
-  return std::array{Name{single, "float"}, Name{real64, "double"}};
+  return in_order<sim::Precision::real64>("float", "double");
 }
 constexpr auto names(sim::Model) {
 #define NEVE_NAME_OF_LAW(name) Name{sim::laws::model::name, #name},
@@ -72,132 +72,69 @@ constexpr auto names(sim::Model) {
 #undef NEVE_NAME_OF_LAW
 }
 constexpr auto names(Preset) {
-  using enum Preset;
-  return std::array{Name{paper, "paper"},
-                    Name{lower_hardening, "lower_hardening"},
-                    Name{lower_youngs_modulus, "lower_youngs_modulus"},
-                    Name{lower_critical_compression, "lower_critical_compression"},
-                    Name{lower_critical_stretch, "lower_critical_stretch"},
-                    Name{lower_compression_and_stretch, "lower_compression_and_stretch"},
-                    Name{powder, "powder"},
-                    Name{wet, "wet"},
-                    Name{packed, "packed"},
-                    Name{icy, "icy"},
-                    Name{quick, "quick"}};
+  return in_order<Preset::quick>("paper", "lower_hardening", "lower_youngs_modulus",
+                                 "lower_critical_compression", "lower_critical_stretch",
+                                 "lower_compression_and_stretch", "powder", "wet", "packed", "icy",
+                                 "quick");
 }
 constexpr auto names(sim::seeding::Sampling) {
-  using enum sim::seeding::Sampling;
-  return std::array{Name{jittered, "jittered"}, Name{poisson, "poisson"}, Name{lattice, "lattice"}};
+  return in_order<sim::seeding::Sampling::lattice>("jittered", "poisson", "lattice");
 }
 constexpr auto names(sim::seeding::Volumes) {
-  using enum sim::seeding::Volumes;
-  return std::array{Name{estimated, "estimated"}, Name{given, "given"}};
+  return in_order<sim::seeding::Volumes::given>("estimated", "given");
 }
 constexpr auto names(sim::shapes::Fill) {
-  using enum sim::shapes::Fill;
-  return std::array{Name{automatic, "auto"}, Name{closed, "closed"}, Name{even_odd, "even_odd"},
-                    Name{winding, "winding"}};
+  return in_order<sim::shapes::Fill::winding>("auto", "closed", "even_odd", "winding");
 }
 constexpr auto names(sim::shapes::Coordinates) {
-  using enum sim::shapes::Coordinates;
-  return std::array{Name{own, "own"}, Name{world, "world"}};
+  return in_order<sim::shapes::Coordinates::world>("own", "world");
 }
 constexpr auto names(sim::shapes::Contact) {
-  using enum sim::shapes::Contact;
-  return std::array{Name{separate, "separate"}, Name{slip, "slip"}, Name{sticky, "sticky"}};
+  return in_order<sim::shapes::Contact::sticky>("separate", "slip", "sticky");
 }
 constexpr auto names(RangeFrom) {
-  using enum RangeFrom;
-  return std::array{Name{scene, "scene"}, Name{frame, "frame"}};
+  return in_order<RangeFrom::frame>("scene", "frame");
 }
 constexpr auto names(Interpolation) {
-  using enum Interpolation;
-  return std::array{Name{smooth, "smooth"}, Name{linear, "linear"}, Name{step, "step"}};
+  return in_order<Interpolation::step>("smooth", "linear", "step");
 }
 constexpr auto names(Background) {
-  using enum Background;
-  return std::array{Name{gradient, "gradient"}, Name{transparent, "transparent"}};
+  return in_order<Background::transparent>("gradient", "transparent");
 }
 constexpr auto names(ColliderStyle) {
-  using enum ColliderStyle;
-  return std::array{Name{solid, "solid"}, Name{wire, "wire"}, Name{ghost, "ghost"},
-                    Name{holdout, "holdout"}};
+  return in_order<ColliderStyle::holdout>("solid", "wire", "ghost", "holdout");
 }
 constexpr auto names(ColorBy) {
-  using enum ColorBy;
-  return std::array{Name{snow, "snow"},
-                    Name{speed, "speed"},
-                    Name{density, "density"},
-                    Name{J_E, "J_E"},
-                    Name{J_P, "J_P"},
-                    Name{pressure, "pressure"},
-                    Name{von_mises, "von_mises"},
-                    Name{p0, "p0"},
-                    Name{yield, "yield"},
-                    Name{id, "id"}};
+  return in_order<ColorBy::id>("snow", "speed", "density", "J_E", "J_P", "pressure", "von_mises",
+                               "p0", "yield", "id");
 }
 constexpr auto names(ScalarField) {
-  using enum ScalarField;
-  return std::array{Name{mass, "mass"},
-                    Name{speed, "speed"},
-                    Name{density, "density"},
-                    Name{J_E, "J_E"},
-                    Name{J_P, "J_P"},
-                    Name{pressure, "pressure"},
-                    Name{von_mises, "von_mises"},
-                    Name{p0, "p0"},
-                    Name{yield, "yield"}};
+  return in_order<ScalarField::yield>("mass", "speed", "density", "J_E", "J_P", "pressure",
+                                      "von_mises", "p0", "yield");
 }
 constexpr auto names(VectorField) {
-  using enum VectorField;
-  return std::array{Name{velocity, "velocity"}, Name{momentum, "momentum"}, Name{force, "force"},
-                    Name{v_free, "v_free"},     Name{v_star, "v_star"},     Name{v_new, "v_new"}};
+  return in_order<VectorField::v_new>("velocity", "momentum", "force", "v_free", "v_star", "v_new");
 }
 constexpr auto names(render::ColorMap) {
-  using enum render::ColorMap;
-  return std::array{Name{viridis, "viridis"}, Name{magma, "magma"}, Name{turbo, "turbo"},
-                    Name{coolwarm, "coolwarm"}};
+  return in_order<render::ColorMap::coolwarm>("viridis", "magma", "turbo", "coolwarm");
 }
 constexpr auto names(Layer) {
-  using enum Layer;
-  return std::array{
-      Name{ground, "ground"},   Name{colliders, "colliders"}, Name{particles, "particles"},
-      Name{snow, "snow"},       Name{arrows, "arrows"},       Name{heatmap, "heatmap"},
-      Name{smoke, "smoke"},     Name{blocks, "blocks"},       Name{bounds, "bounds"},
-      Name{legend, "legend"},   Name{caption, "caption"},     Name{plots, "plots"},
-      Name{counter, "counter"}, Name{slate, "slate"},         Name{streamlines, "streamlines"},
-      Name{scale, "scale"},     Name{dust, "dust"},           Name{extremes, "extremes"}};
+  return in_order<Layer::extremes>("ground", "colliders", "particles", "snow", "arrows", "heatmap",
+                                   "smoke", "blocks", "bounds", "legend", "caption", "plots",
+                                   "counter", "slate", "streamlines", "scale", "dust", "extremes");
 }
 constexpr auto names(ExportFormat) {
-  using enum ExportFormat;
-  return std::array{Name{ply, "ply"}, Name{vtp, "vtp"},   Name{vti, "vti"},
-                    Name{vdb, "vdb"}, Name{bgeo, "bgeo"}, Name{usda, "usda"},
-                    Name{npz, "npz"}, Name{csv, "csv"},   Name{obj, "obj"}};
+  return in_order<ExportFormat::obj>("ply", "vtp", "vti", "vdb", "bgeo", "usda", "npz", "csv",
+                                     "obj");
 }
 constexpr auto names(ExportAttribute) {
-  using enum ExportAttribute;
-  return std::array{Name{id, "id"},
-                    Name{x, "x"},
-                    Name{v, "v"},
-                    Name{m, "m"},
-                    Name{V0, "V0"},
-                    Name{density, "density"},
-                    Name{J_E, "J_E"},
-                    Name{J_P, "J_P"},
-                    Name{F_E, "F_E"},
-                    Name{stress, "stress"},
-                    Name{kirchhoff, "kirchhoff"},
-                    Name{C, "C"},
-                    Name{material, "material"},
-                    Name{body, "body"},
-                    Name{radius, "radius"},
-                    Name{age, "age"}};
+  return in_order<ExportAttribute::age>("id", "x", "v", "m", "V0", "density", "J_E", "J_P", "F_E",
+                                        "stress", "kirchhoff", "C", "material", "body", "radius",
+                                        "age");
 }
 constexpr auto names(UpAxis) {
-  using enum UpAxis;
-  return std::array{Name{y, "y"}, Name{z, "z"}};
+  return in_order<UpAxis::z>("y", "z");
 }
-
 template <class E>
 concept Choice = requires(E e) {
   names(e);
