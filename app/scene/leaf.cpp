@@ -223,28 +223,8 @@ void read_leaf(const Leaf& leaf, std::optional<Range>& member) {
   member = range;
 }
 
-toml::Value to_value(double member) {
-  return {member};
-}
-toml::Value to_value(bool member) {
-  return {member};
-}
-toml::Value to_value(int member) {
-  return {std::int64_t{member}};
-}
-toml::Value to_value(std::uint64_t member) {
-  return {static_cast<std::int64_t>(member)};
-}
-toml::Value to_value(const std::string& member) {
-  return {member};
-}
 toml::Value to_value(const sim::Vec3d& member) {
   return {toml::Array{to_value(member.x()), to_value(member.y()), to_value(member.z())}};
-}
-toml::Value to_value(const std::vector<std::string>& member) {
-  toml::Array array;
-  for (const std::string& item : member) array.push_back(to_value(item));
-  return {std::move(array)};
 }
 toml::Value to_value(const PictureSize& member) {
   return {toml::Array{to_value(member.width), to_value(member.height)}};
@@ -252,34 +232,6 @@ toml::Value to_value(const PictureSize& member) {
 toml::Value to_value(const std::optional<Range>& member) {
   if (!member) return {std::string("auto")};
   return {toml::Array{to_value(member->min), to_value(member->max)}};
-}
-
-std::string type_of(const double&) {
-  return "number";
-}
-std::string type_of(const bool&) {
-  return "boolean";
-}
-std::string type_of(const int&) {
-  return "integer";
-}
-std::string type_of(const std::uint64_t&) {
-  return "integer";
-}
-std::string type_of(const std::string&) {
-  return "string";
-}
-std::string type_of(const sim::Vec3d&) {
-  return "vector";
-}
-std::string type_of(const std::vector<std::string>&) {
-  return "list of texts";
-}
-std::string type_of(const PictureSize&) {
-  return "size";
-}
-std::string type_of(const std::optional<Range>&) {
-  return "range";
 }
 
 void read_leaf(const Leaf& leaf, sim::laws::OneOf& member) {
@@ -292,10 +244,6 @@ void read_leaf(const Leaf& leaf, sim::laws::OneOf& member) {
 
 toml::Value to_value(const sim::laws::OneOf& member) {
   return {std::string(member.name())};
-}
-
-std::string type_of(const sim::laws::OneOf&) {
-  return "choice";
 }
 
 std::vector<std::string> choices(const sim::laws::OneOf& member) {

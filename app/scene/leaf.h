@@ -1,9 +1,11 @@
 #pragma once
 /// One parameter's value: from TOML with errors, to TOML, and the name of its type.
 
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "app/scene/names.h"
@@ -56,27 +58,10 @@ void read_leaf(const Leaf& leaf, PictureSize& member);
 void read_leaf(const Leaf& leaf, std::optional<Range>& member);
 void read_leaf(const Leaf& leaf, sim::laws::OneOf& member);
 
-toml::Value to_value(bool member);
-toml::Value to_value(double member);
-toml::Value to_value(int member);
-toml::Value to_value(std::uint64_t member);
-toml::Value to_value(const std::string& member);
 toml::Value to_value(const sim::Vec3d& member);
-toml::Value to_value(const std::vector<std::string>& member);
 toml::Value to_value(const PictureSize& member);
 toml::Value to_value(const std::optional<Range>& member);
 toml::Value to_value(const sim::laws::OneOf& member);
-
-std::string type_of(const bool&);
-std::string type_of(const double&);
-std::string type_of(const int&);
-std::string type_of(const std::uint64_t&);
-std::string type_of(const std::string&);
-std::string type_of(const sim::Vec3d&);
-std::string type_of(const std::vector<std::string>&);
-std::string type_of(const PictureSize&);
-std::string type_of(const std::optional<Range>&);
-std::string type_of(const sim::laws::OneOf&);
 
 /// Names of the values of a parameter that a law describes.
 std::vector<std::string> choices(const sim::laws::OneOf& member);
@@ -114,15 +99,24 @@ void read_leaf(const Leaf& leaf, std::optional<T>& member) {
   read_leaf(leaf, member.emplace());
 }
 
+template <class T>
+requires std::is_arithmetic_v<T> toml::Value to_value(T member) {
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+    return {static_cast<std::int64_t>(member)};
+  else
+    return {member};
+}
+inline toml::Value to_value(const std::string& member) {
+  return {member};
+}
 template <Choice E>
 toml::Value to_value(E member) {
   return {std::string(name(member))};
 }
-
-template <Choice E>
-toml::Value to_value(const std::vector<E>& member) {
+template <class T>
+toml::Value to_value(const std::vector<T>& member) {
   toml::Array array;
-  for (const E& item : member) array.push_back(to_value(item));
+  for (const T& item : member) array.push_back(to_value(item));
   return {std::move(array)};
 }
 
@@ -141,19 +135,23 @@ inline std::optional<toml::Value> value_if_any(const std::optional<Range>& membe
   return to_value(member);
 }
 
-template <Choice E>
-std::string type_of(const E&) {
-  return "choice";
+template <class T>
+std::string type_of(const T&) {
+  if (std::is_same_v<T, bool>) return "boolean";
+  if (std::is_floating_point_v<T>) return "number";
+  if (std::is_integral_v<T>) return "integer";
+  if (std::is_same_v<T, std::string>) return "string";
+  if (std::is_same_v<T, std::vector<std::string>>) return "list of texts";
+  if (std::is_same_v<T, sim::Vec3d>) return "vector";
+  return std::is_same_v<T, PictureSize> ? "size" : "choice";
 }
-
 template <Choice E>
 std::string type_of(const std::vector<E>&) {
   return "list of choices";
 }
-
 template <class T>
 std::string type_of(const std::optional<T>&) {
-  return type_of(T{});
+  return std::is_same_v<T, Range> ? "range" : type_of(T{});
 }
 
 }  // namespace neve::app::scene

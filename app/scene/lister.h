@@ -11,23 +11,21 @@
 namespace neve::app::scene {
 
 template <class T>
-std::vector<std::string> choices_of(const T&) {
-  return {};
+std::vector<std::string> choices_of([[maybe_unused]] const T& member) {
+  if constexpr (Choice<T>)
+    return choices<T>();
+  else if constexpr (std::is_same_v<T, sim::laws::OneOf>)
+    return choices(member);
+  else
+    return {};
 }
-inline std::vector<std::string> choices_of(const sim::laws::OneOf& member) {
-  return choices(member);
+template <class T>
+std::vector<std::string> choices_of(const std::vector<T>&) {
+  return choices_of(T{});
 }
-template <Choice E>
-std::vector<std::string> choices_of(const E&) {
-  return choices<E>();
-}
-template <Choice E>
-std::vector<std::string> choices_of(const std::vector<E>&) {
-  return choices<E>();
-}
-template <Choice E>
-std::vector<std::string> choices_of(const std::optional<E>&) {
-  return choices<E>();
+template <class T>
+std::vector<std::string> choices_of(const std::optional<T>&) {
+  return choices_of(T{});
 }
 
 class Lister {
@@ -59,8 +57,8 @@ class Lister {
   }
 
   template <class T>
-  void list(const char* key, std::vector<T>&, const char*) {
-    list_item<T>(prefix_ + key + ".NAME.");
+  void list(const char* key, std::vector<T>& items, const char* help) {
+    named(key, items, help);
   }
 
   template <class T>
