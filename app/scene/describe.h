@@ -287,14 +287,16 @@ void describe(V& visit, sim::shapes::Plane& p, Change change) {
         "Direction out of the solid side, of any length.");
 }
 
-/// Coordinates of the file of a mesh or of points.
+/// Coordinates of the file of a mesh, of points or of a terrain.
 template <class V, class Form>
-void describe_coordinates(V& visit, Form& form, Change change) {
+void describe_coordinates(
+    V& visit, Form& form, Change change,
+    const char* help_of_origin =
+        "Coordinates in the file that count as its origin; with coordinates = \"world\" 0 is found "
+        "from the files.") {
   visit("coordinates", form.coordinates, unit::none, anything, change,
         "own; world: those of a map, as UTM, from which all such files take one offset out.");
-  visit("origin", form.origin, unit::none, map_position, change,
-        "Coordinates in the file that count as its origin; with coordinates = \"world\" 0 is found "
-        "from the files.");
+  visit("origin", form.origin, unit::none, map_position, change, help_of_origin);
 }
 
 template <class V>
@@ -350,11 +352,10 @@ void describe(V& visit, sim::shapes::Terrain& t, Change change) {
   visit("low", t.low, unit::metre, within(1e5), change, "Height of black, of a PNG.");
   visit("high", t.high, unit::metre, within(1e5), change, "Height of white, of a PNG.");
   visit("center", t.center, unit::metre, position, change, "Place of the file's origin.");
-  visit("coordinates", t.coordinates, unit::none, anything, change,
-        "own; world: those of a map, as UTM, from which all such files take one offset out.");
-  visit("origin", t.origin, unit::none, map_position, change,
-        "East, north and height in the file that count as its origin; with coordinates = \"world\" "
-        "0 is found from the files.");
+  describe_coordinates(
+      visit, t, change,
+      "East, north and height in the file that count as its origin; with coordinates = \"world\" 0 "
+      "is found from the files.");
 }
 
 template <class V>
@@ -381,16 +382,15 @@ void describe_rotation(V& visit, sim::shapes::Shape& shape, Change change) {
 }
 
 template <class V>
-void describe_solid_forms(V& visit, sim::shapes::Shape& shape) {
-  visit.template form<sim::shapes::Sphere>("sphere", shape, Change::restart, "A sphere.");
-  visit.template form<sim::shapes::Box>("box", shape, Change::restart, "A box.");
-  visit.template form<sim::shapes::Capsule>("capsule", shape, Change::restart,
-                                            "A cylinder with round ends.");
-  visit.template form<sim::shapes::Cylinder>("cylinder", shape, Change::restart, "A cylinder.");
-  visit.template form<sim::shapes::Cone>("cone", shape, Change::restart, "A cone.");
-  visit.template form<sim::shapes::Torus>("torus", shape, Change::restart, "A torus.");
-  visit.template form<sim::shapes::Mesh>("mesh", shape, Change::restart,
-                                         "The inside of a triangle mesh.");
+void describe_solid_forms(V& visit, sim::shapes::Shape& shape, Change change = Change::restart) {
+  using namespace sim::shapes;
+  visit.template form<Sphere>("sphere", shape, change, "A sphere.");
+  visit.template form<Box>("box", shape, change, "A box.");
+  visit.template form<Capsule>("capsule", shape, change, "A cylinder with round ends.");
+  visit.template form<Cylinder>("cylinder", shape, change, "A cylinder.");
+  visit.template form<Cone>("cone", shape, change, "A cone.");
+  visit.template form<Torus>("torus", shape, change, "A torus.");
+  visit.template form<Mesh>("mesh", shape, change, "The inside of a triangle mesh.");
 }
 
 template <class V>
@@ -405,15 +405,7 @@ void describe_body_forms(V& visit, sim::shapes::Shape& shape) {
 template <class V>
 void describe_collider_forms(V& visit, sim::shapes::Shape& shape) {
   visit.template form<sim::shapes::Plane>("plane", shape, Change::live, "A half space.");
-  visit.template form<sim::shapes::Sphere>("sphere", shape, Change::live, "A sphere.");
-  visit.template form<sim::shapes::Box>("box", shape, Change::live, "A box.");
-  visit.template form<sim::shapes::Capsule>("capsule", shape, Change::live,
-                                            "A cylinder with round ends.");
-  visit.template form<sim::shapes::Cylinder>("cylinder", shape, Change::live, "A cylinder.");
-  visit.template form<sim::shapes::Cone>("cone", shape, Change::live, "A cone.");
-  visit.template form<sim::shapes::Torus>("torus", shape, Change::live, "A torus.");
-  visit.template form<sim::shapes::Mesh>("mesh", shape, Change::live,
-                                         "The inside of a triangle mesh.");
+  describe_solid_forms(visit, shape, Change::live);
   visit.template form<sim::shapes::MeshSequence>(
       "mesh_sequence", shape, Change::live,
       "The inside of a triangle mesh that deforms from file to file.");
@@ -421,11 +413,24 @@ void describe_collider_forms(V& visit, sim::shapes::Shape& shape) {
                                             "The ground below a field of heights.");
 }
 
+/// Of what stands in a list.
+template <class V>
+void describe_name(V& visit, std::string& name) {
+  visit("name", name, unit::none, identifier, Change::restart,
+        "Name in addresses; default: its number, from 1.");
+}
+
+/// Of a keyframe.
+template <class V>
+void describe_time(V& visit, double& time) {
+  visit("time", time, unit::second, between(0, 1e6), Change::live,
+        "Time of the keyframe, later than the previous one.");
+}
+
 template <class V>
 void describe(V& visit, sim::seeding::Body& b) {
   using enum Change;
-  visit("name", b.name, unit::none, identifier, restart,
-        "Name in addresses; default: its number, from 1.");
+  describe_name(visit, b.name);
   visit("material", b.material, unit::none, identifier, restart, "Name of a material.");
   visit.shape("shape", b.shape, "Volume to fill with snow.",
               [](auto& v, sim::shapes::Shape& shape) { describe_body_forms(v, shape); });
@@ -446,8 +451,7 @@ void describe(V& visit, sim::seeding::Body& b) {
 template <class V>
 void describe(V& visit, sim::seeding::Emitter& e) {
   using enum Change;
-  visit("name", e.name, unit::none, identifier, restart,
-        "Name in addresses; default: its number, from 1.");
+  describe_name(visit, e.name);
   visit("material", e.material, unit::none, identifier, restart, "Name of a material.");
   visit.shape("shape", e.shape, "Volume in which snow appears.",
               [](auto& v, sim::shapes::Shape& shape) { describe_solid_forms(v, shape); });
@@ -468,8 +472,7 @@ void describe(V& visit, sim::seeding::Emitter& e) {
 template <class V>
 void describe(V& visit, sim::seeding::Sink& s) {
   using enum Change;
-  visit("name", s.name, unit::none, identifier, restart,
-        "Name in addresses; default: its number, from 1.");
+  describe_name(visit, s.name);
   visit.shape("shape", s.shape, "Volume in which snow is removed.",
               [](auto& v, sim::shapes::Shape& shape) { describe_solid_forms(v, shape); });
   visit("outside", s.outside, unit::none, anything, restart, "Remove the snow outside instead.");
@@ -511,8 +514,7 @@ void describe_body_that_moves(V& visit, sim::shapes::RigidBody& b) {
 template <class V>
 void describe(V& visit, Collider& c) {
   using enum Change;
-  visit("name", c.name, unit::none, identifier, restart,
-        "Name in addresses; default: its number, from 1.");
+  describe_name(visit, c.name);
   visit.shape("shape", c.shape, "Solid volume that snow stays out of.",
               [](auto& v, sim::shapes::Shape& shape) { describe_collider_forms(v, shape); });
   visit("contact", c.contact, unit::none, anything, live,
@@ -537,8 +539,7 @@ void describe(V& visit, Collider& c) {
 template <class V>
 void describe(V& visit, sim::shapes::PoseKeyframe& k) {
   using enum Change;
-  visit("time", k.time, unit::second, between(0, 1e6), live,
-        "Time of the keyframe, later than the previous one.");
+  describe_time(visit, k.time);
   visit("position", k.position, unit::metre, position, live,
         "Place of the shape's centre (a plane's point); default: that of the shape.");
   visit("rotation", k.rotation, unit::degrees, within(1e6), live,
@@ -548,8 +549,7 @@ void describe(V& visit, sim::shapes::PoseKeyframe& k) {
 template <class V>
 void describe(V& visit, Curve& c) {
   using enum Change;
-  visit("name", c.name, unit::none, identifier, restart,
-        "Name in addresses; default: its number, from 1.");
+  describe_name(visit, c.name);
   visit("parameter", c.parameter, unit::none, anything, restart,
         "Address of a number or vector of the simulation that may change during a run, as "
         "\"solver.gravity\".");
@@ -563,8 +563,7 @@ void describe(V& visit, Curve& c) {
 template <class V>
 void describe(V& visit, CurveKeyframe& k) {
   using enum Change;
-  visit("time", k.time, unit::second, between(0, 1e6), live,
-        "Time of the keyframe, later than the previous one.");
+  describe_time(visit, k.time);
   visit("value", k.value, unit::none, anything, live, "Value of a parameter that is a number.");
   visit("vector", k.vector, unit::none, anything, live, "Value of a parameter that is a vector.");
 }
@@ -594,8 +593,7 @@ void describe(V& visit, CameraSettings& c) {
 template <class V>
 void describe(V& visit, CameraKeyframe& k) {
   using enum Change;
-  visit("time", k.time, unit::second, between(0, 1e6), live,
-        "Time of the keyframe, later than the previous one.");
+  describe_time(visit, k.time);
   visit("eye", k.eye, unit::metre, position, live,
         "Place of the camera; default: the camera's eye.");
   visit("target", k.target, unit::metre, position, live,
