@@ -179,7 +179,7 @@ Found shape_problem(const Scene& scene, const sim::shapes::Shape& shape,
 }
 
 /// The factors of variation leave every particle a stretch to which it can be compressed.
-Found variation_problem(const Scene& scene, const sim::Material& material) {
+Found problem_of(const Scene& scene, const sim::Material& material) {
   if (!sim::laws::of(material).reads(&sim::Material::critical_compression)) return {};
   const double finer = std::sqrt(sim::laws::threshold_factor(scene.solver));
   if (material.critical_compression * finer >= 1)
@@ -241,7 +241,7 @@ Found cover_problem(const Scene& scene, const sim::shapes::Shape& shape,
   return {};
 }
 
-Found body_problem(const Scene& scene, const sim::seeding::Body& body) {
+Found problem_of(const Scene& scene, const sim::seeding::Body& body) {
   const std::string address = "body." + body.name;
   if (const Found found = material_problem(scene, body.material, address)) return found;
   if (Found found = form_problem(body.shape, address)) return found;
@@ -249,7 +249,7 @@ Found body_problem(const Scene& scene, const sim::seeding::Body& body) {
   return shape_problem(scene, body.shape, address);
 }
 
-Found emitter_problem(const Scene& scene, const sim::seeding::Emitter& emitter) {
+Found problem_of(const Scene& scene, const sim::seeding::Emitter& emitter) {
   const std::string address = "emitter." + emitter.name;
   if (const Found found = material_problem(scene, emitter.material, address)) return found;
   if (emitter.end && !(*emitter.end > emitter.start))
@@ -263,7 +263,7 @@ Found emitter_problem(const Scene& scene, const sim::seeding::Emitter& emitter) 
   return shape_problem(scene, emitter.shape, address);
 }
 
-Found sink_problem(const sim::seeding::Sink& sink) {
+Found problem_of(const Scene&, const sim::seeding::Sink& sink) {
   const std::string address = "sink." + sink.name;
   if (Found found = form_problem(sink.shape, address)) return found;
   return ready_problem(address, [&] {
@@ -285,18 +285,25 @@ Found place_problem(const sim::Vec3d& eye, const sim::Vec3d& target, const sim::
   return {};
 }
 
+std::string key_address(const std::string& at, std::size_t k) {
+  return at + ".keyframes[" + std::to_string(k + 1) + "]";
+}
+
+/// Keyframes follow each other.
+template <class Key>
+Found order_problem(const std::vector<Key>& keys, std::size_t k, const std::string& at) {
+  if (k == 0 || keys[k].time > keys[k - 1].time) return {};
+  return Problem{key_address(at, k) + ".time",
+                 "keyframe " + std::to_string(k + 1) + " is at " + toml::number_text(keys[k].time) +
+                     " s, the one before at " + toml::number_text(keys[k - 1].time) + " s",
+                 "times must increase from one keyframe to the next"};
+}
+
 Found keyframe_problem(const CameraSettings& camera, const std::string& at) {
-  const CameraKeyframe* before = nullptr;
-  std::size_t index = 0;
-  for (const CameraKeyframe& key : camera.keyframes) {
-    const std::string key_at = at + ".keyframes[" + std::to_string(++index) + "]";
-    if (before && !(key.time > before->time)) {
-      return Problem{key_at + ".time",
-                     "keyframe " + std::to_string(index) + " is at " + toml::number_text(key.time) +
-                         " s, the one before at " + toml::number_text(before->time) + " s",
-                     "times must increase from one keyframe to the next"};
-    }
-    before = &key;
+  for (std::size_t k = 0; k < camera.keyframes.size(); ++k) {
+    if (Found found = order_problem(camera.keyframes, k, at)) return found;
+    const CameraKeyframe& key = camera.keyframes[k];
+    const std::string key_at = key_address(at, k);
     const auto eye = key.eye ? key.eye : camera.eye;
     const auto target = key.target ? key.target : camera.target;
     if (!eye || !target) continue;
@@ -304,36 +311,6 @@ Found keyframe_problem(const CameraSettings& camera, const std::string& at) {
       return found;
   }
   return {};
-}
-
-Found camera_problem(const CameraSettings& camera, const std::string& at) {
-  if (camera.up.norm() <= negligible) {
-    return Problem{at + ".up", "up is zero", "it must point upwards in the picture"};
-  }
-  if (camera.eye.has_value() != camera.target.has_value()) {
-    return Problem{at + (camera.eye ? ".eye" : ".target"), "eye and target go together",
-                   "give both, or neither to frame the whole scene"};
-  }
-  if (camera.orbit && camera.turntable) {
-    return Problem{at + ".turntable", "orbit and turntable both turn the eye",
-                   "give one: orbit = degrees over the whole scene, turntable = seconds per turn"};
-  }
-  if (camera.push_in && (camera.eye || !camera.keyframes.empty() || !camera.follow.empty())) {
-    const std::string other = camera.eye ? "eye" : camera.follow.empty() ? "keyframes" : "follow";
-    return Problem{at + ".push_in", "push_in moves an automatic camera, and " + other + " is given",
-                   "omit " + other + ", or give the move as keyframes"};
-  }
-  if (camera.eye) {
-    if (Found found =
-            place_problem(*camera.eye, *camera.target, camera.up, at + ".target", at + ".up"))
-      return found;
-  }
-  return keyframe_problem(camera, at);
-}
-
-Found light_problem(const LightSettings& light) {
-  if (light.direction.norm() > negligible) return {};
-  return Problem{"light.direction", "direction is zero", "it must point towards the light"};
 }
 
 /// Problem of the name of a body or collider that something moves along with.
@@ -355,13 +332,49 @@ Found follow_problem(const Scene& scene, const std::string& follow, const std::s
                  name_advice(follow, names)};
 }
 
-Found slice_problem(const Scene& scene, const SliceStyle& slice, const std::string& at) {
-  if (slice.normal.norm() <= negligible)
-    return Problem{at + ".normal", "normal is zero", "it must point across the plane"};
-  return follow_problem(scene, slice.follow, at);
+Found camera_problem(const Scene& scene, const CameraSettings& camera, const std::string& at) {
+  if (camera.up.norm() <= negligible) {
+    return Problem{at + ".up", "up is zero", "it must point upwards in the picture"};
+  }
+  if (camera.eye.has_value() != camera.target.has_value()) {
+    return Problem{at + (camera.eye ? ".eye" : ".target"), "eye and target go together",
+                   "give both, or neither to frame the whole scene"};
+  }
+  if (camera.orbit && camera.turntable) {
+    return Problem{at + ".turntable", "orbit and turntable both turn the eye",
+                   "give one: orbit = degrees over the whole scene, turntable = seconds per turn"};
+  }
+  if (camera.push_in && (camera.eye || !camera.keyframes.empty() || !camera.follow.empty())) {
+    const std::string other = camera.eye ? "eye" : camera.follow.empty() ? "keyframes" : "follow";
+    return Problem{at + ".push_in", "push_in moves an automatic camera, and " + other + " is given",
+                   "omit " + other + ", or give the move as keyframes"};
+  }
+  if (camera.eye) {
+    if (Found found =
+            place_problem(*camera.eye, *camera.target, camera.up, at + ".target", at + ".up"))
+      return found;
+  }
+  if (Found found = keyframe_problem(camera, at)) return found;
+  return follow_problem(scene, camera.follow, at);
 }
 
-Found mosaic_problem(const Scene& scene, const Mosaic& mosaic) {
+Found problem_of(const Scene& scene, const View& view) {
+  const std::string at = "view." + view.name;
+  if (view.slice.normal.norm() <= negligible)
+    return Problem{at + ".slice.normal", "normal is zero", "it must point across the plane"};
+  if (Found found = follow_problem(scene, view.slice.follow, at + ".slice")) return found;
+  if (view.camera)
+    if (Found found = camera_problem(scene, *view.camera, at + ".camera")) return found;
+  if (has_layer(view, Layer::smoke) && has_layer(view, Layer::dust))
+    return Problem{at + ".layers", "smoke and dust are both drawn as smoke",
+                   "give each a view of its own; dust goes with snow or particles"};
+  if (view.clip && view.clip->normal.norm() <= negligible)
+    return Problem{at + ".clip.normal", "normal is zero",
+                   "it must point towards the side to cut away"};
+  return {};
+}
+
+Found problem_of(const Scene& scene, const Mosaic& mosaic) {
   constexpr std::size_t most = 64;
   const std::string at = "mosaic." + mosaic.name;
   std::vector<std::string> names;
@@ -497,7 +510,7 @@ Found carried_problem(const Scene& scene, const Export& e) {
   return {};
 }
 
-Found export_problem(const Scene& scene, const Export& e) {
+Found problem_of(const Scene& scene, const Export& e) {
   const std::string at = "export." + e.name;
   if (Found found = export_format_problem(e)) return found;
   if (Found found = e.dust ? dust_export_problem(e) : Found{}) return found;
@@ -589,17 +602,11 @@ Found motion_problem(const Collider& collider) {
     return Problem{at + key, std::string(key + 1) + " and keyframes both move the collider",
                    "give one of the two; two equal keyframes hold the collider still"};
   }
-  const sim::shapes::PoseKeyframe* before = nullptr;
-  std::size_t index = 0;
-  for (const sim::shapes::PoseKeyframe& key : collider.keyframes) {
-    const std::string key_at = at + ".keyframes[" + std::to_string(++index) + "]";
-    const std::string who = "keyframe " + std::to_string(index);
-    if (before && !(key.time > before->time)) {
-      return Problem{key_at + ".time",
-                     who + " is at " + toml::number_text(key.time) + " s, the one before at " +
-                         toml::number_text(before->time) + " s",
-                     "times must increase from one keyframe to the next"};
-    }
+  for (std::size_t k = 0; k < collider.keyframes.size(); ++k) {
+    if (Found found = order_problem(collider.keyframes, k, at)) return found;
+    const sim::shapes::PoseKeyframe& key = collider.keyframes[k];
+    const sim::shapes::PoseKeyframe* before = k > 0 ? &key - 1 : nullptr;
+    const std::string key_at = key_address(at, k), who = "keyframe " + std::to_string(k + 1);
     if (before && key.time - before->time < 1e-9) {
       return Problem{key_at + ".time", who + " is less than 1e-9 s after the one before",
                      "for a jump, set the keyframes 1e-4 s apart, less than a step"};
@@ -612,13 +619,12 @@ Found motion_problem(const Collider& collider) {
           key_at + ".rotation", who + " turns by 180 degrees or more since the one before",
           "a collider turns the shorter way; add a keyframe in between, or use angular_velocity"};
     }
-    before = &key;
   }
   return {};
 }
 
 /// A plane may have its point anywhere: any other of its surface does as well.
-Found collider_problem(const Scene& scene, const Collider& collider) {
+Found problem_of(const Scene& scene, const Collider& collider) {
   const std::string address = "collider." + collider.name;
   if (Found found = form_problem(collider.shape, address)) return found;
   if (Found found = motion_problem(collider)) return found;
@@ -628,8 +634,8 @@ Found collider_problem(const Scene& scene, const Collider& collider) {
   if (Found found = too_far(scene, sim::shapes::center(collider.shape), at)) return found;
   for (std::size_t k = 0; k < collider.keyframes.size(); ++k) {
     if (!collider.keyframes[k].position) continue;
-    if (Found found = too_far(scene, *collider.keyframes[k].position,
-                              address + ".keyframes[" + std::to_string(k + 1) + "].position"))
+    if (Found found =
+            too_far(scene, *collider.keyframes[k].position, key_address(address, k) + ".position"))
       return found;
   }
   return ready_problem(address, [&] {
@@ -713,25 +719,17 @@ Found key_problem(const CurveKeyframe& key, const FlatParam& param, const std::s
 
 Found curve_problem(const Scene& scene, const Curve& curve, const FlatParam* param) {
   if (Found found = parameter_problem(scene, curve, param)) return found;
-  const std::string at = "curve." + curve.name + ".keyframes";
+  const std::string at = "curve." + curve.name;
   if (curve.keyframes.empty())
-    return Problem{at, "the curve has no keyframes",
+    return Problem{at + ".keyframes", "the curve has no keyframes",
                    "add keyframes = [{ time = 0, value = ... }, { time = 1, value = ... }]"};
-  const CurveKeyframe* before = nullptr;
-  std::size_t index = 0;
-  for (const CurveKeyframe& key : curve.keyframes) {
-    const std::string key_at = at + "[" + std::to_string(++index) + "]";
-    if (before && !(key.time > before->time))
-      return Problem{key_at + ".time",
-                     "keyframe " + std::to_string(index) + " is at " + toml::number_text(key.time) +
-                         " s, the one before at " + toml::number_text(before->time) + " s",
-                     "times must increase from one keyframe to the next"};
-    if (Found found = key_problem(key, *param, key_at)) return found;
-    before = &key;
+  for (std::size_t k = 0; k < curve.keyframes.size(); ++k) {
+    if (Found found = order_problem(curve.keyframes, k, at)) return found;
+    if (Found found = key_problem(curve.keyframes[k], *param, key_address(at, k))) return found;
   }
   for (const Curve& other : scene.curves)
     if (&other < &curve && other.parameter == curve.parameter)
-      return Problem{"curve." + curve.name + ".parameter",
+      return Problem{at + ".parameter",
                      curve.parameter + " has the curve " + other.name + " already",
                      "put all keyframes of a parameter into one curve"};
   return {};
@@ -758,52 +756,30 @@ std::optional<Problem> find_problem(const Scene& scene) {
     return Problem{"", "the scene has no body and no emitter",
                    "add [[body]] with shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }"};
   }
-  for (const sim::Material& material : scene.materials) {
-    if ((found = variation_problem(scene, material))) return found;
-  }
-  for (const sim::seeding::Body& body : scene.bodies) {
-    if ((found = body_problem(scene, body))) return found;
-  }
-  for (const sim::seeding::Emitter& emitter : scene.emitters) {
-    if ((found = emitter_problem(scene, emitter))) return found;
-  }
-  for (const sim::seeding::Sink& sink : scene.sinks) {
-    if ((found = sink_problem(sink))) return found;
-  }
+  const auto is_wrong = [&](const auto& list) {
+    return std::ranges::any_of(list, [&](const auto& one) {
+      found = problem_of(scene, one);
+      return found.has_value();
+    });
+  };
+  if (is_wrong(scene.materials) || is_wrong(scene.bodies) || is_wrong(scene.emitters) ||
+      is_wrong(scene.sinks))
+    return found;
   if (scene.colliders.size() > sim::kernels::max_colliders)
     return Problem{"collider." + scene.colliders[sim::kernels::max_colliders].name,
                    "there are " + std::to_string(scene.colliders.size()) + " colliders",
                    "at most " + std::to_string(sim::kernels::max_colliders) + " are allowed"};
-  for (const Collider& collider : scene.colliders) {
-    if ((found = collider_problem(scene, collider))) return found;
-  }
+  if (is_wrong(scene.colliders)) return found;
   if ((found = curves_problem(scene))) return found;
-  if (scene.camera && (found = camera_problem(*scene.camera, "camera"))) return found;
-  if (scene.camera && (found = follow_problem(scene, scene.camera->follow, "camera"))) return found;
-  if ((found = light_problem(scene.light))) return found;
-  for (const View& view : scene.views) {
-    const std::string at = "view." + view.name;
-    if ((found = slice_problem(scene, view.slice, at + ".slice"))) return found;
-    if (view.camera && (found = camera_problem(*view.camera, at + ".camera"))) return found;
-    if (view.camera && (found = follow_problem(scene, view.camera->follow, at + ".camera")))
-      return found;
-    if (has_layer(view, Layer::smoke) && has_layer(view, Layer::dust))
-      return Problem{at + ".layers", "smoke and dust are both drawn as smoke",
-                     "give each a view of its own; dust goes with snow or particles"};
-    if (view.clip && view.clip->normal.norm() <= negligible)
-      return Problem{at + ".clip.normal", "normal is zero",
-                     "it must point towards the side to cut away"};
-  }
-  for (const Mosaic& mosaic : scene.mosaics) {
-    if ((found = mosaic_problem(scene, mosaic))) return found;
-  }
+  if (scene.camera && (found = camera_problem(scene, *scene.camera, "camera"))) return found;
+  if (scene.light.direction.norm() <= negligible)
+    return Problem{"light.direction", "direction is zero", "it must point towards the light"};
+  if (is_wrong(scene.views) || is_wrong(scene.mosaics)) return found;
   // Each is compared with each, and held beside every other one.
   if (scene.exports.size() > max_exports)
     return Problem{"export", "has more than " + std::to_string(max_exports) + " exports",
                    "write several attributes into one file"};
-  for (const Export& e : scene.exports) {
-    if ((found = export_problem(scene, e))) return found;
-  }
+  if (is_wrong(scene.exports)) return found;
   return shot_problem(scene);
 }
 
