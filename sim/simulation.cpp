@@ -25,111 +25,20 @@ Simulation::Simulation(const SolverSettings& settings, const std::vector<Materia
     make(float());
 }
 
-Simulation::~Simulation() = default;
-Simulation::Simulation(Simulation&&) noexcept = default;
-Simulation& Simulation::operator=(Simulation&&) noexcept = default;
-
-double Simulation::time() const {
-  return stepper_->progress().time;
-}
-std::size_t Simulation::steps() const {
-  return stepper_->progress().steps;
-}
-double Simulation::dt_scale() const {
-  return stepper_->progress().dt_scale;
-}
-seeding::FlowTotals Simulation::flow_totals() const {
-  return stepper_->progress().flow;
-}
 std::vector<std::uint64_t> Simulation::withheld() const {
   std::vector<std::uint64_t> counts;
   for (const seeding::EmitterStream::State& emitter : emitter_states())
     counts.push_back(emitter.withheld);
   return counts;
 }
-std::vector<seeding::EmitterStream::State> Simulation::emitter_states() const {
-  return stepper_->emitter_states();
-}
-const Warnings& Simulation::warnings() const {
-  return stepper_->progress().warnings;
-}
-const std::optional<Divergence>& Simulation::divergence() const {
-  return stepper_->divergence();
-}
-SolveReport Simulation::last_solve() const {
-  return stepper_->last_solve();
-}
-PhaseSeconds Simulation::phase_seconds() const {
-  return stepper_->phase_seconds();
-}
-DtChoice Simulation::choose_dt(double remaining) const {
-  return stepper_->choose_dt(remaining);
-}
-StepLimits Simulation::step_limits() const {
-  return stepper_->step_limits();
-}
-std::size_t Simulation::particle_count() const {
-  return stepper_->particle_count();
-}
-int Simulation::threads() const {
-  return stepper_->threads();
-}
-const char* Simulation::simd() const {
-  return stepper_->simd();
-}
-std::uint64_t Simulation::memory_bytes() const {
-  return stepper_->memory_bytes();
-}
 
-void Simulation::step(double dt) {
-  stepper_->step(dt);
-}
-AdvanceReport Simulation::advance_to(double time, const StepObserver& after_step,
-                                     std::size_t last_step) {
-  return stepper_->advance_to(time, after_step, last_step);
-}
 void Simulation::apply(const SolverSettings& settings, const std::vector<Material>& materials,
                        const std::vector<shapes::Collider>& colliders) {
   stepper_->apply(settings, laws::in_cells(materials, settings), colliders);
 }
-std::vector<std::uint8_t> Simulation::save() const {
-  return stepper_->save();
-}
-void Simulation::restore(std::span<const std::uint8_t> bytes) {
-  stepper_->restore(bytes);
-}
+
 bool Simulation::can_read(std::span<const std::uint8_t> saved) {
   return engine::has_this_layout(saved);
-}
-
-void Simulation::restore_healthy(std::span<const std::uint8_t> bytes) {
-  stepper_->require_healthy(bytes);
-  stepper_->restore(bytes);
-}
-void Simulation::set_dt_scale(double scale) {
-  stepper_->set_dt_scale(scale);
-}
-
-std::vector<shapes::Collider> Simulation::colliders() const {
-  return stepper_->colliders();
-}
-Summary Simulation::summary() const {
-  return stepper_->summary();
-}
-ParticleArrays Simulation::particles() const {
-  return stepper_->particles();
-}
-DustArrays Simulation::dust() const {
-  return stepper_->dust();
-}
-std::vector<Mat3d> Simulation::kirchhoff() const {
-  return stepper_->kirchhoff();
-}
-std::vector<Vec3i> Simulation::cells() const {
-  return stepper_->cells();
-}
-std::uint64_t Simulation::state_hash() const {
-  return stepper_->state_hash();
 }
 
 StagedStep staged_step(const Simulation& simulation, double dt) {

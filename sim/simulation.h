@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/engine/stepper.h"
 #include "sim/seeding/flow.h"
 #include "sim/shapes/collider.h"
 #include "sim/types/dust.h"
@@ -21,10 +22,6 @@
 
 namespace neve::sim {
 
-namespace engine {
-class Stepper;
-}
-
 class Simulation {
  public:
   /// @param flow  emitters and sinks; they never change
@@ -37,36 +34,37 @@ class Simulation {
              const std::vector<shapes::Collider>& colliders, const ParticleArrays& particles,
              int threads = 0, const Vec3i& lattice_origin = Vec3i::Zero(),
              const seeding::Flow& flow = {});
-  ~Simulation();
-  Simulation(Simulation&&) noexcept;
-  Simulation& operator=(Simulation&&) noexcept;
 
   /// For functions that inspect a simulation.
   const engine::Stepper& stepper() const { return *stepper_; }
 
-  double time() const;
-  std::size_t steps() const;
-  std::size_t particle_count() const;
-  seeding::FlowTotals flow_totals() const;
+  double time() const { return stepper_->progress().time; }
+  std::size_t steps() const { return stepper_->progress().steps; }
+  std::size_t particle_count() const { return stepper_->particle_count(); }
+  seeding::FlowTotals flow_totals() const { return stepper_->progress().flow; }
   /// Births of each emitter that found no room so far.
   std::vector<std::uint64_t> withheld() const;
   /// Births of each emitter so far, and what was in their way.
-  std::vector<seeding::EmitterStream::State> emitter_states() const;
-  int threads() const;
-  const char* simd() const;
-  PhaseSeconds phase_seconds() const;
+  std::vector<seeding::EmitterStream::State> emitter_states() const {
+    return stepper_->emitter_states();
+  }
+  int threads() const { return stepper_->threads(); }
+  const char* simd() const { return stepper_->simd(); }
+  PhaseSeconds phase_seconds() const { return stepper_->phase_seconds(); }
 
   /// Bytes held by particles, grid and buffers.
-  std::uint64_t memory_bytes() const;
+  std::uint64_t memory_bytes() const { return stepper_->memory_bytes(); }
 
   /// One step of exactly dt seconds through the fused driver.
-  void step(double dt);
+  void step(double dt) { stepper_->step(dt); }
 
   /// Steps chosen by the settings until `time` is reached, ending on it exactly. Stops early on
   /// divergence, after a step when the observer says so, or when steps() has reached `last_step`;
   /// called again with the same time it continues as if it had not stopped.
   AdvanceReport advance_to(double time, const StepObserver& after_step = {},
-                           std::size_t last_step = std::numeric_limits<std::size_t>::max());
+                           std::size_t last_step = std::numeric_limits<std::size_t>::max()) {
+    return stepper_->advance_to(time, after_step, last_step);
+  }
 
   /// Changes parameters between steps, all that need no restart: settings but cell_size, precision
   /// and period; materials but their number and density; colliders, also more or fewer of them.
@@ -90,59 +88,62 @@ class Simulation {
              const std::vector<shapes::Collider>& colliders);
 
   /// As they are now: pose_at(collider, time()) is where each of them is.
-  std::vector<shapes::Collider> colliders() const;
+  std::vector<shapes::Collider> colliders() const { return stepper_->colliders(); }
 
   /// The dt that the settings would choose now, and the limit that rules it.
-  DtChoice choose_dt(double remaining) const;
+  DtChoice choose_dt(double remaining) const { return stepper_->choose_dt(remaining); }
 
   /// The dt that each limit would allow now, also with fixed steps, and why.
-  StepLimits step_limits() const;
+  StepLimits step_limits() const { return stepper_->step_limits(); }
 
   /// Set once a rule of a healthy run was broken.
-  const std::optional<Divergence>& divergence() const;
-  const Warnings& warnings() const;
+  const std::optional<Divergence>& divergence() const { return stepper_->divergence(); }
+  const Warnings& warnings() const { return stepper_->progress().warnings; }
   /// Report of the last step, if it was semi-implicit.
-  SolveReport last_solve() const;
+  SolveReport last_solve() const { return stepper_->last_solve(); }
 
-  Summary summary() const;
+  Summary summary() const { return stepper_->summary(); }
 
   /// All particles in id order. Volumes that are to be estimated are known from the start: they
   /// follow from the mass on the grid before the first step.
-  ParticleArrays particles() const;
+  ParticleArrays particles() const { return stepper_->particles(); }
 
   /// Dust in the air, and all that there has been. It never changes the snow, unless
   /// DustSettings::spray_drag asks for it.
-  DustArrays dust() const;
+  DustArrays dust() const { return stepper_->dust(); }
 
   /// Kirchhoff stress tau = P F_E^T in Pa, id order.
-  std::vector<Mat3d> kirchhoff() const;
+  std::vector<Mat3d> kirchhoff() const { return stepper_->kirchhoff(); }
 
   /// Cell of each particle (lattice units, absolute) and offset in it, id order.
-  std::vector<Vec3i> cells() const;
+  std::vector<Vec3i> cells() const { return stepper_->cells(); }
 
   /// Commutative sum of per-particle hashes keyed by id; cells enter relative to the lattice
   /// origin.
-  std::uint64_t state_hash() const;
+  std::uint64_t state_hash() const { return stepper_->state_hash(); }
 
   /// The state as bytes, for the same program and machine: a simulation with the same settings,
   /// materials and colliders that restores them takes the same steps to the bit.
-  std::vector<std::uint8_t> save() const;
+  std::vector<std::uint8_t> save() const { return stepper_->save(); }
 
   /// Whether this program saves states in the way of the bytes: builds from other sources may not.
   static bool can_read(std::span<const std::uint8_t> saved);
 
   /// @throws SavedStateError for bytes that no such simulation saved; nothing has changed then
-  void restore(std::span<const std::uint8_t> bytes);
+  void restore(std::span<const std::uint8_t> bytes) { stepper_->restore(bytes); }
 
   /// As restore(), of bytes from a file: no healthy run has these numbers, however well they fit
   /// together. A diverged state is no healthy one.
   /// @throws SavedStateError that names the number; nothing has changed then
-  void restore_healthy(std::span<const std::uint8_t> bytes);
+  void restore_healthy(std::span<const std::uint8_t> bytes) {
+    stepper_->require_healthy(bytes);
+    stepper_->restore(bytes);
+  }
 
   /// Sets the factor of every dt that the settings choose from now on, (0, 1]: a run that broke a
   /// rule continues with shorter steps.
-  void set_dt_scale(double scale);
-  double dt_scale() const;
+  void set_dt_scale(double scale) { stepper_->set_dt_scale(scale); }
+  double dt_scale() const { return stepper_->progress().dt_scale; }
 
  private:
   std::unique_ptr<engine::Stepper> stepper_;

@@ -6,13 +6,7 @@
 #include <utility>
 
 #include "sim/engine/dust_feed.h"
-#include "sim/engine/live_changes.h"
 #include "sim/engine/load.h"
-#include "sim/engine/rasterize.h"
-#include "sim/engine/saved_state.h"
-#include "sim/engine/staged_step.h"
-#include "sim/engine/state_reader.h"
-#include "sim/kernels/simd.h"
 
 namespace neve::sim::engine {
 
@@ -244,17 +238,7 @@ void Engine<Real>::restore(std::span<const std::uint8_t> bytes) {
   dust_ = std::move(dust);
 }
 
-template <class Real>
-void Engine<Real>::require_healthy(std::span<const std::uint8_t> bytes) const {
-  engine::require_healthy(split(bytes).snow, state_, flow_);
-}
-
 // ---- queries ------------------------------------------------------------------------------------
-
-template <class Real>
-const char* Engine<Real>::simd() const {
-  return kernels::name(state_.method.simd);
-}
 
 template <class Real>
 std::uint64_t Engine<Real>::memory_bytes() const {
@@ -264,60 +248,10 @@ std::uint64_t Engine<Real>::memory_bytes() const {
 }
 
 template <class Real>
-std::vector<shapes::Collider> Engine<Real>::colliders() const {
-  return colliders_now(state_);
-}
-
-template <class Real>
 Summary Engine<Real>::summary() const {
   Summary summary = StateReader<Real>(state_).summary();
   summary.dust = dust_.cloud().totals;
   return summary;
-}
-
-template <class Real>
-EnergyAccount Engine<Real>::energy_account() const {
-  return engine::energy_account(state_.method.settings, state_.progress.energy, summary());
-}
-
-template <class Real>
-ParticleArrays Engine<Real>::particles() const {
-  return StateReader<Real>(state_).particles();
-}
-
-template <class Real>
-DustArrays Engine<Real>::dust() const {
-  return has_dust() ? dust_.arrays() : DustArrays{};
-}
-
-template <class Real>
-std::vector<Mat3d> Engine<Real>::kirchhoff() const {
-  return StateReader<Real>(state_).kirchhoff();
-}
-
-template <class Real>
-std::vector<Vec3i> Engine<Real>::cells() const {
-  return StateReader<Real>(state_).cells();
-}
-
-template <class Real>
-std::uint64_t Engine<Real>::state_hash() const {
-  return StateReader<Real>(state_).state_hash();
-}
-
-template <class Real>
-StagedStep Engine<Real>::staged_step(double dt) const {
-  return engine::staged_step(state_, dt);
-}
-
-template <class Real>
-RasterizedNodes Engine<Real>::rasterize(const std::vector<std::vector<double>>& values) const {
-  return engine::rasterize(state_, values);
-}
-
-template <class Real>
-RasterizedNodes Engine<Real>::rasterize_some(const std::vector<std::size_t>& rows) const {
-  return engine::rasterize_some(state_, rows);
 }
 
 template class Engine<float>;

@@ -2,9 +2,15 @@
 /// A simulation in one precision: steps, and all that happens between them.
 
 #include "sim/dust/dust.h"
+#include "sim/engine/live_changes.h"
+#include "sim/engine/rasterize.h"
+#include "sim/engine/saved_state.h"
 #include "sim/engine/snow_flow.h"
+#include "sim/engine/staged_step.h"
+#include "sim/engine/state_reader.h"
 #include "sim/engine/step.h"
 #include "sim/engine/stepper.h"
+#include "sim/kernels/simd.h"
 #include "sim/state/health_watch.h"
 #include "sim/state/state.h"
 
@@ -23,7 +29,9 @@ class Engine final : public Stepper {
   void apply(const SolverSettings& settings, const std::vector<Material>& materials,
              const std::vector<shapes::Collider>& colliders) override;
   void restore(std::span<const std::uint8_t> bytes) override;
-  void require_healthy(std::span<const std::uint8_t> bytes) const override;
+  void require_healthy(std::span<const std::uint8_t> bytes) const override {
+    engine::require_healthy(split(bytes).snow, state_, flow_);
+  }
   void set_dt_scale(double scale) override { state_.progress.dt_scale = scale; }
 
   const Progress& progress() const override { return state_.progress; }
@@ -38,21 +46,27 @@ class Engine final : public Stepper {
 
   std::size_t particle_count() const override { return state_.particles.size(); }
   int threads() const override { return state_.pool->thread_count(); }
-  const char* simd() const override;
+  const char* simd() const override { return kernels::name(state_.method.simd); }
   std::uint64_t memory_bytes() const override;
 
-  std::vector<shapes::Collider> colliders() const override;
+  std::vector<shapes::Collider> colliders() const override { return colliders_now(state_); }
   Summary summary() const override;
-  EnergyAccount energy_account() const override;
-  ParticleArrays particles() const override;
-  DustArrays dust() const override;
-  std::vector<Mat3d> kirchhoff() const override;
-  std::vector<Vec3i> cells() const override;
-  std::uint64_t state_hash() const override;
+  EnergyAccount energy_account() const override {
+    return engine::energy_account(state_.method.settings, state_.progress.energy, summary());
+  }
+  ParticleArrays particles() const override { return StateReader<Real>(state_).particles(); }
+  DustArrays dust() const override { return has_dust() ? dust_.arrays() : DustArrays{}; }
+  std::vector<Mat3d> kirchhoff() const override { return StateReader<Real>(state_).kirchhoff(); }
+  std::vector<Vec3i> cells() const override { return StateReader<Real>(state_).cells(); }
+  std::uint64_t state_hash() const override { return StateReader<Real>(state_).state_hash(); }
   std::vector<std::uint8_t> save() const override;
-  StagedStep staged_step(double dt) const override;
-  RasterizedNodes rasterize(const std::vector<std::vector<double>>& values) const override;
-  RasterizedNodes rasterize_some(const std::vector<std::size_t>& rows) const override;
+  StagedStep staged_step(double dt) const override { return engine::staged_step(state_, dt); }
+  RasterizedNodes rasterize(const std::vector<std::vector<double>>& values) const override {
+    return engine::rasterize(state_, values);
+  }
+  RasterizedNodes rasterize_some(const std::vector<std::size_t>& rows) const override {
+    return engine::rasterize_some(state_, rows);
+  }
 
  private:
   void take_whole_step(double dt);
