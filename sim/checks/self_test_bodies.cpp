@@ -15,7 +15,7 @@ constexpr int per_row = 3;
 void add(ParticleArrays& p, const Vec3d& x, double volume) {
   p.x.push_back(x);
   p.v.push_back(Vec3d::Zero());
-  p.m.push_back(self_test::density * volume);
+  p.m.push_back(density * volume);
   p.V0.push_back(volume);
 }
 
@@ -56,7 +56,7 @@ Material elastic_material() {
 
 SolverSettings settings_of(const SelfTestCase& test) {
   SolverSettings settings;
-  settings.cell_size = self_test::cell_size;
+  settings.cell_size = cell_size;
   settings.kernel = test.kernel;
   settings.transfer = test.transfer;
   settings.precision = test.precision;
@@ -65,7 +65,7 @@ SolverSettings settings_of(const SelfTestCase& test) {
   return settings;
 }
 
-double self_test::Numbers::operator()() {
+double Numbers::operator()() {
   // xorshift64 (Marsaglia 2003): any library's distribution would give other numbers elsewhere.
   state_ ^= state_ << 13;
   state_ ^= state_ >> 7;
@@ -74,13 +74,12 @@ double self_test::Numbers::operator()() {
 }
 
 ParticleArrays isolated_particles(int count) {
-  self_test::Numbers number(1);
+  Numbers number(1);
   ParticleArrays p;
   for (int q = 0; q < count; ++q) {
     const Vec3d cell(q % per_row, q / per_row % per_row, q / (per_row * per_row));
     const Vec3d offset = 0.5 * (number.vector() + Vec3d::Ones());
-    add(p, (cells_apart * cell + offset) * self_test::cell_size,
-        std::pow(self_test::cell_size, 3) / 8);
+    add(p, (cells_apart * cell + offset) * cell_size, std::pow(cell_size, 3) / 8);
   }
   p.F_E.assign(p.x.size(), Mat3d::Identity());
   p.J_P.assign(p.x.size(), 1);
@@ -102,18 +101,17 @@ ParticleArrays even_lattice() {
     for (int i = -reach; i < reach; ++i)
       for (int j = -reach; j < reach; ++j)
         for (int k = -reach; k < reach; ++k)
-          add(p, (Vec3d(i, j, k) + offset) * self_test::cell_size,
-              std::pow(self_test::cell_size, 3) / 2);
+          add(p, (Vec3d(i, j, k) + offset) * cell_size, std::pow(cell_size, 3) / 2);
   return p;
 }
 
 bool is_deep_inside(const Vec3d& x) {
-  return x.cwiseAbs().maxCoeff() < self_test::cell_size;
+  return x.cwiseAbs().maxCoeff() < cell_size;
 }
 
 ParticleArrays small_ball() {
-  self_test::Numbers number(2);
-  constexpr double radius = 2 * self_test::cell_size;
+  Numbers number(2);
+  constexpr double radius = 2 * cell_size;
   constexpr int count = 160;
   ParticleArrays p;
   while (p.x.size() < count) {
@@ -131,23 +129,21 @@ Vec3d grid_velocity(Kernel kernel, const NodeFields& nodes, const Vec3d& x) {
 }
 
 double inertia(Kernel kernel) {
-  return self_test::cell_size * self_test::cell_size *
-         (kernel == Kernel::cubic ? 1.0 / 3 : 1.0 / 4);
+  return cell_size * cell_size * (kernel == Kernel::cubic ? 1.0 / 3 : 1.0 / 4);
 }
 
 double weight(Kernel kernel, const Vec3d& d) {
-  return spline(kernel, d[0] / self_test::cell_size) * spline(kernel, d[1] / self_test::cell_size) *
-         spline(kernel, d[2] / self_test::cell_size);
+  return spline(kernel, d[0] / cell_size) * spline(kernel, d[1] / cell_size) *
+         spline(kernel, d[2] / cell_size);
 }
 
 Vec3d weight_gradient(Kernel kernel, Transfer transfer, const Vec3d& d) {
-  if (transfer == Transfer::mls)
-    return self_test::weight(kernel, d) / self_test::inertia(kernel) * d;
+  if (transfer == Transfer::mls) return weight(kernel, d) / inertia(kernel) * d;
   Vec3d N, slope;
   for (int a = 0; a < 3; ++a) {
-    N[a] = spline(kernel, d[a] / self_test::cell_size);
+    N[a] = spline(kernel, d[a] / cell_size);
     // By x_p, which is subtracted.
-    slope[a] = -spline_slope(kernel, d[a] / self_test::cell_size) / self_test::cell_size;
+    slope[a] = -spline_slope(kernel, d[a] / cell_size) / cell_size;
   }
   return {slope[0] * N[1] * N[2], N[0] * slope[1] * N[2], N[0] * N[1] * slope[2]};
 }
@@ -161,11 +157,11 @@ std::vector<Vec3d> felt_forces(const StagedStep& step, double dt) {
 
 std::vector<Mat3d> felt_stress(const ParticleArrays& particles, const StagedStep& step, double dt) {
   std::vector<Mat3d> stress(particles.x.size(), Mat3d::Zero());
-  const std::vector<Vec3d> forces = self_test::felt_forces(step, dt);
+  const std::vector<Vec3d> forces = felt_forces(step, dt);
   for (std::size_t i = 0; i < forces.size(); ++i) {
-    const std::size_t q = self_test::owner(step.nodes.node[i]);
+    const std::size_t q = owner(step.nodes.node[i]);
     if (q >= stress.size()) continue;
-    const Vec3d arm = self_test::place(step.nodes.node[i]) - particles.x[q];
+    const Vec3d arm = place(step.nodes.node[i]) - particles.x[q];
     stress[q] -= forces[i] * arm.transpose() / particles.V0[q];
   }
   return stress;

@@ -68,7 +68,7 @@ double inertia(Kernel kernel);
 
 /// Position of a node, m.
 inline Vec3d place(const Vec3i& node) {
-  return node.cast<double>() * self_test::cell_size;
+  return node.cast<double>() * cell_size;
 }
 
 /// Effective force on each node: from the change of the grid's velocity, without gravity, N.

@@ -11,12 +11,12 @@ namespace neve::sim::checks::self_test {
 
 /// M (v_new - v_star) = -beta dt^2 H v_new (the paper, equation 9), with H v_new taken from
 /// differences of the stress while F_E follows grad v_new.
-void solve(const SelfTestCase& test, self_test::Measure& measure) {
+void solve(const SelfTestCase& test, Measure& measure) {
   constexpr double dt = 4e-3, beta = 0.75, epsilon = 1e-5;
-  self_test::Numbers number(10);
-  std::vector<Material> materials = self_test::one_of_each_law();
+  Numbers number(10);
+  std::vector<Material> materials = one_of_each_law();
   std::erase_if(materials, [](const Material& m) { return !laws::of(m).has_derivative; });
-  ParticleArrays p = self_test::small_ball();
+  ParticleArrays p = small_ball();
   p.x.resize(60), p.v.resize(60), p.m.resize(60), p.V0.resize(60);
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     p.v[q] = number.vector();
@@ -24,7 +24,7 @@ void solve(const SelfTestCase& test, self_test::Measure& measure) {
     p.J_P.push_back(1 + 0.05 * number());
     p.material.push_back(static_cast<int>(q % materials.size()));
   }
-  SolverSettings settings = self_test::settings_of(test);
+  SolverSettings settings = settings_of(test);
   settings.beta = beta;
   settings.solve_tolerance = 1e-12;
   settings.solve_iterations = 500;
@@ -44,14 +44,13 @@ void solve(const SelfTestCase& test, self_test::Measure& measure) {
     Vec3d left = step.nodes.mass[i] * (step.nodes.v_new[i] - step.nodes.v_star[i]);
     size = std::max(size, left.norm());
     for (std::size_t q = 0; q < p.x.size(); ++q) {
-      const Vec3d d = self_test::place(step.nodes.node[i]) - p.x[q];
-      if (d.cwiseAbs().maxCoeff() < 2 * self_test::cell_size)
-        left +=
-            beta * dt * dt * stress[q] * self_test::weight_gradient(test.kernel, test.transfer, d);
+      const Vec3d d = place(step.nodes.node[i]) - p.x[q];
+      if (d.cwiseAbs().maxCoeff() < 2 * cell_size)
+        left += beta * dt * dt * stress[q] * weight_gradient(test.kernel, test.transfer, d);
     }
     worst = std::max(worst, left.norm());
   }
-  measure.zero("M (v_new - v_star) + beta dt^2 H v_new", worst / size, self_test::differences);
+  measure.zero("M (v_new - v_star) + beta dt^2 H v_new", worst / size, differences);
 }
 
 }  // namespace neve::sim::checks::self_test

@@ -30,8 +30,8 @@ std::vector<Material> soft_materials(const laws::Law& law) {
 
 /// Particles of random strains, J_P within 0.05 of a middle, one of them turned inside out.
 ParticleArrays strained_particles(unsigned seed, double J_P) {
-  self_test::Numbers number(seed);
-  ParticleArrays p = self_test::isolated_particles(48);
+  Numbers number(seed);
+  ParticleArrays p = isolated_particles(48);
   for (std::size_t q = 0; q < p.x.size(); ++q) {
     // From hardly any strain to a tenth.
     const double size = 0.1 * static_cast<double>(q) / static_cast<double>(p.x.size());
@@ -44,18 +44,17 @@ ParticleArrays strained_particles(unsigned seed, double J_P) {
 
 /// What the law claims of each particle, and that |det F_E| J_P stays where J_P is a volume.
 void yield(const laws::Law& law, const Material& material, const SelfTestCase& test,
-           self_test::Measure& measure) {
+           Measure& measure) {
   constexpr double dt = 1e-6;
   const Simulation simulation(
-      self_test::settings_of(test), {material}, {},
+      settings_of(test), {material}, {},
       strained_particles(51 + static_cast<unsigned>(law.model), law.self_test->J_P), 1);
   const ParticleArrays before = simulation.particles(), after = staged_step(simulation, dt).after;
   std::vector<laws::Claim> claims;
   for (std::size_t q = 0; q < before.x.size(); ++q) {
     const double volume = std::abs(before.F_E[q].determinant()) * before.J_P[q];
     if (laws::counts_volume(material))
-      measure.zero("|det F_E| J_P", after.F_E[q].determinant() * after.J_P[q] / volume - 1,
-                   self_test::rounding);
+      measure.zero("|det F_E| J_P", after.F_E[q].determinant() * after.J_P[q] / volume - 1);
     law.self_test->run(material, {before.F_E[q], before.J_P[q], after.F_E[q], after.J_P[q]},
                        claims);
   }
@@ -64,7 +63,7 @@ void yield(const laws::Law& law, const Material& material, const SelfTestCase& t
 
 }  // namespace
 
-void yield(const laws::Law& law, const SelfTestCase& test, self_test::Measure& measure) {
+void yield(const laws::Law& law, const SelfTestCase& test, Measure& measure) {
   for (const Material& material : soft_materials(law)) yield(law, material, test, measure);
 }
 

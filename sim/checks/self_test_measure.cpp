@@ -19,8 +19,7 @@ std::string text(const SelfTestCase& test) {
 
 }  // namespace
 
-void self_test::Measure::zero(const char* what, double value,
-                              const self_test::Tolerance& tolerance) {
+void Measure::zero(const char* what, double value, const Tolerance& tolerance) {
   const bool is_single = test_.precision == Precision::single;
   const double found = std::abs(value), allowed = is_single ? tolerance.single : tolerance.real64;
   if (is_worse(found / allowed))
@@ -28,19 +27,19 @@ void self_test::Measure::zero(const char* what, double value,
               number_text(allowed, 2) + " (" + text(test_) + ")";
 }
 
-void self_test::Measure::between(const char* what, double value, double least, double most) {
+void Measure::between(const char* what, double value, double least, double most) {
   if (is_worse(std::abs(2 * value - least - most) / (most - least)))
     detail_ = std::string(what) + " is " + number_text(value, 2) + ", allowed " +
               number_text(least, 2) + " to " + number_text(most, 2) + " (" + text(test_) + ")";
 }
 
-void self_test::Measure::failure(const std::string& message) {
+void Measure::failure(const std::string& message) {
   worst_ = infinite;
   detail_ = message + " (" + text(test_) + ")";
 }
 
 /// Keeps the worst ratio; NaN is worse than everything.
-bool self_test::Measure::is_worse(double ratio) {
+bool Measure::is_worse(double ratio) {
   if (ratio <= worst_) return false;
   worst_ = std::isnan(ratio) ? infinite : ratio;
   return true;

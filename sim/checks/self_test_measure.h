@@ -14,7 +14,7 @@ using laws::Tolerance;
 
 /// Differences of energies with a step of 1e-5 are good to 1e-10 in double. In float the forces are
 /// good to 1e-6, and random ones cancel in part.
-inline constexpr self_test::Tolerance differences{1e-6, 2e-4};
+inline constexpr Tolerance differences{1e-6, 2e-4};
 
 /// The entry of largest magnitude.
 inline double largest(const Mat3d& m) {
@@ -27,7 +27,7 @@ class Measure {
   explicit Measure(const SelfTestCase& test) : test_(test) {}
 
   /// Something that has to be 0.
-  void zero(const char* what, double value, const self_test::Tolerance& tolerance);
+  void zero(const char* what, double value, const Tolerance& tolerance = rounding);
   /// Something that has to lie in a range.
   void between(const char* what, double value, double least, double most);
   /// Something that could not be computed.

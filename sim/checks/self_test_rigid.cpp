@@ -19,7 +19,7 @@ constexpr double deepest_in_lid = 0.005;
 
 /// Impulses are whole numbers of 2^-30 of a full cell at 1 m/s; the light body got a few 1e-3 of
 /// that.
-constexpr self_test::Tolerance given_impulses{1e-5, 3e-3};
+constexpr Tolerance given_impulses{1e-5, 3e-3};
 
 struct Momentum {
   Vec3d linear, angular;  ///< kg m/s; kg m2/s about the centre of mass
@@ -48,8 +48,7 @@ shapes::Collider floating_cone(double density, double lowest) {
 }
 
 /// What snow loses the body gets, at its arm, and a light one does not fly away.
-void snow_on_a_floating_body(const SelfTestCase& test, double density,
-                             self_test::Measure& measure) {
+void snow_on_a_floating_body(const SelfTestCase& test, double density, Measure& measure) {
   ParticleArrays p = even_lattice();
   for (Vec3d& v : p.v) v = {0, -1, 0};
   const shapes::Collider start = floating_cone(density, lowest_of(p));
@@ -81,7 +80,7 @@ void snow_on_a_floating_body(const SelfTestCase& test, double density,
 }
 
 /// A light plate on a floor carries the snow that falls on it: it stays, and nothing goes through.
-void snow_on_a_lid(const SelfTestCase& test, self_test::Measure& measure) {
+void snow_on_a_lid(const SelfTestCase& test, Measure& measure) {
   SolverSettings settings = settings_of(test);
   settings.gravity = {0, -9.81, 0};
   ParticleArrays p = small_ball();
@@ -109,7 +108,7 @@ void snow_on_a_lid(const SelfTestCase& test, self_test::Measure& measure) {
 
 }  // namespace
 
-void bodies(const SelfTestCase& test, self_test::Measure& measure) {
+void bodies(const SelfTestCase& test, Measure& measure) {
   for (const double density : {0.4, 400.0}) snow_on_a_floating_body(test, density, measure);
   snow_on_a_lid(test, measure);
 }
