@@ -29,17 +29,12 @@ constexpr std::size_t max_sampled = 400;
 constexpr std::size_t max_compared = 1000;
 constexpr int min_looks = 24, max_looks = 240;
 
-struct Box {
-  Vec3d min = Vec3d::Constant(never_met), max = Vec3d::Constant(-never_met);
-  void add(const Vec3d& x) {
-    min = min.cwiseMin(x);
-    max = max.cwiseMax(x);
-  }
-  /// From face to face; 0 where they overlap.
-  double distance_to(const Vec3d& low, const Vec3d& high) const {
-    return (low - max).cwiseMax(min - high).cwiseMax(Vec3d::Zero()).norm();
-  }
-};
+using Box = sim::shapes::Bounds;
+
+/// From face to face; 0 where they overlap.
+double distance_of_boxes(const Box& a, const Box& b) {
+  return (b.min - a.max).cwiseMax(a.min - b.max).cwiseMax(Vec3d::Zero()).norm();
+}
 
 /// What gravity does to whatever falls freely; a curve gives it another value in each frame.
 class Fall {
@@ -111,7 +106,7 @@ class Flight {
   /// m/s, at the end of a flight.
   double speed_at(double time) const { return (body_->velocity + fall_->velocity_at(time)).norm(); }
   /// m
-  double size() const { return (box_.max - box_.min).norm(); }
+  double size() const { return box_.diagonal(); }
 
   double stopped = never_met;  ///< s; at a collider
 
@@ -152,8 +147,7 @@ struct Nearest {
 double distance_to(const sim::shapes::Collider& collider, double time, const Box& box,
                    const std::vector<Vec3d>& places, double reach) {
   if (!std::holds_alternative<sim::shapes::Plane>(collider.shape.form)) {
-    const sim::shapes::Bounds bounds = sim::shapes::bounds_at(collider, time);
-    const double apart = box.distance_to(bounds.min, bounds.max);
+    const double apart = distance_of_boxes(box, sim::shapes::bounds_at(collider, time));
     if (apart > reach) return apart;
   }
   double least = never_met;
@@ -164,7 +158,7 @@ double distance_to(const sim::shapes::Collider& collider, double time, const Box
 
 double distance_between(const std::vector<Vec3d>& a, const Box& box_a, const std::vector<Vec3d>& b,
                         const Box& box_b, double reach) {
-  const double apart = box_a.distance_to(box_b.min, box_b.max);
+  const double apart = distance_of_boxes(box_a, box_b);
   if (apart > reach) return apart;
   double least = never_met;
   for (const Vec3d& x : a)

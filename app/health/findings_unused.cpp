@@ -62,18 +62,15 @@ void check_removed(const scene::Scene& scene, const std::string& kind, const std
   }
 }
 
-void check_keyframes(const scene::Scene& scene, std::vector<Finding>& findings) {
+/// @param address  of what has keyframes, the last one at a time, s
+void check_last_keyframe(const scene::Scene& scene, const std::string& address,
+                         const std::string& name, double last, std::vector<Finding>& findings) {
   const double end = scene::duration(scene);
-  for (const scene::Collider& collider : scene.colliders) {
-    if (collider.keyframes.size() < 2 || end <= 0) continue;
-    const double last = collider.keyframes.back().time;
-    if (last <= end * (1 + 1e-9)) continue;
-    findings.push_back(
-        {Severity::warning, "collider." + collider.name + ".keyframes",
-         fmt::format("the last keyframe of {} is at {} s, the scene ends at {} s",
-                     display_name("collider", collider.name), rough_text(last), rough_text(end)),
-         "make frames larger, or move keyframes earlier"});
-  }
+  if (end > 0 && last > end * (1 + 1e-9))
+    findings.push_back({Severity::warning, address + ".keyframes",
+                        fmt::format("the last keyframe of {} is at {} s, the scene ends at {} s",
+                                    name, rough_text(last), rough_text(end)),
+                        "make frames larger, or move keyframes earlier"});
 }
 
 /// True if a view sets anything of a slice other than its automatic place.
@@ -100,12 +97,8 @@ void check_slices(const scene::Scene& scene, std::vector<Finding>& findings) {
 void check_snow_in_views(const scene::Scene& scene, std::vector<Finding>& findings) {
   using scene::Layer;
   if (scene.bodies.empty() || !scene.emitters.empty()) return;
-  sim::shapes::Bounds all = sim::shapes::bounds(scene.bodies.front().shape);
-  for (const sim::seeding::Body& body : scene.bodies) {
-    const sim::shapes::Bounds bounds = sim::shapes::bounds(body.shape);
-    all.min = all.min.cwiseMin(bounds.min);
-    all.max = all.max.cwiseMax(bounds.max);
-  }
+  sim::shapes::Bounds all;
+  for (const sim::seeding::Body& body : scene.bodies) all.add(sim::shapes::bounds(body.shape));
   // Snow that falls or flies across a plane may come to it.
   const auto stays = [&](const sim::Vec3d& normal) {
     double across = std::abs(scene.solver.gravity.dot(normal));
@@ -115,12 +108,12 @@ void check_snow_in_views(const scene::Scene& scene, std::vector<Finding>& findin
   };
   // Distances from a plane to the nearest and the farthest corner, along its normal.
   const auto ends = [&](const sim::Vec3d& point, const sim::Vec3d& normal) {
-    const sim::Vec3d middle = 0.5 * (all.min + all.max), half = 0.5 * (all.max - all.min);
-    const double away = (middle - point).dot(normal), reach = half.dot(normal.cwiseAbs());
+    const sim::Vec3d half = 0.5 * (all.max - all.min);
+    const double away = (all.center() - point).dot(normal), reach = half.dot(normal.cwiseAbs());
     return std::pair(away - reach, away + reach);
   };
   constexpr double sizes_away = 1;  // of the snow, which spreads
-  const double room = sizes_away * (all.max - all.min).norm();
+  const double room = sizes_away * all.diagonal();
   for (const scene::View& view : scene.views) {
     const auto add = [&](const std::string& part, const std::string& what, const char* advice) {
       findings.push_back({Severity::warning, "view." + view.name + part, what, advice});
@@ -290,17 +283,12 @@ std::string value_text(const std::optional<scene::toml::Value>& value) {
 /// Keyframes that no frame has, and values that the scene gives beside a curve.
 void check_curves(const scene::Scene& scene, double coarsening, std::vector<Finding>& findings) {
   if (scene.curves.empty()) return;
-  const double end = scene::duration(scene);
   const std::vector<scene::FlatParam> params = scene::flatten(scene);
   const std::vector<scene::Override> first = setup::curve_values(scene, 0);
   for (std::size_t k = 0; k < std::min(first.size(), scene.curves.size()); ++k) {
     const scene::Curve& curve = scene.curves[k];
-    const double last = curve.keyframes.back().time;
-    if (end > 0 && last > end * (1 + 1e-9))
-      findings.push_back({Severity::warning, "curve." + curve.name + ".keyframes",
-                          fmt::format("the last keyframe of {} is at {} s, the scene ends at {} s",
-                                      curve.parameter, rough_text(last), rough_text(end)),
-                          "make frames larger, or move keyframes earlier"});
+    check_last_keyframe(scene, "curve." + curve.name, curve.parameter, curve.keyframes.back().time,
+                        findings);
     if (idle_at(scene, curve.parameter)) continue;  // check_idle() tells it
     findings.push_back(
         {Severity::note, curve.parameter,
@@ -347,7 +335,11 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
     check_removed(scene, "body", body.name, body.shape, whole, findings);
   for (const sim::seeding::Emitter& emitter : scene.emitters)
     check_removed(scene, "emitter", emitter.name, emitter.shape, much, findings);
-  check_keyframes(scene, findings);
+  for (const scene::Collider& collider : scene.colliders)
+    if (collider.keyframes.size() >= 2)
+      check_last_keyframe(scene, "collider." + collider.name,
+                          display_name("collider", collider.name), collider.keyframes.back().time,
+                          findings);
   check_curves(scene, coarsening, findings);
   check_slices(scene, findings);
   check_snow_in_views(scene, findings);

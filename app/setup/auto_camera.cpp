@@ -1,6 +1,5 @@
 #include "app/setup/auto_camera.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

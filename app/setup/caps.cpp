@@ -1,9 +1,7 @@
 #include "app/setup/caps.h"
 
-#include <cmath>
 #include <cstdlib>
 #include <optional>
-#include <utility>
 
 #include "app/advice/suggest.h"
 #include "app/support/errors.h"

@@ -3,19 +3,11 @@
 
 #include <vector>
 
-#include "sim/types/math.h"
+#include "sim/shapes/shape.h"
 
 namespace neve::app::setup {
 
-struct Box {
-  sim::Vec3d min = sim::Vec3d::Constant(1e300), max = sim::Vec3d::Constant(-1e300);
-  void add(const sim::Vec3d& x) {
-    min = min.cwiseMin(x);
-    max = max.cwiseMax(x);
-  }
-  sim::Vec3d center() const { return 0.5 * (min + max); }
-  double diagonal() const { return (max - min).norm(); }
-};
+using Box = sim::shapes::Bounds;
 
 Box box_of(const std::vector<sim::Vec3d>& points);
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "app/scene/scene.h"
 #include "app/support/json.h"

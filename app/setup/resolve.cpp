@@ -53,14 +53,9 @@ bool needs_shared_camera(const scene::Scene& scene) {
 
 /// The plane goes through the middle of the bodies and emitters.
 sim::Vec3d middle_of_snow(const scene::Scene& scene) {
-  const std::vector<SnowPiece> pieces = snow_places(scene);
-  sim::shapes::Bounds all = sim::shapes::bounds(*pieces.front().shape);
-  for (const SnowPiece& piece : pieces) {
-    const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
-    all.min = all.min.cwiseMin(box.min);
-    all.max = all.max.cwiseMax(box.max);
-  }
-  return 0.5 * (all.min + all.max);
+  sim::shapes::Bounds all;
+  for (const SnowPiece& piece : snow_places(scene)) all.add(sim::shapes::bounds(*piece.shape));
+  return all.center();
 }
 
 void resolve_slice(const scene::Scene& scene, scene::SliceStyle& slice) {

@@ -1,7 +1,6 @@
 #include "app/setup/snow_pieces.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/setup/seed_scene.h"
 #include "sim/shapes/solid.h"

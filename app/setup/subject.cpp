@@ -53,9 +53,8 @@ std::vector<Vec3d> followed(const scene::Scene& scene, const std::string& name) 
   constexpr double room = 1.6;
   std::vector<Vec3d> points;
   const auto add = [&](const sim::shapes::Bounds& box) {
-    const Vec3d center = 0.5 * (box.min + box.max);
     for (const Vec3d& corner : corners(box.min, box.max))
-      points.push_back(center + room * (corner - center));
+      points.push_back(box.center() + room * (corner - box.center()));
   };
   for (const sim::seeding::Body& body : scene.bodies)
     if (body.name == name) add(sim::shapes::bounds(body.shape));
@@ -66,13 +65,9 @@ std::vector<Vec3d> followed(const scene::Scene& scene, const std::string& name) 
 
 /// Bodies and emitters before the first step.
 Box start_of(const scene::Scene& scene) {
-  std::vector<Vec3d> points;
-  for (const SnowPiece& piece : snow_places(scene)) {
-    const sim::shapes::Bounds bounds = sim::shapes::bounds(*piece.shape);
-    points.push_back(bounds.min);
-    points.push_back(bounds.max);
-  }
-  return box_of(points);
+  Box box;
+  for (const SnowPiece& piece : snow_places(scene)) box.add(sim::shapes::bounds(*piece.shape));
+  return box;
 }
 
 /// Everything that should be seen at some time.

@@ -2,7 +2,6 @@
 /// Integer hashing: random numbers keyed by their purpose, and order-free state hashes.
 
 #include <cstdint>
-#include <cstring>
 
 #include "sim/base/mix64.h"
 

@@ -2,7 +2,6 @@
 /// The dust of a run: air and cloud, and when they take a step. Nothing of it acts on the snow.
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 

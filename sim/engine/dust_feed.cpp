@@ -1,7 +1,6 @@
 #include "sim/engine/dust_feed.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // hundred lines.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>

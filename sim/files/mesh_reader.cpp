@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "sim/files/ply_header.h"
 #include "sim/files/point_table.h"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 #include "sim/base/hash.h"
 #include "sim/seeding/sampling.h"

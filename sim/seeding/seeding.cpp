@@ -6,7 +6,6 @@
 
 #include "sim/base/hash.h"
 #include "sim/seeding/sampling.h"
-#include "sim/shapes/placed_points.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::sim::seeding {
@@ -29,17 +28,7 @@ std::size_t saturated(double count) {
 SeededBody seed_points(const Body& body, const shapes::Points& points) {
   shapes::PlacedPoints placed(points);
   const Mat3d R = rotation_from_degrees(body.shape.rotation);
-  SeededBody seeded{.x = std::move(placed.x),
-                    .center = points.center,
-                    .volume = placed.volume,
-                    .v = std::move(placed.v),
-                    .m = std::move(placed.m),
-                    .V = std::move(placed.V),
-                    .J_P = std::move(placed.J_P),
-                    .F_E = std::move(placed.F_E),
-                    .C = std::move(placed.C),
-                    .stiffness = std::move(placed.stiffness),
-                    .threshold = std::move(placed.threshold)};
+  SeededBody seeded{std::move(placed), points.center, placed.volume};
   for (Vec3d& x : seeded.x) x = seeded.center + R * x;
   for (Vec3d& v : seeded.v) v = R * v;
   // The undeformed snow is not turned: F maps it to the snow that is.
@@ -68,10 +57,6 @@ SeedingPlan plan_seeding(const Body& body, double cell_size) {
   const double count =
       expected_count(body, solid, particle_spacing(body.particles_per_cell, cell_size));
   return {solid.volume(), saturated(std::max(1.0, std::ceil(count))), solid.bounds(), 0, 0};
-}
-
-double poisson_distance(double particles_per_cell, double cell_size) {
-  return poisson_distance_in_spacings * particle_spacing(particles_per_cell, cell_size);
 }
 
 SeededBody seed_body(const Body& body, std::uint64_t body_index, std::uint64_t seed,

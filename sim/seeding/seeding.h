@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
+#include "sim/shapes/placed_points.h"
 #include "sim/shapes/shape.h"
 
 namespace neve::sim::seeding {
@@ -48,28 +48,17 @@ SeedingPlan plan_seeding(const Body& body, double cell_size);
 /// that are too small. Reads the file of a mesh or of points. @throws ShapeError as seed_body
 double expected_particles(const Body& body, double cell_size);
 
-/// The particles of one body in metres, in a frame that depends on nothing but the body.
-struct SeededBody {
-  std::vector<Vec3d> x;
-  Vec3d center;       ///< of angular_velocity
-  double volume = 0;  ///< m3, of the whole body
-  // For points only, each empty or as long as x.
-  std::vector<Vec3d> v;           ///< m/s, of the file; the body's velocity comes on top
-  std::vector<double> m;          ///< kg; empty: density times volume
-  std::vector<double> V;          ///< m3; empty: all have the same
-  std::vector<double> J_P;        ///< empty: 1
-  std::vector<Mat3d> F_E;         ///< empty: I
-  std::vector<Mat3d> C;           ///< 1/s; empty: 0
-  std::vector<double> stiffness;  ///< factor; empty: 1
-  std::vector<double> threshold;  ///< factor; empty: 1
+/// The particles of one body in metres, in a frame that depends on nothing but the body. All but x
+/// are of points only: without masses they have density times volume, without volumes all the same.
+/// The body's velocity comes on top of theirs.
+struct SeededBody : files::PointCloud {
+  Vec3d center{0, 0, 0};  ///< of angular_velocity
+  double volume = 0;      ///< m3, of the whole body
 };
-
-/// Smallest distance in metres between two particles of poisson sampling.
-double poisson_distance(double particles_per_cell, double cell_size);
 
 /// Points keep the places in their file and ignore sampling and particles_per_cell. Other shapes
 /// are filled. Jittered: one random point in every sub-cell of edge cell_size /
-/// cbrt(particles_per_cell). Poisson: random points no closer than poisson_distance. Lattice: a
+/// cbrt(particles_per_cell). Poisson: random points no closer than 0.75 of that edge. Lattice: a
 /// regular grid with the shape's bounds in its middle. Neighbours in the list are near each other
 /// in space.
 /// @param body_index key of the random numbers, with seed

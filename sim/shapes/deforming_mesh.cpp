@@ -150,12 +150,9 @@ DeformingMesh::DeformingMesh(const MeshSequence& sequence)
 }
 
 void DeformingMesh::add(std::vector<Vec3d> vertices, const std::string& file) {
-  Bounds bounds{Vec3d::Constant(INFINITY), Vec3d::Constant(-INFINITY)};
-  for (const Vec3d& x : vertices) {
-    bounds.min = bounds.min.cwiseMin(x);
-    bounds.max = bounds.max.cwiseMax(x);
-  }
-  const auto [volume, area] = measures(vertices, triangles_, 0.5 * (bounds.min + bounds.max));
+  Bounds bounds;
+  for (const Vec3d& x : vertices) bounds.add(x);
+  const auto [volume, area] = measures(vertices, triangles_, bounds.center());
   const double box = std::pow((bounds.max - bounds.min).maxCoeff(), 3);
   if (!std::isfinite(box) || !std::isfinite(volume) || !std::isfinite(area))
     throw ShapeError(file + ": the mesh is too large: its volume overflows. Scale it down");
@@ -231,13 +228,14 @@ double DeformingMesh::fastest() const {
 }
 
 Bounds DeformingMesh::bounds(std::size_t interval) const {
-  const Bounds &a = bounds_[interval], &b = bounds_[interval + 1];
-  return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+  Bounds both = bounds_[interval];
+  both.add(bounds_[interval + 1]);
+  return both;
 }
 
 Bounds DeformingMesh::bounds() const {
-  Bounds all = bounds(0);
-  for (const Bounds& b : bounds_) all = {all.min.cwiseMin(b.min), all.max.cwiseMax(b.max)};
+  Bounds all;
+  for (const Bounds& b : bounds_) all.add(b);
   return all;
 }
 

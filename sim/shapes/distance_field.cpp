@@ -1,8 +1,6 @@
 #include "sim/shapes/distance_field.h"
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 
 #include "sim/types/number_text.h"
 

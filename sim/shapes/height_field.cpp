@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "sim/shapes/mesh_surface.h"
 #include "sim/types/number_text.h"

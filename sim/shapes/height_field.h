@@ -8,7 +8,6 @@
 /// the map does not fall. Where one of the four posts around a place has no data, the ground has a
 /// hole.
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>

@@ -1,10 +1,8 @@
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -159,8 +157,7 @@ class MeshGround final : public Ground {
     for (const Vec3d& local : solid->vertices) {
       const Vec3d x = rotation * local + mesh.center;
       corners_.emplace_back(x.y(), x.x(), x.z());
-      bounds_.min = bounds_.min.cwiseMin(corners_.back());
-      bounds_.max = bounds_.max.cwiseMax(corners_.back());
+      bounds_.add(corners_.back());
     }
     columns_.emplace(corners_, triangles_, bounds_);
   }

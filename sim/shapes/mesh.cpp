@@ -78,13 +78,9 @@ void Moments::scale(double factor) {
 }
 
 Bounds bounds_of(const SolidMesh& mesh, const Mat3d& rotation) {
-  Bounds b{Vec3d::Constant(INFINITY), Vec3d::Constant(-INFINITY)};
+  Bounds b;
   for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) {
-      const Vec3d x = rotation * mesh.vertices[corner];
-      b.min = b.min.cwiseMin(x);
-      b.max = b.max.cwiseMax(x);
-    }
+    for (const std::uint32_t corner : triangle) b.add(Vec3d(rotation * mesh.vertices[corner]));
   return b;
 }
 

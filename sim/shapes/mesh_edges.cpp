@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "sim/base/hash.h"
+#include "sim/shapes/shape.h"
 
 namespace neve::sim::shapes {
 namespace {
@@ -239,15 +240,12 @@ Attempt attempt(const files::PolygonMesh& mesh, const std::string& name,
 /// Makes vertices on open edges that nearly coincide one. @return how many
 std::size_t weld_near(const files::PolygonMesh& mesh, const MeshEdges& open,
                       std::vector<Corner>& vertex) {
-  Vec3d low = Vec3d::Constant(INFINITY), high = Vec3d::Constant(-INFINITY);
-  for (const Corner c : mesh.corners) {
-    low = low.cwiseMin(mesh.vertices[c]);
-    high = high.cwiseMax(mesh.vertices[c]);
-  }
-  const double tolerance = near * (high - low).maxCoeff();
+  Bounds box;
+  for (const Corner c : mesh.corners) box.add(mesh.vertices[c]);
+  const double tolerance = near * (box.max - box.min).maxCoeff();
   if (!(tolerance > 0) || !std::isfinite(tolerance)) return 0;
   const auto cell_of = [&](const Vec3d& x) {
-    return ((x - low) / (2 * tolerance)).array().floor().cast<std::int64_t>().eval();
+    return ((x - box.min) / (2 * tolerance)).array().floor().cast<std::int64_t>().eval();
   };
   const auto key_of = [](std::int64_t x, std::int64_t y, std::int64_t z) {
     return mix64(static_cast<std::uint64_t>(x),

@@ -114,15 +114,7 @@ PlacedPoints::PlacedPoints(const Points& points)
     : PlacedPoints(files::read_points(points.file), points, points.file) {}
 
 PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const std::string& name)
-    : x(std::move(cloud.x)),
-      v(std::move(cloud.v)),
-      m(std::move(cloud.m)),
-      V(std::move(cloud.V)),
-      J_P(std::move(cloud.J_P)),
-      stiffness(std::move(cloud.stiffness)),
-      threshold(std::move(cloud.threshold)),
-      F_E(std::move(cloud.F_E)),
-      C(std::move(cloud.C)) {
+    : PointCloud(std::move(cloud)) {
   constexpr double furthest = 1e6;  // m, where single precision is 6 cm
   for (Vec3d& place : x) {
     place -= points.origin;
@@ -156,14 +148,10 @@ PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const 
 }
 
 Bounds PlacedPoints::bounds_after(const Mat3d& rotation) const {
-  Vec3d min = rotation * x.front(), max = min;
-  for (const Vec3d& point : x) {
-    const Vec3d turned = rotation * point;
-    min = min.cwiseMin(turned);
-    max = max.cwiseMax(turned);
-  }
+  Bounds b;
+  for (const Vec3d& point : x) b.add(Vec3d(rotation * point));
   const double half = 0.5 * std::cbrt(volume / static_cast<double>(x.size()));
-  return {min.array() - half, max.array() + half};
+  return {b.min.array() - half, b.max.array() + half};
 }
 
 PointsSummary summary_of(const Points& points, const Mat3d& rotation) {

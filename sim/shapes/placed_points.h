@@ -8,7 +8,8 @@
 
 namespace neve::sim::shapes {
 
-struct PlacedPoints {
+/// Volumes are those before deformation; where there are none, equal shares of the volume.
+struct PlacedPoints : files::PointCloud {
   /// @throws ShapeError as read_points, and for a file that leaves volumes open
   explicit PlacedPoints(const Points& points);
   /// The same of a cloud that was read already. @param name of its file, in messages
@@ -17,13 +18,6 @@ struct PlacedPoints {
   /// Tight, but for half the edge of a cube that an average point fills.
   Bounds bounds_after(const Mat3d& rotation) const;
 
-  std::vector<Vec3d> x;   ///< m, about the file's origin; at least one
-  std::vector<Vec3d> v;   ///< m/s; empty: the file has none
-  std::vector<double> m;  ///< kg; empty: the file has none
-  std::vector<double> V;  ///< m3, before deformation; empty: equal shares of the volume
-  // As in the file, each empty or as long as x.
-  std::vector<double> J_P, stiffness, threshold;
-  std::vector<Mat3d> F_E, C;
   double volume = 0;          ///< m3, of all
   double V0 = 0;              ///< m3, of all before deformation; 0: no column says it
   double expected_count = 0;  ///< points over thinning, which may be less than the one there is

@@ -1,7 +1,6 @@
 #pragma once
 /// Shapes that bodies fill and colliders keep clear.
 
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -108,9 +107,17 @@ struct Shape {
   Vec3d rotation{0, 0, 0};  ///< degrees, R = Rz Ry Rx, about the shape's centre
 };
 
-/// Axis-aligned bounds in metres.
+/// A box along the axes, in metres; empty until something is added.
 struct Bounds {
-  Vec3d min, max;
+  Vec3d min = Vec3d::Constant(1e300), max = Vec3d::Constant(-1e300);
+
+  void add(const Bounds& other) {
+    min = min.cwiseMin(other.min);
+    max = max.cwiseMax(other.max);
+  }
+  void add(const Vec3d& x) { add(Bounds{x, x}); }
+  Vec3d center() const { return 0.5 * (min + max); }
+  double diagonal() const { return (max - min).norm(); }
 };
 
 /// Centre of rotation and angular velocity: the middle of a capsule, the point of a plane, the

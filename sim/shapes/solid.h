@@ -7,7 +7,7 @@
 
 namespace neve::sim::shapes {
 
-/// The kind of a solid, about the origin and unrotated. One class per shape, in solid_forms.cpp.
+/// The kind of a solid, about the origin and unrotated. One class per shape, in shape.cpp.
 class Form {
  public:
   virtual ~Form() = default;

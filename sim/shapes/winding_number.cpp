@@ -46,13 +46,10 @@ void WindingNumber::build(std::uint32_t node) {
   sum_up(nodes_[node]);
   const auto [first, end] = std::pair(nodes_[node].first, nodes_[node].end);
   if (end - first <= triangles_in_leaf) return;
-  Vec3d low = middle_of(order_[first]), high = low;
-  for (std::uint32_t k = first; k < end; ++k) {
-    low = low.cwiseMin(middle_of(order_[k]));
-    high = high.cwiseMax(middle_of(order_[k]));
-  }
+  Bounds middles;
+  for (std::uint32_t k = first; k < end; ++k) middles.add(middle_of(order_[k]));
   Eigen::Index axis = 0;
-  (high - low).maxCoeff(&axis);
+  (middles.max - middles.min).maxCoeff(&axis);
   const std::uint32_t half = first + (end - first) / 2;
   const auto at = [&](std::uint32_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
   std::nth_element(at(first), at(half), at(end), [&](std::uint32_t a, std::uint32_t b) {

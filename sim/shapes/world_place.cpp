@@ -1,7 +1,5 @@
 #include "sim/shapes/world_place.h"
 
-#include <cmath>
-
 #include "sim/files/mesh_reader.h"
 #include "sim/files/point_reader.h"
 #include "sim/shapes/height_field.h"
@@ -11,12 +9,9 @@ namespace neve::sim::shapes {
 namespace {
 
 Vec3d middle_of(const std::vector<Vec3d>& points) {
-  Vec3d low = points.front(), high = points.front();
-  for (const Vec3d& x : points) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return 0.5 * (low + high);
+  Bounds box;
+  for (const Vec3d& x : points) box.add(x);
+  return box.center();
 }
 
 /// As in the file.

@@ -1,6 +1,5 @@
 #include "sim/state/kernel_pose.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "sim/kernels/blocks.h"

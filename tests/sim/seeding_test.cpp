@@ -10,6 +10,7 @@
 #include <limits>
 #include <set>
 
+#include "sim/seeding/sampling.h"
 #include "sim/shapes/solid.h"
 #include "tests/support/temporary_folder.h"
 
@@ -183,7 +184,8 @@ TEST(Seeding, JitteredPutsOneParticleIntoEverySubCell) {
 TEST(Seeding, PoissonKeepsItsDistance) {
   for (const sim::shapes::Shape& shape : shapes()) {
     const sim::seeding::Body body = body_of(shape, sim::seeding::Sampling::poisson, 5);
-    const double distance = sim::seeding::poisson_distance(5, 0.05);
+    const double distance =
+        sim::seeding::poisson_distance_in_spacings * sim::seeding::particle_spacing(5, 0.05);
     const double smallest = smallest_distance(sim::seeding::seed_body(body, 0, 1, 0.05).x);
     EXPECT_GE(smallest, distance * (1 - 1e-12));
     EXPECT_LT(smallest, 1.02 * distance);  // and uses it up: thousands of pairs come close
