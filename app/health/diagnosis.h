@@ -2,7 +2,6 @@
 /// Why a run went wrong: one cause, what shows it, what to do.
 
 #include <string>
-#include <vector>
 
 #include "app/scene/names.h"
 #include "app/scene/scene.h"

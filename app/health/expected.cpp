@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "app/health/softness.h"
-#include "app/setup/auto_ranges.h"
 #include "app/support/text.h"
 #include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"

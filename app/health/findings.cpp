@@ -221,21 +221,31 @@ void check_implicit_steps(const sim::SolverSettings& s, const Check& check,
          "try more iterations, or a smaller dt"});
 }
 
-/// Share of a moment's particles that a camera does not see.
-double share_outside(const scene::CameraSettings& camera, double aspect,
-                     const setup::CoarseMoment& moment) {
+/// What a camera sees of the particles of a moment.
+struct Seen {
+  double outside = 0;  ///< share of them that it does not see
+  double height = 0;   ///< of all that is before it, as a share of the picture's
+};
+
+Seen seen_by(const scene::CameraSettings& camera, double aspect,
+             const setup::CoarseMoment& moment) {
   const Vec3d forward = (*camera.target - *camera.eye).normalized();
   const Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
   const double half = std::tan(0.5 * camera.fov * 3.14159265358979323846 / 180);
-  std::size_t outside = 0;
+  std::size_t inside = 0;
+  double low = 1, high = -1, left = 1, wide = -1;
   for (const Vec3d& x : moment.x) {
     const Vec3d d = x - *camera.eye;
     const double z = d.dot(forward);
-    const bool is_seen =
-        z > 0 && std::abs(d.dot(up)) < half * z && std::abs(d.dot(right)) < half * aspect * z;
-    outside += !is_seen;
+    if (!(z > 0)) continue;
+    const double u = d.dot(right) / (half * z), v = d.dot(up) / (half * z);
+    inside += std::abs(v) < 1 && std::abs(u) < aspect;
+    low = std::min(low, v), high = std::max(high, v);
+    left = std::min(left, u), wide = std::max(wide, u);
   }
-  return moment.x.empty() ? 0 : static_cast<double>(outside) / static_cast<double>(moment.x.size());
+  const auto all = static_cast<double>(std::max<std::size_t>(1, moment.x.size()));
+  return {moment.x.empty() ? 0 : 1 - static_cast<double>(inside) / all,
+          0.5 * std::max(high - low, wide - left)};
 }
 
 /// Where a camera that turns about its target is at a time.
@@ -246,23 +256,6 @@ scene::CameraSettings moved(scene::CameraSettings camera, double time, double du
   camera.target = place.target;
   camera.fov = place.fov;
   return camera;
-}
-
-/// Height of the snow that a camera sees, as a share of the picture's.
-double seen_height(const scene::CameraSettings& camera, const setup::CoarseMoment& moment) {
-  const Vec3d forward = (*camera.target - *camera.eye).normalized();
-  const Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
-  const double half = std::tan(0.5 * camera.fov * 3.14159265358979323846 / 180);
-  double low = 1, high = -1, left = 1, wide = -1;
-  for (const Vec3d& x : moment.x) {
-    const Vec3d d = x - *camera.eye;
-    const double z = d.dot(forward);
-    if (!(z > 0)) continue;
-    const double u = d.dot(right) / (half * z), v = d.dot(up) / (half * z);
-    low = std::min(low, v), high = std::max(high, v);
-    left = std::min(left, u), wide = std::max(wide, u);
-  }
-  return 0.5 * std::max(high - low, wide - left);
 }
 
 }  // namespace
@@ -455,19 +448,19 @@ void check_cameras(const scene::Scene& scene, const std::vector<setup::CoarseMom
     double worst = 0, when = 0, largest = 0;
     for (const setup::CoarseMoment& moment : moments) {
       const scene::CameraSettings now = moved(camera, moment.time, scene::duration(scene));
-      largest = std::max(largest, seen_height(now, moment));
-      const double share = share_outside(now, aspect, moment);
-      if (share > worst) worst = share, when = moment.time;
+      const Seen seen = seen_by(now, aspect, moment);
+      largest = std::max(largest, seen.height);
+      if (seen.outside > worst) worst = seen.outside, when = moment.time;
     }
+    const std::string at = view.camera ? "view." + view.name + ".camera" : "camera";
     constexpr double smallest = 0.03;
     if (worst < 0.05 && largest < smallest)
-      findings.push_back({Severity::warning,
-                          view.camera ? "view." + view.name + ".camera" : "camera",
+      findings.push_back({Severity::warning, at,
                           fmt::format("view {}: the snow is never larger than {} of the picture",
                                       view.name, percent_text(largest)),
                           "move eye nearer, or remove eye and target to frame everything"});
     if (worst < 0.05) continue;
-    findings.push_back({Severity::warning, view.camera ? "view." + view.name + ".camera" : "camera",
+    findings.push_back({Severity::warning, at,
                         fmt::format("view {}: {} of the snow is outside of the picture at {} s",
                                     view.name, percent_text(worst), rough_text(when)),
                         "remove eye and target to frame everything"});

@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "app/health/findings.h"
 #include "app/health/places.h"
@@ -23,15 +21,6 @@ using sim::shapes::Joint;
 
 std::string address_of(const Collider& body) {
   return "collider." + body.name;
-}
-
-/// Share of places that are in a collider at the start.
-double share_inside(const std::vector<Vec3d>& places, const Collider& collider) {
-  if (places.empty()) return 0;
-  const Inside is_inside(collider, 0);
-  const auto inside =
-      std::count_if(places.begin(), places.end(), [&](const Vec3d& x) { return is_inside(x); });
-  return static_cast<double>(inside) / static_cast<double>(places.size());
 }
 
 std::vector<Vec3d> places_in_solid(const sim::shapes::Shape& shape) {

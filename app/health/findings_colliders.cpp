@@ -8,7 +8,6 @@
 #include "app/health/findings.h"
 #include "app/health/places.h"
 #include "app/scene/coarsen.h"
-#include "app/scene/toml/value.h"
 #include "app/setup/auto_ranges.h"
 #include "app/support/text.h"
 #include "sim/shapes/deforming_mesh.h"
@@ -52,12 +51,8 @@ void check_emitter_overlaps(const scene::Scene& scene, std::vector<Finding>& fin
   constexpr double much = 0.02;  // a nozzle that ends in a wall is none
   for (const sim::seeding::Emitter& emitter : scene.emitters) {
     const std::vector<Vec3d> places = places_in(emitter.shape);
-    if (places.empty()) continue;
     for (const sim::shapes::Collider& collider : scene.colliders) {
-      const Inside is_inside(collider, emitter.start);
-      const auto inside =
-          std::count_if(places.begin(), places.end(), [&](const Vec3d& x) { return is_inside(x); });
-      const double share = static_cast<double>(inside) / static_cast<double>(places.size());
+      const double share = share_inside(places, collider, emitter.start);
       if (share < much) continue;
       findings.push_back(
           {Severity::warning, "emitter." + emitter.name + ".shape",

@@ -8,7 +8,6 @@
 #include "app/output/report_json.h"
 #include "app/output/sequence.h"
 #include "app/scene/names.h"
-#include "app/setup/auto_ranges.h"
 #include "app/support/round_number.h"
 
 namespace neve::app::health {

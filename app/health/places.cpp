@@ -1,5 +1,7 @@
 #include "app/health/places.h"
 
+#include <algorithm>
+
 #include "sim/shapes/deforming_mesh.h"
 
 namespace neve::app::health {
@@ -19,6 +21,15 @@ std::vector<Vec3d> places_in(const sim::shapes::Shape& shape) {
         if (solid.contains(x)) places.push_back(x);
       }
   return places;
+}
+
+double share_inside(const std::vector<Vec3d>& places, const sim::shapes::Collider& collider,
+                    double time) {
+  if (places.empty()) return 0;
+  const Inside is_inside(collider, time);
+  const auto inside =
+      std::count_if(places.begin(), places.end(), [&](const Vec3d& x) { return is_inside(x); });
+  return static_cast<double>(inside) / static_cast<double>(places.size());
 }
 
 Inside::Inside(const sim::shapes::Collider& collider, double time)

@@ -12,6 +12,10 @@ namespace neve::app::health {
 /// Some hundred places in a shape, regularly.
 std::vector<sim::Vec3d> places_in(const sim::shapes::Shape& shape);
 
+/// Share of places that are in a collider at a time; 0 of none.
+double share_inside(const std::vector<sim::Vec3d>& places, const sim::shapes::Collider& collider,
+                    double time = 0);
+
 /// Tests if a place is in a collider at a time.
 class Inside {
  public:
