@@ -1,7 +1,7 @@
 #include "app/card/card.h"
 
-#include <algorithm>
-#include <array>
+#include <iterator>
+#include <utility>
 
 #include "app/card/falls.h"
 #include "app/card/plates.h"
@@ -13,27 +13,10 @@ namespace neve::app::card {
 
 namespace {
 
-Experiment make(Kind kind, const Subject& subject) {
-  switch (kind) {
-    case Kind::press:
-      return press(subject);
-    case Kind::tear:
-      return tear(subject);
-    case Kind::shear:
-      return shear(subject);
-    case Kind::drop:
-      return drop(subject);
-    case Kind::tilt:
-      return tilt(subject);
-    case Kind::column:
-      return column(subject);
-  }
-  return {};
-}
-
 /// The longest first, so that the last one to end is a short one.
-constexpr std::array by_length{Kind::column, Kind::drop,  Kind::tilt,
-                               Kind::shear,  Kind::press, Kind::tear};
+constexpr std::pair<Kind, Experiment (*)(const Subject&)> by_length[] = {
+    {Kind::column, column}, {Kind::drop, drop},   {Kind::tilt, tilt},
+    {Kind::shear, shear},   {Kind::press, press}, {Kind::tear, tear}};
 
 Json to_json(const sim::Material& material) {
   scene::Scene scene;
@@ -67,12 +50,12 @@ std::vector<Card> make_cards(const std::vector<Subject>& subjects, int threads,
   for (const Subject& subject : subjects)
     cards.push_back({subject, std::vector<Experiment>(std::size(kinds))});
   ThreadPool pool(threads);
-  const int parts = static_cast<int>(subjects.size() * by_length.size());
+  const int parts = static_cast<int>(subjects.size() * std::size(by_length));
   pool.run(pool.thread_count(), parts, [&](int part) {
     const auto at = static_cast<std::size_t>(part);
     Card& card = cards[at % cards.size()];
-    const Kind kind = by_length[at / cards.size()];
-    card.experiments[static_cast<std::size_t>(kind)] = make(kind, card.subject);
+    const auto& [kind, make] = by_length[at / cards.size()];
+    card.experiments[static_cast<std::size_t>(kind)] = make(card.subject);
     if (done) done();
   });
   return cards;

@@ -4,7 +4,6 @@
 /// The block has no sides: the lattice is periodic there. So the snow between the plates is
 /// strained alike, as in the formulas of its law.
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -10,7 +10,6 @@
 
 #include "app/card/falls.h"
 #include "app/support/text.h"
-#include "sim/laws/law.h"
 
 namespace neve::app::card {
 

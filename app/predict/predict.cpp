@@ -97,17 +97,8 @@ std::string number_text(double value, const Estimate& estimate) {
 }  // namespace
 
 const char* name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::breaks:
-      return "breaks";
-    case Verdict::holds:
-      return "holds";
-    case Verdict::undecided:
-      return "undecided";
-    case Verdict::cannot_say:
-      return "cannot say";
-  }
-  return "";
+  constexpr const char* names[] = {"breaks", "holds", "undecided", "cannot say"};
+  return names[static_cast<int>(verdict)];
 }
 
 bool is_in_doubt(const Prediction& prediction) {

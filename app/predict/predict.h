@@ -1,7 +1,6 @@
 #pragma once
 /// What coarse copies of a scene say of its run at full resolution, with how far it may be off.
 
-#include <optional>
 #include <string>
 #include <vector>
 
