@@ -110,10 +110,8 @@ class Edit {
       const std::string& word = words_[depth_];
       const toml::TomlNode* next = nullptr;
       if (const toml::Array* array = value ? std::get_if<toml::Array>(&value->data) : nullptr) {
-        const Words names = item_names(*value);
-        const auto k =
-            static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin());
-        if (k >= names.size() || k >= node_->items.size()) return;
+        const std::size_t k = item_place(*value, word);
+        if (k >= array->size() || k >= node_->items.size()) return;
         next = node_->items[k].get();
         value = &(*array)[k];
       } else {
@@ -147,9 +145,7 @@ class Edit {
     const toml::Entry* list = root_.find(words_[0]);
     const auto& items = std::get<toml::Array>(list->value.data);
     const Words names = item_names(list->value);
-    auto k =
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), words_[1]) - names.begin());
-    for (++k; k < names.size(); ++k) {
+    for (std::size_t k = item_place(list->value, words_[1]) + 1; k < names.size(); ++k) {
       const auto* table = std::get_if<toml::Table>(&items[k].data);
       if (!table || table->find("name")) continue;
       const Override name{words_[0] + "." + names[k] + ".name", toml::toml_string(names[k])};

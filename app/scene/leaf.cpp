@@ -1,7 +1,6 @@
 #include "app/scene/leaf.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <string_view>

@@ -135,14 +135,7 @@ std::string settable_part(const std::string& address) {
 }
 
 bool is_object_list(const std::string& word) {
-  for (const char* list : {"body", "emitter", "sink", "collider"})
-    if (word == list) return true;
-  return false;
-}
-
-bool same_text(const toml::Value& value, const std::string& text) {
-  const auto* own = std::get_if<std::string>(&value.data);
-  return own && *own == text;
+  return word == "body" || word == "emitter" || word == "sink" || word == "collider";
 }
 
 /// Explains body.velocity, where somebody forgot the name of the body.
@@ -219,14 +212,12 @@ void set_place(toml::Value& value, int index) {
 
 /// The table called `name` in a list or a table of tables.
 toml::Table* item_called(toml::Value& items, const std::string& name) {
-  const std::vector<std::string> names = item_names(items);
-  const auto k = std::find(names.begin(), names.end(), name) - names.begin();
-  if (static_cast<std::size_t>(k) == names.size()) return nullptr;
-  if (toml::Array* array = std::get_if<toml::Array>(&items.data)) {
-    return std::get_if<toml::Table>(&(*array)[static_cast<std::size_t>(k)].data);
-  }
-  return std::get_if<toml::Table>(
-      &std::get<toml::Table>(items.data).entries[static_cast<std::size_t>(k)].value.data);
+  const std::size_t k = item_place(items, name);
+  toml::Array* array = std::get_if<toml::Array>(&items.data);
+  toml::Table* table = std::get_if<toml::Table>(&items.data);
+  if (array && k < array->size()) return std::get_if<toml::Table>(&(*array)[k].data);
+  if (!table || k >= table->entries.size()) return nullptr;
+  return std::get_if<toml::Table>(&table->entries[k].value.data);
 }
 
 toml::Entry& entry_called(toml::Table& table, const std::string& key, int index) {
@@ -343,6 +334,11 @@ std::vector<std::string> item_names(const toml::Value& items) {
   return names;
 }
 
+std::size_t item_place(const toml::Value& items, const std::string& name) {
+  const std::vector<std::string> names = item_names(items);
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 const toml::Value* value_at(const toml::Table& root, const std::string& address) {
   const toml::Table* table = &root;
   const toml::Value* value = nullptr;
@@ -350,10 +346,8 @@ const toml::Value* value_at(const toml::Table& root, const std::string& address)
     // Names of [[body]] and the like are no keys but members of the entries.
     const toml::Array* list = value ? std::get_if<toml::Array>(&value->data) : nullptr;
     if (list) {
-      const std::vector<std::string> names = item_names(*value);
-      const auto k = std::find(names.begin(), names.end(), word) - names.begin();
-      value = static_cast<std::size_t>(k) < names.size() ? &(*list)[static_cast<std::size_t>(k)]
-                                                         : nullptr;
+      const std::size_t k = item_place(*value, word);
+      value = k < list->size() ? &(*list)[k] : nullptr;
     } else {
       const toml::Entry* entry = table ? table->find(word) : nullptr;
       value = entry ? &entry->value : nullptr;
@@ -367,7 +361,8 @@ const toml::Value* value_at(const toml::Table& root, const std::string& address)
 namespace {
 
 /// Removes the value that the document has there, if any.
-void remove(toml::Table& root, const Path& path, bool is_in_item) {
+void remove(toml::Table& root, const std::string& address, bool is_in_item) {
+  const Path path = words_of(address);
   toml::Table* table = &root;
   std::size_t depth = 0;
   if (is_in_item) {
@@ -381,10 +376,6 @@ void remove(toml::Table& root, const Path& path, bool is_in_item) {
   if (table)
     std::erase_if(table->entries,
                   [&](const toml::Entry& entry) { return entry.key == path.back(); });
-}
-
-void remove(toml::Table& root, const std::string& address, bool is_in_item) {
-  remove(root, words_of(address), is_in_item);
 }
 
 /// Unnamed items have their number for a name: those behind the removed one keep it.
@@ -412,7 +403,7 @@ toml::Value object_in(const Override& change, const std::string& list, const std
     change.fail(change.key, "bad " + list + " name " + toml::toml_string(name),
                 "expected 1 to 64 letters, digits, _ and -");
   const toml::Entry* own = table->find("name");
-  if (own && !same_text(own->value, name))
+  if (own && !own->value.is_text(name))
     change.fail(change.place, "its name is not " + toml::toml_string(name),
                 "omit the name: it is in the address");
   if (!own) table->entries.insert(table->entries.begin(), {"name", {}, {name}});
@@ -438,10 +429,8 @@ bool apply_object(toml::Table& root, const Override& change, int index) {
   const std::string &list = path[0], &name = path[1];
   toml::Entry* entry = root.find(list);
   if (entry && !std::holds_alternative<toml::Array>(entry->value.data)) return true;  // told later
-  const Path names = entry ? item_names(entry->value) : Path{};
-  const auto found =
-      static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  const bool is_there = found < names.size();
+  const std::size_t found = entry ? item_place(entry->value, name) : 0;
+  const bool is_there = entry && found < std::get<toml::Array>(entry->value.data).size();
   if (!is_there && is_member_of_all(list, name)) return false;
   if (takes_away(change)) {
     remove_item_called(root, change, list, name);

@@ -63,5 +63,7 @@ const toml::Value* value_at(const toml::Table& root, const std::string& address)
 /// Names of the entries of a list or table of tables; numbers from 1 for entries without a valid
 /// name.
 std::vector<std::string> item_names(const toml::Value& items);
+/// The place among them of a name; their number for one that is not there.
+std::size_t item_place(const toml::Value& items, const std::string& name);
 
 }  // namespace neve::app::scene

@@ -44,8 +44,7 @@ toml::Table table_of(const std::string& built_in) {
 
 bool is_named(const toml::Table& view, const std::string& name) {
   const toml::Entry* entry = view.find("name");
-  const auto* text = entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
-  return text && *text == name;
+  return entry && entry->value.is_text(name);
 }
 
 bool is_named(const toml::Value& view, const std::string& name) {
@@ -80,11 +79,8 @@ bool is_in_mosaic(const toml::Table& root, const std::string& name) {
     const toml::Table* table = std::get_if<toml::Table>(&mosaic.data);
     const toml::Entry* views = table ? table->find("views") : nullptr;
     const toml::Array* names = views ? std::get_if<toml::Array>(&views->value.data) : nullptr;
-    if (!names) continue;
-    for (const toml::Value& item : *names) {
-      const auto* text = std::get_if<std::string>(&item.data);
-      if (text && *text == name) return true;
-    }
+    if (names && std::ranges::any_of(*names, [&](const auto& item) { return item.is_text(name); }))
+      return true;
   }
   return false;
 }

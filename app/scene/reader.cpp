@@ -244,19 +244,16 @@ void Reader::require_one_form(const toml::Entry& shape,
   const std::string address = address_of(shape.key);
   const toml::Table& table = table_of(shape.value, address);
   for (const toml::Entry& form : table.entries) {
-    bool is_known = false;
-    for (const std::string& name : forms) is_known = is_known || name == form.key;
-    if (!is_known) {
-      const std::string& first = table.entries.front().key;
-      if (std::find(forms.begin(), forms.end(), first) != forms.end())
-        reading_.source.fail(form.where,
-                             toml::toml_string(form.key) + " is outside the shape in " + address,
-                             "write it inside the braces of the shape: { " + first + " = { ..., " +
-                                 form.key + " = ... } }");
+    if (contains(forms, form.key)) continue;
+    const std::string& first = table.entries.front().key;
+    if (contains(forms, first))
       reading_.source.fail(form.where,
-                           "unsupported shape " + toml::toml_string(form.key) + " in " + address,
-                           form_advice(form.key, forms));
-    }
+                           toml::toml_string(form.key) + " is outside the shape in " + address,
+                           "write it inside the braces of the shape: { " + first + " = { ..., " +
+                               form.key + " = ... } }");
+    reading_.source.fail(form.where,
+                         "unsupported shape " + toml::toml_string(form.key) + " in " + address,
+                         form_advice(form.key, forms));
   }
   if (table.entries.size() == 1) return;
   if (table.entries.empty()) {
@@ -270,9 +267,7 @@ void Reader::require_one_form(const toml::Entry& shape,
 
 void Reader::refuse_unknown(const std::vector<std::string>& known) const {
   for (const toml::Entry& entry : table_.entries) {
-    bool is_known = false;
-    for (const std::string& key : known) is_known = is_known || key == entry.key;
-    if (is_known) continue;
+    if (contains(known, entry.key)) continue;
     reading_.source.fail(entry.where,
                          "unknown key " + toml::toml_literal({entry.key}, toml::max_shown) +
                              (address_.empty() ? "" : " in [" + address_ + "]"),

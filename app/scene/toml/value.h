@@ -38,6 +38,11 @@ struct Table {
 struct Value {
   std::variant<bool, std::int64_t, double, std::string, Date, Array, Table> data = false;
   Location where{};
+
+  bool is_text(std::string_view text) const {
+    const auto* own = std::get_if<std::string>(&data);
+    return own && *own == text;
+  }
 };
 
 struct Entry {
