@@ -243,8 +243,8 @@ Seen seen_by(const scene::CameraSettings& camera, double aspect,
     low = std::min(low, v), high = std::max(high, v);
     left = std::min(left, u), wide = std::max(wide, u);
   }
-  const auto all = static_cast<double>(std::max<std::size_t>(1, moment.x.size()));
-  return {moment.x.empty() ? 0 : 1 - static_cast<double>(inside) / all,
+  const std::size_t all = moment.x.size();
+  return {static_cast<double>(all - inside) / static_cast<double>(std::max<std::size_t>(1, all)),
           0.5 * std::max(high - low, wide - left)};
 }
 

@@ -12,8 +12,8 @@ namespace neve::sim::files {
 /// @throws ShapeError as the reader of the format; for formats that are not read, with what to do
 PolygonMesh parse_mesh(std::string_view bytes, const std::string& name);
 
-/// Elements vertex (x, y, z) and face (a list vertex_indices, vertex_index or indices), ascii or binary of
-/// either byte order; everything else is passed over.
+/// Elements vertex (x, y, z) and face (a list vertex_indices, vertex_index or indices), ascii or
+/// binary of either byte order; everything else is passed over.
 /// A file that neve wrote with z up or in other units is turned and scaled back.
 /// Source: Turk, The PLY Polygon File Format.
 PolygonMesh parse_ply_mesh(std::string_view bytes, const std::string& name);
