@@ -151,7 +151,8 @@ std::string type_of(const std::vector<E>&) {
 }
 template <class T>
 std::string type_of(const std::optional<T>&) {
-  return std::is_same_v<T, Range> ? "range" : type_of(T{});
+  static const T any{};
+  return std::is_same_v<T, Range> ? "range" : type_of(any);
 }
 
 }  // namespace neve::app::scene

@@ -23,9 +23,9 @@ template <class T>
 std::vector<std::string> choices_of(const std::vector<T>&) {
   return choices_of(T{});
 }
-template <class T>
-std::vector<std::string> choices_of(const std::optional<T>&) {
-  return choices_of(T{});
+template <Choice E>
+std::vector<std::string> choices_of(const std::optional<E>&) {
+  return choices<E>();
 }
 
 class Lister {
