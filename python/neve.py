@@ -21,7 +21,9 @@ import json
 import operator
 import os
 import pathlib
+import re
 import shutil
+import signal
 import struct
 import subprocess
 import sys
@@ -34,12 +36,12 @@ import numpy as np
 
 class NeveError(RuntimeError):
     """The program refused or failed: `code` is its exit code (docs/output.md), `where` and
-    `hint` are the place and the advice of its message."""
+    `hint` are the place and the advice of its message, `answer` is what it printed as JSON."""
 
-    def __init__(self, message, code, where="", hint=""):
+    def __init__(self, message, code, where="", hint="", answer=None):
         text = f"{message}; {hint}" if hint and hint not in message else message
         super().__init__(f"{where}: {text}" if where and where not in text else text)
-        self.code, self.where, self.hint = code, where, hint
+        self.code, self.where, self.hint, self.answer = code, where, hint, answer
 
 
 def program():
@@ -58,25 +60,70 @@ def program():
     return found
 
 
-def call(*arguments, results=(0,)):
-    """Runs the program with --json and returns its answer, as in call("check", "scene.toml").
-
-    Exit codes other than those in `results` raise NeveError."""
-    words = [program(), *map(str, arguments), "--json"]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
+def _end_of(child):
+    """Waits for a program. After Ctrl-C it ends as in a terminal, with its movie and a checkpoint;
+    a second one ends it at once. @return what it said, stdout and stderr"""
     try:
-        answer = json.loads(done.stdout)
+        return child.communicate()
+    except KeyboardInterrupt:
+        try:
+            child.communicate(timeout=1)
+        except subprocess.TimeoutExpired:
+            # A terminal has asked the program too, a notebook may have asked Python alone. This one
+            # asks who was not asked yet, and nobody twice.
+            child.send_signal(signal.SIGHUP)
+            child.communicate()
+        raise
+    finally:
+        if child.poll() is None:
+            child.kill()
+            child.wait()
+
+
+def _why(code, answer, lines):
+    """Why the program ended with an exit code, in words. @param lines  of stderr"""
+    if code < 0:
+        return f"the program was ended by {signal.Signals(-code).name}"
+    if "error" in answer:
+        return answer["error"]
+    said = [line.removeprefix("neve: ").removeprefix("error: ") for line in lines
+            if line.startswith("neve: ") and not line.startswith("neve: warning: ")]
+    if said:
+        return "; ".join(said).replace("--resume", 'flags=("--resume",)')
+    found = [one for name in ("findings", "flaws") for one in answer.get(name, ())
+             if one.get("severity", "error") == "error"]
+    if found:
+        return "; ".join(f"{one.get('address') or one.get('file')}: {one['what']}"
+                         + (f"; {one['hint']}" if one.get("hint") else "") for one in found)
+    short = [f"{name} {value}" for name, value in answer.items()
+             if isinstance(value, (bool, int, float, str))]
+    return f"exit code {code}: {', '.join(short or lines[-1:]) or 'it said nothing'}"
+
+
+def _call(arguments, results=(0,)):
+    child = subprocess.Popen([program(), *map(str, arguments), "--json"], text=True,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    stdout, stderr = _end_of(child)
+    try:
+        answer = json.loads(stdout)
     except ValueError:
         answer = {}
-    if done.returncode in results:
-        for line in done.stderr.splitlines():
+    lines = stderr.strip().splitlines()
+    if child.returncode in results:
+        for line in lines:
             if line.startswith("neve: warning: "):
                 warnings.warn(line.removeprefix("neve: warning: "), stacklevel=3)
         return answer
-    lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
     error = answer if isinstance(answer, dict) else {}
-    raise NeveError(error.get("error", lines[-1]), done.returncode, error.get("where", ""),
-                    error.get("hint", ""))
+    raise NeveError(_why(child.returncode, error, lines), child.returncode, error.get("where", ""),
+                    error.get("hint", ""), answer)
+
+
+def call(*arguments, results=(0,)):
+    """Runs the program with --json and returns its answer, as in call("check", "scene.toml").
+
+    Exit codes other than those in `results` raise NeveError, whose `answer` is the same."""
+    return _call(arguments, results)
 
 
 def _literal(value, is_inside=False):
@@ -400,7 +447,7 @@ def render(scene, out=None, set=None, frames=None, coarsen=None, threads=None, f
     words += ["--out", folder]
     if frames is not None:
         words += ["--frames", _frames(frames)]
-    call(*words, results=(0, 5))
+    _call(words, results=(0, 5))
     return Run(folder)
 
 
@@ -418,7 +465,7 @@ def export(source, out, formats=("npz",), frames=None, at=None, attributes=None,
     if attributes is not None:
         names = [attributes] if isinstance(attributes, str) else attributes
         words += ["--attributes", ",".join(names)]
-    return _exports_in(out, call(*words))
+    return _exports_in(out, _call(words))
 
 
 class Sweep:
@@ -483,20 +530,21 @@ def sweep(file, out, parameters=None, set=None, frames=None, coarsen=None, threa
         words += ["--frames", _frames(frames)]
     if seeds is not None:
         words += ["--seeds", str(int(seeds))]
-    call(*words, results=(0, 7))
+    _call(words, results=(0, 7))
     return Sweep(out)
 
 
 def check(scene, set=None, coarsen=None):
-    """The forecast of neve check: particles, memory_bytes, dt_limits, warnings ..."""
-    return call("check", scene, *_scene_flags(set, coarsen, None))
+    """The forecast of neve check: particles, memory_bytes, dt_limits, warnings ... A scene that
+    fails the check has it too, with the reason in its `findings`."""
+    return _call(["check", scene, *_scene_flags(set, coarsen, None)], results=(0, 9))
 
 
 def info(path):
     """The record of a picture or of a run."""
-    return call("info", path)
+    return _call(["info", path])
 
 
 def params():
     """Every parameter: address, type, unit, min, max, default, help."""
-    return call("params")
+    return _call(["params"])

@@ -101,6 +101,9 @@ for mistake, code, part in (
     (lambda: neve.render("none.toml"), 3, "none.toml: No such file"),
     (lambda: neve.render("scene.toml", set={"material.snow.hardenin": 1}), 2, "hardening"),
     (lambda: run.state(3, attributes=["JP"]), 2, "J_P"),
+    (lambda: neve.call("compare", "out/scene", "out/moved"), 9, "same False"),
+    (lambda: neve.call("check", "scene.toml", "--set", "solver.time_step=fixed", "--set",
+                       "solver.dt=0.01"), 9, "solver.dt: fixed steps of 0.01 s"),
 ):
     try:
         mistake()
@@ -112,6 +115,13 @@ try:
     raise AssertionError("read a grid")
 except neve.NeveError as error:
     assert "npz" in str(error)
+# A check that fails has its reasons, and what failed with an answer has that.
+failed = neve.check("scene.toml", set={"solver": {"time_step": "fixed", "dt": 0.01}})
+assert failed["findings"][0]["severity"] == "error" and failed["particles"] > 0, failed["findings"]
+try:
+    neve.call("compare", "out/scene", "out/moved")
+except neve.NeveError as error:
+    assert error.answer["same"] is False, error.answer
 # Settings as tables, as texts, and objects that are removed; warnings of the program are warnings.
 assert list(neve._settings({"solver": {"cfl": 0.2}, "seed": 3})) == [("solver.cfl", 0.2), ("seed", 3)]
 assert neve._scene_flags(["seed=3"], None, None) == ["--set", "seed=3"]
