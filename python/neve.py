@@ -126,6 +126,12 @@ def call(*arguments, results=(0,)):
     return _call(arguments, results)
 
 
+def _quoted(text):
+    """A text of TOML without a quote inside, at which lists of values would be split."""
+    return '"' + "\\u0022".join(json.dumps(part, ensure_ascii=False)[1:-1]
+                                for part in text.split('"')) + '"'
+
+
 def _literal(value, is_inside=False):
     """A value as --set takes it; inside of lists and tables words need quotes."""
     if value is None:
@@ -139,8 +145,27 @@ def _literal(value, is_inside=False):
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{key} = {_literal(v, True)}" for key, v in value.items()) + " }"
     if isinstance(value, str) and is_inside:
-        return json.dumps(value, ensure_ascii=False)
+        return _quoted(value)
     return repr(value) if isinstance(value, (int, float)) else str(value)
+
+
+def _value_of_axis(value):
+    """One of a list of values: words that commas or brackets would split have quotes. What is in
+    quotes or brackets already is TOML, as in --set."""
+    if not isinstance(value, str) or re.fullmatch(r"""\[.*\]|\{.*\}|"[^"]*"|'[^']*'""", value):
+        return _literal(value)
+    is_plain = value == value.strip() and value and not re.search(r"""[][{}"',\n]""", value)
+    return value if is_plain else _quoted(value)
+
+
+def _axis(address, values):
+    """Values as -p takes them: a list, or a rule such as {"linspace": [5, 20], "num": 4}."""
+    if isinstance(values, dict):
+        return f"{address}={_literal(values)}"
+    if isinstance(values, str) or not np.iterable(values):
+        raise TypeError(f"values of {address} are a list, as in {{{address!r}: [5, 10]}}, not "
+                        f"{values!r}; a parameter that all runs share goes into set")
+    return f"{address}=" + ",".join(map(_value_of_axis, values))
 
 
 def _settings(table, start=""):
@@ -511,21 +536,32 @@ def _table(path):
     return {name: _column([row[k] for row in rows]) for k, name in enumerate(head)}
 
 
+_number_of_table = re.compile(
+    r"[-+]?(([0-9]+\.?[0-9]*|\.[0-9]+)(e[-+]?[0-9]+)?|inf|infinity|nan)", re.IGNORECASE)
+
+
 def _column(words):
-    try:
+    if all(word in ("", "-") or _number_of_table.fullmatch(word) for word in words):
         return np.array([np.nan if word in ("", "-") else float(word) for word in words])
-    except ValueError:
-        return np.array(words)
+    return np.array([_text_of_cell(word) for word in words])
+
+
+def _text_of_cell(word):
+    """Texts that a reader may take for a number or a formula, and empty ones, have quotes."""
+    inside = word[1:-1]
+    is_marked = len(word) > 1 and word[0] == word[-1] == "'" and \
+        (not inside or inside[0] in "=@+-\t\r" or _number_of_table.fullmatch(inside))
+    return inside if is_marked else word
 
 
 def sweep(file, out, parameters=None, set=None, frames=None, coarsen=None, threads=None, seeds=None,
           flags=()):
     """Runs a sweep file, or a scene with many values: `parameters` has lists by address, as in
-    {"material.snow.hardening": [5, 10]}; `seeds` is the number of runs of each point. Failed runs are rows of the table."""
+    {"material.snow.hardening": [5, 10]}, or rules, as in {"linspace": [5, 20], "num": 4}; `seeds` is
+    the number of runs of each point. Failed runs are rows of the table."""
     words = ["sweep", file, "--out", out, *_scene_flags(set, coarsen, threads), *flags]
     for address, values in (parameters or {}).items():
-        # As the flag has it: a list of numbers or words without brackets.
-        words += ["-p", f"{address}=" + ",".join(_literal(value) for value in values)]
+        words += ["-p", _axis(address, values)]
     if frames is not None:
         words += ["--frames", _frames(frames)]
     if seeds is not None:

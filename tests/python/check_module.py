@@ -92,6 +92,17 @@ assert list(sweep["seed"]) == [1, 2, 1, 2] and list(sweep.points["ended"]) == [2
 assert np.isclose(sweep.points["spread_mean"][1], sweep["spread"][2:].mean())
 assert all(np.isclose(sweep.run(k)["spread"][-1], sweep["spread"][k]) for k in range(4))
 
+# Words of a sweep are one value each, whatever is in them, and come back as they were given.
+words = ["1_0", "a,b", "nan", "5", "", "x'y", "[z]1", "=1", " b"]
+sweep_of_words = neve.sweep("scene.toml", "words.cdb", {"title": words}, frames=0)
+assert list(sweep_of_words["title"]) == words, sweep_of_words["title"]
+assert 'title = "a,b"' in sweep_of_words.run(1).json["scene"]
+assert neve._axis("a", ['q"r,s']) == 'a="q\\u0022r,s"'
+# What is in brackets or quotes is TOML already, and a table is a rule.
+assert neve._axis("a", ["[0, 1]", [0, 2], "'b,c'"]) == "a=[0, 1],[0, 2],'b,c'"
+assert neve._axis("a", {"linspace": [1, 2], "num": 3}) == "a={ linspace = [1, 2], num = 3 }"
+assert np.isnan(neve._column(["-", "2", "nan"])[2]) and neve._column(["1_0", "-"])[1] == "-"
+
 # Answers and mistakes of the program.
 assert neve.check("scene.toml", coarsen=2)["particles"] < neve.check("scene.toml")["particles"]
 assert any(p["address"] == "material.NAME.hardening" for p in neve.params())
@@ -140,6 +151,8 @@ for mistake, kind, part in (
     (lambda: run.state("last"), ValueError, "a number from 0 to 4"),
     (lambda: neve.check("scene.toml", coarsn=3), TypeError, "coarsn"),
     (lambda: neve.read_ply("scene.toml"), ValueError, "no PLY file"),
+    (lambda: neve.sweep("scene.toml", "none", {"seed": "5,10"}), TypeError, "{'seed': [5, 10]}"),
+    (lambda: neve.sweep("scene.toml", "none", {"solver.cfl": 0.2}), TypeError, "are a list"),
     (lambda: neve.render("scene.toml", fast=True), TypeError, 'flags=("--fast",)'),
     (lambda: neve.render("scene.toml", hardening=5), TypeError, "set="),
     (lambda: neve.render({"frames": 4}), TypeError, "a scene is a TOML file"),
