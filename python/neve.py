@@ -462,18 +462,20 @@ class Run:
 
 
 def render(scene, out=None, set=None, frames=None, coarsen=None, threads=None, flags=(), **others):
-    """Simulates and draws a scene. `set` has parameters by address, as in
-    {"material.snow.hardening": 5}, as tables in tables, or as texts of --set; None removes an
-    object. `flags` are passed on as they are. A run that diverges is returned, with the status
-    "diverged". What the program warns of is a warning."""
+    """Simulates and draws a scene, into the folder `out`, else where the command line does: out/NAME
+    (NEVE_OUT/NAME), or the run itself where `scene` is the folder of a run. `set` has parameters by
+    address, as in {"material.snow.hardening": 5}, as tables in tables, or as texts of --set; None
+    removes an object. `flags` are passed on as they are. A run that diverges is returned, with the
+    status "diverged". What the program warns of is a warning."""
     _refuse("render", others)
     words = ["render", _scene(scene), *_scene_flags(set, coarsen, threads), *flags]
-    folder = pathlib.Path(out) if out else pathlib.Path("out") / pathlib.Path(scene).stem
-    words += ["--out", folder]
+    if out is not None:
+        words += ["--out", out]
     if frames is not None:
         words += ["--frames", _frames(frames)]
-    _call(words, results=(0, 5))
-    return Run(folder)
+    answer = _call(words, results=(0, 5))
+    # A run that diverged names its folder in its advice.
+    return Run(answer.get("out") or answer["hint"].partition("diverged_*.png are in ")[2])
 
 
 def export(source, out, formats=("npz",), frames=None, at=None, attributes=None, set=None,

@@ -133,6 +133,16 @@ try:
     neve.call("compare", "out/scene", "out/moved")
 except neve.NeveError as error:
     assert error.answer["same"] is False, error.answer
+# Outputs go where those of the command line go: into NEVE_OUT, and of a run into the run.
+os.environ["NEVE_OUT"] = "elsewhere"
+assert str(neve.render("scene.toml", frames=0).folder) == "elsewhere/scene"
+diverges = {"solver": {"time_step": "fixed", "dt": 0.02}, "body.ball.velocity": [0, -8, 0]}
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    diverged = neve.render("scene.toml", set=diverges, flags=["--replace"])
+assert diverged.status == "diverged" and str(diverged.folder) == "elsewhere/scene"
+assert str(neve.render("out/moved", flags=["--no-movie"]).folder) == "out/moved"
+del os.environ["NEVE_OUT"]
 # Settings as tables, as texts, and objects that are removed; warnings of the program are warnings.
 assert list(neve._settings({"solver": {"cfl": 0.2}, "seed": 3})) == [("solver.cfl", 0.2), ("seed", 3)]
 assert neve._scene_flags(["seed=3"], None, None) == ["--set", "seed=3"]
