@@ -323,6 +323,12 @@ def read_ply(path):
             words = line.decode("ascii", "replace").split()
             if words[:1] == ["end_header"]:
                 break
+            if words[:2] == ["format", "ascii"]:
+                raise ValueError(f"{path}: an ASCII PLY file; expected a binary one, as neve export "
+                                 "writes it")
+            if words[:2] == ["property", "list"]:
+                raise ValueError(f"{path}: a mesh, with lists of corners; expected points, as neve "
+                                 "export writes them without --surface")
             if words[:1] == ["format"]:
                 order = {"binary_little_endian": "<", "binary_big_endian": ">"}[words[1]]
             elif words[:2] == ["element", "vertex"]:
@@ -483,6 +489,7 @@ def export(source, out, formats=("npz",), frames=None, at=None, attributes=None,
     """Writes the particles of a scene, of a run (a Run or its folder) or of a picture into a folder,
     in one simulation. @return exports by format"""
     source = source.folder if isinstance(source, Run) else source
+    formats = [formats] if isinstance(formats, str) else formats
     words = ["export", source, "--out", out, "--format", ",".join(formats), *flags]
     words += _scene_flags(set, coarsen, threads)
     if frames is not None:

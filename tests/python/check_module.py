@@ -143,6 +143,10 @@ with warnings.catch_warnings():
 assert diverged.status == "diverged" and str(diverged.folder) == "elsewhere/scene"
 assert str(neve.render("out/moved", flags=["--no-movie"]).folder) == "out/moved"
 del os.environ["NEVE_OUT"]
+# A text is one format, and a file that is no list of points says what it is.
+assert list(neve.export("scene.toml", "text", formats="npz", frames=0)) == ["npz"]
+with open("ascii.ply", "w") as file:
+    file.write("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n")
 # Settings as tables, as texts, and objects that are removed; warnings of the program are warnings.
 assert list(neve._settings({"solver": {"cfl": 0.2}, "seed": 3})) == [("solver.cfl", 0.2), ("seed", 3)]
 assert neve._scene_flags(["seed=3"], None, None) == ["--set", "seed=3"]
@@ -161,6 +165,9 @@ for mistake, kind, part in (
     (lambda: run.state("last"), ValueError, "a number from 0 to 4"),
     (lambda: neve.check("scene.toml", coarsn=3), TypeError, "coarsn"),
     (lambda: neve.read_ply("scene.toml"), ValueError, "no PLY file"),
+    (lambda: neve.read_ply("ascii.ply"), ValueError, "an ASCII PLY file"),
+    (lambda: neve.export("scene.toml", "mesh", formats="ply", frames=0, flags=["--surface"])
+     ["ply"][0], ValueError, "without --surface"),
     (lambda: neve.sweep("scene.toml", "none", {"seed": "5,10"}), TypeError, "{'seed': [5, 10]}"),
     (lambda: neve.sweep("scene.toml", "none", {"solver.cfl": 0.2}), TypeError, "are a list"),
     (lambda: neve.render("scene.toml", fast=True), TypeError, 'flags=("--fast",)'),
