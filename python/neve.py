@@ -100,7 +100,8 @@ def _why(code, answer, lines):
     return f"exit code {code}: {', '.join(short or lines[-1:]) or 'it said nothing'}"
 
 
-def _call(arguments, results=(0,)):
+def _call(arguments, results=(0,), level=3):
+    """@param level  of the caller that a warning names"""
     child = subprocess.Popen([program(), *map(str, arguments), "--json"], text=True,
                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     stdout, stderr = _end_of(child)
@@ -112,7 +113,7 @@ def _call(arguments, results=(0,)):
     if child.returncode in results:
         for line in lines:
             if line.startswith("neve: warning: "):
-                warnings.warn(line.removeprefix("neve: warning: "), stacklevel=3)
+                warnings.warn(line.removeprefix("neve: warning: "), stacklevel=level)
         return answer
     error = answer if isinstance(answer, dict) else {}
     raise NeveError(_why(child.returncode, error, lines), child.returncode, error.get("where", ""),
@@ -168,14 +169,27 @@ def _axis(address, values):
     return f"{address}=" + ",".join(map(_value_of_axis, values))
 
 
-def _settings(table, start=""):
+def _settings(table, start="", whole=()):
     """Addresses and values of a table, also of tables in it: {"solver": {"cfl": 0.2}} is
-    {"solver.cfl": 0.2}."""
+    {"solver.cfl": 0.2}. @param whole  addresses of tables that are values"""
+    for key, value in table.items():
+        address = f"{start}{key}"
+        if isinstance(value, dict) and not value:
+            raise ValueError(f"set has an empty table for {address}, which changes nothing; None "
+                             "takes an object away")
+        if isinstance(value, dict) and address not in whole:
+            yield from _settings(value, f"{address}.", whole)
+        else:
+            yield address, value
+
+
+def _objects(table, start=""):
+    """Addresses of bodies, emitters, sinks and colliders that a table has with their shapes."""
     for key, value in table.items():
         if isinstance(value, dict):
-            yield from _settings(value, f"{start}{key}.")
-        else:
-            yield f"{start}{key}", value
+            if "shape" in value:
+                yield f"{start}{key}"
+            yield from _objects(value, f"{start}{key}.")
 
 
 def _refuse(function, others):
@@ -194,10 +208,10 @@ def _scene(scene):
     return scene
 
 
-def _scene_flags(set, coarsen, threads):
+def _scene_flags(set, coarsen, threads, whole=()):
     if isinstance(set, str):
         set = [set]
-    settings = [f"{address}={_literal(value)}" for address, value in _settings(set)] \
+    settings = [f"{address}={_literal(value)}" for address, value in _settings(set, whole=whole)] \
         if isinstance(set, dict) else [str(text) for text in set or ()]
     flags = [word for text in settings for word in ("--set", text)]
     if coarsen is not None:
@@ -205,6 +219,28 @@ def _scene_flags(set, coarsen, threads):
     if threads is not None:
         flags += ["--threads", threads]
     return flags
+
+
+def _lacks(address):
+    """What the program says where a scene has no collider.NAME."""
+    kind, _, name = address.partition(".")
+    return f'there is no {kind} "{name}"'
+
+
+def _call_scene(command, scene, rest, set, coarsen, threads, results=(0,)):
+    """Calls a command on a scene. A table in `set` changes the object of its name, and adds it
+    where the scene has none and the table has a shape."""
+    added = []
+    while True:
+        flags = _scene_flags(set, coarsen, threads, added)
+        try:
+            return _call([command, scene, *flags, *rest], results, 4)
+        except NeveError as error:
+            lacking = [address for address in _objects(set if isinstance(set, dict) else {})
+                       if address not in added and _lacks(address) in str(error)]
+            if not lacking:
+                raise
+            added += lacking
 
 
 def _frames(frames):
@@ -471,15 +507,16 @@ def render(scene, out=None, set=None, frames=None, coarsen=None, threads=None, f
     """Simulates and draws a scene, into the folder `out`, else where the command line does: out/NAME
     (NEVE_OUT/NAME), or the run itself where `scene` is the folder of a run. `set` has parameters by
     address, as in {"material.snow.hardening": 5}, as tables in tables, or as texts of --set; None
-    removes an object. `flags` are passed on as they are. A run that diverges is returned, with the
-    status "diverged". What the program warns of is a warning."""
+    removes an object, and a table with a shape adds the one that the scene lacks. `flags` are passed
+    on as they are. A run that diverges is returned, with the status "diverged". What the program
+    warns of is a warning."""
     _refuse("render", others)
-    words = ["render", _scene(scene), *_scene_flags(set, coarsen, threads), *flags]
+    words = [*flags]
     if out is not None:
         words += ["--out", out]
     if frames is not None:
         words += ["--frames", _frames(frames)]
-    answer = _call(words, results=(0, 5))
+    answer = _call_scene("render", _scene(scene), words, set, coarsen, threads, results=(0, 5))
     # A run that diverged names its folder in its advice.
     return Run(answer.get("out") or answer["hint"].partition("diverged_*.png are in ")[2])
 
@@ -490,8 +527,7 @@ def export(source, out, formats=("npz",), frames=None, at=None, attributes=None,
     in one simulation. @return exports by format"""
     source = source.folder if isinstance(source, Run) else source
     formats = [formats] if isinstance(formats, str) else formats
-    words = ["export", source, "--out", out, "--format", ",".join(formats), *flags]
-    words += _scene_flags(set, coarsen, threads)
+    words = ["--out", out, "--format", ",".join(formats), *flags]
     if frames is not None:
         words += ["--frames", _frames(frames)]
     if at is not None:
@@ -499,7 +535,7 @@ def export(source, out, formats=("npz",), frames=None, at=None, attributes=None,
     if attributes is not None:
         names = [attributes] if isinstance(attributes, str) else attributes
         words += ["--attributes", ",".join(names)]
-    return _exports_in(out, _call(words))
+    return _exports_in(out, _call_scene("export", source, words, set, coarsen, threads))
 
 
 class Sweep:
@@ -568,21 +604,21 @@ def sweep(file, out, parameters=None, set=None, frames=None, coarsen=None, threa
     """Runs a sweep file, or a scene with many values: `parameters` has lists by address, as in
     {"material.snow.hardening": [5, 10]}, or rules, as in {"linspace": [5, 20], "num": 4}; `seeds` is
     the number of runs of each point. Failed runs are rows of the table."""
-    words = ["sweep", file, "--out", out, *_scene_flags(set, coarsen, threads), *flags]
+    words = ["--out", out, *flags]
     for address, values in (parameters or {}).items():
         words += ["-p", _axis(address, values)]
     if frames is not None:
         words += ["--frames", _frames(frames)]
     if seeds is not None:
         words += ["--seeds", str(int(seeds))]
-    _call(words, results=(0, 7))
+    _call_scene("sweep", file, words, set, coarsen, threads, results=(0, 7))
     return Sweep(out)
 
 
 def check(scene, set=None, coarsen=None):
     """The forecast of neve check: particles, memory_bytes, dt_limits, warnings ... A scene that
     fails the check has it too, with the reason in its `findings`."""
-    return _call(["check", scene, *_scene_flags(set, coarsen, None)], results=(0, 9))
+    return _call_scene("check", scene, (), set, coarsen, None, results=(0, 9))
 
 
 def info(path):

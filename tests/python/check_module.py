@@ -115,6 +115,7 @@ for mistake, code, part in (
     (lambda: neve.call("compare", "out/scene", "out/moved"), 9, "same False"),
     (lambda: neve.call("check", "scene.toml", "--set", "solver.time_step=fixed", "--set",
                        "solver.dt=0.01"), 9, "solver.dt: fixed steps of 0.01 s"),
+    (lambda: neve.check("scene.toml", set={"collider.flor": {"friction": 1}}), 2, "flor"),
 ):
     try:
         mistake()
@@ -143,6 +144,13 @@ with warnings.catch_warnings():
 assert diverged.status == "diverged" and str(diverged.folder) == "elsewhere/scene"
 assert str(neve.render("out/moved", flags=["--no-movie"]).folder) == "out/moved"
 del os.environ["NEVE_OUT"]
+# A table with a shape adds the object that the scene lacks, and changes the one that it has.
+wall = {"shape": {"plane": {"point": [-1, 0, 0], "normal": [1, 0, 0]}}, "friction": 0.3}
+walled = neve.render("scene.toml", out="out/walled", frames=0, set={
+    "collider": {"wall": wall, "floor": {"friction": 0.2}},
+    "body.ball": {"shape": {"sphere": {"radius": 0.06}}}}).json["scene"]
+assert 'name = "wall"' in walled and "center = [0, 0.12, 0], radius = 0.06" in walled, walled
+assert "velocity = [0, -2, 0]" in walled and "friction = 0.2" in walled, walled
 # A text is one format, and a file that is no list of points says what it is.
 assert list(neve.export("scene.toml", "text", formats="npz", frames=0)) == ["npz"]
 with open("ascii.ply", "w") as file:
@@ -168,6 +176,7 @@ for mistake, kind, part in (
     (lambda: neve.read_ply("ascii.ply"), ValueError, "an ASCII PLY file"),
     (lambda: neve.export("scene.toml", "mesh", formats="ply", frames=0, flags=["--surface"])
      ["ply"][0], ValueError, "without --surface"),
+    (lambda: neve.check("scene.toml", set={"collider.floor": {}}), ValueError, "collider.floor"),
     (lambda: neve.sweep("scene.toml", "none", {"seed": "5,10"}), TypeError, "{'seed': [5, 10]}"),
     (lambda: neve.sweep("scene.toml", "none", {"solver.cfl": 0.2}), TypeError, "are a list"),
     (lambda: neve.render("scene.toml", fast=True), TypeError, 'flags=("--fast",)'),
