@@ -35,12 +35,13 @@ class SlurmSites : public Cli {
     fs::permissions(file, fs::perms::owner_all);
   }
   /// Seven runs; nobody makes them.
-  app::output::ProcessResult sweep() {
+  app::output::ProcessResult sweep(const std::string& more = "") {
     return app::output::run_process(
         "/bin/bash",
         {"-c",
          "PATH=\"$PWD/bin:$PATH\" \"$0\" sweep scene.toml -p "
-         "material.snow.hardening=1,2,3,4,5,6,7 --frames 0-1 --out out --engine slurm",
+         "material.snow.hardening=1,2,3,4,5,6,7 --frames 0-1 --out out --engine slurm " +
+             more,
          NEVE_BINARY},
         folder.path());
   }
@@ -81,6 +82,18 @@ TEST_F(SlurmSites, JobsOfAnEarlierCallAreNotSubmittedAgain) {
   EXPECT_TRUE(contains(done.errors, "waiting for the jobs submitted before")) << done.errors;
   EXPECT_TRUE(contains(done.errors, "submitted 3 runs")) << done.errors;
   EXPECT_FALSE(contains(read_text(folder / "calls"), "run.sh 0\n")) << read_text(folder / "calls");
+}
+
+TEST_F(SlurmSites, WhatTheUserWaitsForIsWaitedForBesideTheRuns) {
+  sweep("--sbatch=--dependency=afterok:77 --sbatch=-d --sbatch=afterok:78");
+  std::istringstream calls(read_text(folder / "calls"));
+  std::string line;
+  while (std::getline(calls, line) && contains(line, "--array")) {
+    EXPECT_TRUE(contains(line, " --dependency=afterok:77,afterok:78 ")) << line;
+    EXPECT_FALSE(contains(line, " -d ")) << line;
+  }
+  EXPECT_TRUE(contains(line, " --dependency=afterany:4711:4712:4713,afterok:77,afterok:78 "))
+      << "sbatch heeds the last alone: " << line;
 }
 
 /// A site that makes what it is given: sbatch keeps jobs, each look at the queue makes one whose
@@ -189,6 +202,15 @@ TEST_F(SlurmForks, RunsOfABeginningThatFailsAreFailedAndTheOthersAreMade) {
   EXPECT_EQ(again.exit_code, app::exit_runs_failed) << again.errors;
   EXPECT_EQ(json_of("array/beginning_2/status.json")["attempts"], 2)
       << "its job tries it again, and not each run once more";
+}
+
+TEST_F(SlurmForks, RunsOfAForkWaitForTheirBeginningAndForWhatTheUserNames) {
+  script("sbatch", sbatch);
+  script("squeue", squeue);
+  const auto done = forks("out", "--engine slurm --sbatch=--dependency=afterok:77", 2);
+  ASSERT_TRUE(exists("calls")) << done.errors;
+  EXPECT_TRUE(contains(read_text(folder / "calls"), " --dependency=afterok:77,afterany:4711 "))
+      << read_text(folder / "calls");
 }
 
 TEST_F(SlurmForks, AFirstSubmissionThatRetriesTriesABeginningOnce) {

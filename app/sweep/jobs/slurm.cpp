@@ -78,6 +78,23 @@ std::vector<std::string> sbatch_options(const store::Manifest& manifest,
   return words;
 }
 
+/// Makes one of all options that say what a job waits for: sbatch heeds the last of them alone.
+void join_dependencies(std::vector<std::string>& words) {
+  const std::string name = "--dependency=";
+  std::vector<std::string> others, all;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const bool is_alone = words[k] == "--dependency" || words[k] == "-d";
+    if (is_alone && k + 1 < words.size())
+      all.push_back(words[++k]);
+    else if (words[k].starts_with(name))
+      all.push_back(words[k].substr(name.size()));
+    else
+      others.push_back(words[k]);
+  }
+  if (!all.empty()) others.push_back(name + joined(all, ","));
+  words = std::move(others);
+}
+
 /// Scripts are the sweep's own commands, so that signals reach them and their exit codes are
 /// Slurm's.
 void write_scripts(const fs::path& folder, const SlurmOptions& options,
@@ -185,6 +202,7 @@ void Queue::add_arrays(const char* script, const char* log_name, const std::vect
                     (options_.jobs > 0 ? "%" + std::to_string(options_.jobs) : ""));
     words.push_back(log(log_name));
     if (!after.empty()) words.push_back(after);
+    join_dependencies(words);
     words.push_back((folder_ / "slurm" / script).string());
     words.push_back(std::to_string(array.offset));
     add(words, array.runs, are_beginnings);
@@ -220,6 +238,7 @@ void Queue::submit(const std::vector<int>& runs) {
   std::vector<std::string> collector{"--parsable", "--job-name=" + manifest_.name + "-collect",
                                      log("collect.log"), all};
   collector.insert(collector.end(), options_.options.begin(), options_.options.end());
+  join_dependencies(collector);
   collector.push_back((folder_ / "slurm" / "collect.sh").string());
   add(collector, {});
 }
