@@ -49,7 +49,7 @@ class SlurmSites : public Cli {
 
 TEST_F(SlurmSites, ABannerBeforeTheNumberOfAJobIsPassedOver) {
   const auto done = sweep();
-  EXPECT_EQ(done.exit_code, 75) << done.errors;  // the jobs end without making their runs
+  EXPECT_EQ(done.exit_code, app::exit_runs_failed) << "nobody makes them: " << done.errors;
   EXPECT_TRUE(contains(done.errors, "submitted 7 runs as job 4711, 4712, 4713, 4714"))
       << done.errors;
   const std::string calls = read_text(folder / "calls");
@@ -59,7 +59,7 @@ TEST_F(SlurmSites, ABannerBeforeTheNumberOfAJobIsPassedOver) {
 TEST_F(SlurmSites, RunsThatAreRefusedAreSubmittedLaterAndNoneTwice) {
   folder.write("full", "");
   const auto done = sweep();
-  EXPECT_EQ(done.exit_code, 75) << done.errors;
+  EXPECT_EQ(done.exit_code, app::exit_runs_failed) << done.errors;
   EXPECT_TRUE(contains(done.errors, "QOSMaxSubmitJobPerUserLimit")) << done.errors;
   EXPECT_TRUE(contains(done.errors, "queued are 3 runs as job 4711; 4 more follow")) << done.errors;
   std::istringstream calls(read_text(folder / "calls"));
@@ -84,6 +84,17 @@ TEST_F(SlurmSites, JobsOfAnEarlierCallAreNotSubmittedAgain) {
   EXPECT_FALSE(contains(read_text(folder / "calls"), "run.sh 0\n")) << read_text(folder / "calls");
 }
 
+TEST_F(SlurmSites, RunsThatNoJobBeganAreToldWithTheLogAndAreNoInterrupt) {
+  const auto done = sweep();
+  EXPECT_EQ(done.exit_code, app::exit_runs_failed) << done.errors;
+  EXPECT_TRUE(contains(done.errors,
+                       "runs 0-6: their jobs ended before they began; see out/slurm/4711_0.log, "
+                       "or sacct -j 4711_0; the same command submits them again"))
+      << done.errors;
+  EXPECT_TRUE(contains(done.errors, "0 runs ok, 7 failed")) << done.errors;
+  EXPECT_FALSE(contains(done.errors, "interrupted")) << done.errors;
+}
+
 TEST_F(SlurmSites, WhatTheUserWaitsForIsWaitedForBesideTheRuns) {
   sweep("--sbatch=--dependency=afterok:77 --sbatch=-d --sbatch=afterok:78");
   std::istringstream calls(read_text(folder / "calls"));
@@ -94,6 +105,18 @@ TEST_F(SlurmSites, WhatTheUserWaitsForIsWaitedForBesideTheRuns) {
   }
   EXPECT_TRUE(contains(line, " --dependency=afterany:4711:4712:4713,afterok:77,afterok:78 "))
       << "sbatch heeds the last alone: " << line;
+}
+
+TEST_F(SlurmSites, AQueueThatFailsToAnswerOnceIsAskedAgain) {
+  script("squeue",
+         std::string("[ -e failed ] || { touch failed; echo 'cannot contact' >&2; exit 1; }\n") +
+             squeue);
+  const auto done = sweep();
+  EXPECT_EQ(done.exit_code, app::exit_runs_failed) << "it waited for their end: " << done.errors;
+  EXPECT_TRUE(contains(done.errors,
+                       "squeue failed: cannot contact; the jobs continue, and Slurm is "
+                       "asked again for 10 minutes"))
+      << done.errors;
 }
 
 /// A site that makes what it is given: sbatch keeps jobs, each look at the queue makes one whose
@@ -211,6 +234,33 @@ TEST_F(SlurmForks, RunsOfAForkWaitForTheirBeginningAndForWhatTheUserNames) {
   ASSERT_TRUE(exists("calls")) << done.errors;
   EXPECT_TRUE(contains(read_text(folder / "calls"), " --dependency=afterok:77,afterany:4711 "))
       << read_text(folder / "calls");
+}
+
+TEST_F(SlurmForks, ARunWhoseTaskIsKilledHasCrashedAndNamesItsLog) {
+  // Task 0 is killed while it makes its run, task 1 before.
+  folder.write("before_job", R"(bash() {
+  case $* in *collect.sh*) command bash $*; return;; esac
+  [ $SLURM_ARRAY_TASK_ID = 1 ] && return 1
+  setsid "$BASH" $* & p=$!
+  until grep -q '"running"' out/runs/0000/status.json 2>/dev/null; do sleep 0.05; done
+  kill -9 -- -$p; wait $p; return 1
+}
+)");
+  const auto done = app::output::run_process(
+      "/bin/bash",
+      {"-c",
+       "PATH=\"$PWD/bin:$PATH\" exec \"$0\" sweep scene.toml -p seed=1,2 --set frames=100000 "
+       "--out out --movie none --engine slurm",
+       NEVE_BINARY},
+      folder.path());
+  EXPECT_EQ(done.exit_code, app::exit_runs_failed) << done.errors;
+  EXPECT_TRUE(contains(done.errors, "run 0: its job ended before it was made; see")) << done.errors;
+  EXPECT_TRUE(contains(done.errors, "run 1: its job ended before it began; see")) << done.errors;
+  const app::Json status = json_of("out/runs/0000/status.json");
+  EXPECT_EQ(status["state"], "crashed");
+  EXPECT_EQ(status["reason"], "its job ended; see slurm/4711_0.log");
+  EXPECT_TRUE(contains(read_text(folder / "out/data.csv"), "crashed"));
+  EXPECT_FALSE(contains(read_text(folder / "out/data.csv"), "running"));
 }
 
 TEST_F(SlurmForks, AFirstSubmissionThatRetriesTriesABeginningOnce) {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -14,6 +16,7 @@
 
 #include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
+#include "app/output/folder_lock.h"
 #include "app/output/process.h"
 #include "app/output/temporary.h"
 #include "app/support/errors.h"
@@ -31,6 +34,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto check_interval = std::chrono::seconds(1);
+constexpr auto patience = std::chrono::minutes(10);
 constexpr int default_max_array_size = 1001;
 
 /// Calls a program of Slurm. @throws Error when it fails
@@ -148,7 +152,8 @@ class Queue {
       : folder_(folder), manifest_(manifest), options_(options), jobs_(std::move(jobs)) {}
 
   const std::vector<QueuedJob>& jobs() const { return jobs_; }
-  void forget_ended() { jobs_ = living(jobs_); }
+  /// A queue that does not answer is asked again. @throws Error when it has not for long
+  void forget_ended(Progress& progress);
 
   /// Arrays of runs, and a job that collects when all have ended. @throws Error at the first that
   /// Slurm refuses
@@ -166,8 +171,8 @@ class Queue {
   void add_arrays(const char* script, const char* log_name, const std::vector<int>& indices,
                   const std::string& after, bool are_beginnings);
   void add(const std::vector<std::string>& words, const std::vector<int>& runs,
-           bool is_beginning = false) {
-    jobs_.push_back({job_number(call("sbatch", words)), runs, is_beginning});
+           bool is_beginning = false, int offset = 0) {
+    jobs_.push_back({job_number(call("sbatch", words)), runs, is_beginning, offset});
     write_queued_jobs(folder_, jobs_);
   }
   std::string log(const char* name) const {
@@ -178,7 +183,22 @@ class Queue {
   const store::Manifest& manifest_;
   const SlurmOptions& options_;
   std::vector<QueuedJob> jobs_;
+  std::optional<std::chrono::steady_clock::time_point> silent_since_;
 };
+
+void Queue::forget_ended(Progress& progress) {
+  try {
+    jobs_ = living(jobs_);
+    silent_since_.reset();
+  } catch (const Error& error) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!silent_since_)
+      progress.warning(std::string(error.what()) +
+                       "; the jobs continue, and Slurm is asked again for 10 minutes");
+    silent_since_ = silent_since_.value_or(now);
+    if (now - *silent_since_ > patience) throw;
+  }
+}
 
 std::vector<int> Queue::not_queued(const std::vector<int>& indices, bool are_beginnings) const {
   std::set<int> queued;
@@ -205,7 +225,7 @@ void Queue::add_arrays(const char* script, const char* log_name, const std::vect
     join_dependencies(words);
     words.push_back((folder_ / "slurm" / script).string());
     words.push_back(std::to_string(array.offset));
-    add(words, array.runs, are_beginnings);
+    add(words, array.runs, are_beginnings, array.offset);
   }
 }
 
@@ -311,6 +331,70 @@ std::size_t queue_rest(Queue& queue, const std::vector<int>& missing, Progress& 
   return rest.size();
 }
 
+/// Tasks that runs were given, by run: "4711_3".
+using Tasks = std::map<int, std::string>;
+
+/// Takes a run that its job left in progress for crashed, unless another process has it.
+/// @return whether none has it
+bool end_with_job(const fs::path& run_folder, const std::string& task) {
+  const std::optional<output::FolderLock> lock = output::FolderLock::try_lock(
+      run_folder, "neve sweep", output::FolderLock::Kind::alone, store::run_lock);
+  if (!lock) return false;
+  store::RunStatus status = store::read_status(run_folder);
+  if (status.state != store::RunState::running) return true;
+  status.state = store::RunState::crashed;
+  status.short_reason = "its job ended";
+  status.reason = "its job ended; see slurm/" + task + ".log";
+  status.pid = 0;
+  store::write_status(run_folder, status);
+  return true;
+}
+
+/// Jobs that ended before their runs did: the first of them and how to find out why.
+std::string ended_text(const fs::path& folder, const std::vector<int>& runs, const Tasks& tasks,
+                       bool have_begun, const char* next) {
+  const bool is_one = runs.size() == 1;
+  const auto task = tasks.find(runs.front());
+  const std::string of_first = task == tasks.end() ? "" : task->second;
+  const fs::path log = folder / "slurm" / (of_first + ".log");
+  const char* const end = have_begun ? (is_one ? "it was made" : "they were made")
+                                     : (is_one ? "it began" : "they began");
+  return fmt::format("{} {}: {} ended before {}; see {}, or sacct -j {}; {}",
+                     is_one ? "run" : "runs", plan::selection_text(runs),
+                     is_one ? "its job" : "their jobs", end, shell_path(log.string()), of_first,
+                     next);
+}
+
+/// What became of runs whose jobs have ended.
+void judge_ended(const fs::path& folder, const store::Manifest& manifest,
+                 const std::vector<int>& indices, const Tasks& tasks, JobsResult& result,
+                 Progress& progress) {
+  std::vector<int> died, unmade;
+  for (const int index : indices) {
+    const Run& run = *manifest.run_of(index);
+    const fs::path run_folder = store::runs_folder(folder) / run.folder;
+    const store::RunState state = store::read_status(run_folder).state;
+    if (state == store::RunState::interrupted) result.is_interrupted = true;
+    if (state == store::RunState::pending) unmade.push_back(index);
+    if (state != store::RunState::running) continue;
+    const auto task = tasks.find(index);
+    if (end_with_job(run_folder, task == tasks.end() ? "" : task->second)) {
+      died.push_back(index);
+    } else {
+      ++result.elsewhere;
+      result.elsewhere_text =
+          fmt::format("{} is in progress: {}", store::run_text(run),
+                      output::FolderLock::holder_of(run_folder, store::run_lock));
+    }
+  }
+  if (!died.empty())
+    progress.warning(ended_text(folder, died, tasks, true, "--retry-failed makes them again"));
+  if (!unmade.empty())
+    progress.warning(
+        ended_text(folder, unmade, tasks, false, "the same command submits them again"));
+  result.failed += static_cast<int>(unmade.size());
+}
+
 }  // namespace
 
 JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
@@ -329,10 +413,11 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
     write_scripts(folder, options, retry_failed);
     result.started = static_cast<int>(queue_rest(queue, missing, progress));
   }
-  std::set<int> tried;  // also those of jobs that have ended
+  Tasks tried;  // also of jobs that have ended
   const auto note_tried = [&] {
     for (const QueuedJob& job : queue.jobs())
-      if (!job.is_beginning) tried.insert(job.runs.begin(), job.runs.end());
+      for (const int run : job.is_beginning ? std::vector<int>{} : job.runs)
+        tried[run] = fmt::format("{}_{}", job.number, run - job.offset);
   };
   WorkClock clock;
   while (!queue.jobs().empty() && !is_interrupted()) {
@@ -343,7 +428,7 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
     std::this_thread::sleep_for(check_interval);
     note_tried();
     const std::size_t before = queue.jobs().size();
-    queue.forget_ended();
+    queue.forget_ended(progress);
     std::vector<int> rest;
     std::ranges::copy_if(missing, std::back_inserter(rest),
                          [&](int run) { return !tried.contains(run); });
@@ -355,11 +440,10 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
     result.is_interrupted = true;
   }
   progress.clear();
+  if (!result.is_interrupted) judge_ended(folder, manifest, indices, tried, result, progress);
   const RunCounts counts = count(folder, manifest, indices);
   result.ok = counts.finished - counts.failed;
-  result.failed = counts.failed;
-  // Jobs that ended without making their runs.
-  result.is_interrupted |= counts.finished < counts.all;
+  result.failed += counts.failed;
   const std::chrono::duration<double> span = std::chrono::steady_clock::now() - start;
   result.seconds = span.count();
   return result;

@@ -43,7 +43,7 @@ std::vector<QueuedJob> queued_jobs(const fs::path& folder) {
   try {
     for (const Json& job : output::read_json(jobs_path(folder)))
       jobs.push_back({job.at("job").get<std::string>(), job.at("runs").get<std::vector<int>>(),
-                      job.at("is_beginning").get<bool>()});
+                      job.at("is_beginning").get<bool>(), job.value("offset", 0)});
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
     return {};
@@ -54,7 +54,10 @@ std::vector<QueuedJob> queued_jobs(const fs::path& folder) {
 void write_queued_jobs(const fs::path& folder, const std::vector<QueuedJob>& jobs) {
   Json list = Json::array();
   for (const QueuedJob& job : jobs)
-    list.push_back({{"job", job.number}, {"runs", job.runs}, {"is_beginning", job.is_beginning}});
+    list.push_back({{"job", job.number},
+                    {"runs", job.runs},
+                    {"is_beginning", job.is_beginning},
+                    {"offset", job.offset}});
   output::write_file(jobs_path(folder), to_text(list) + "\n");
 }
 

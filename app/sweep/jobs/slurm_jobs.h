@@ -11,6 +11,7 @@ struct QueuedJob {
   std::string number;
   std::vector<int> runs;      ///< of an array, by their indices; of other jobs none
   bool is_beginning = false;  ///< an array of common beginnings; runs are theirs
+  int offset = 0;             ///< of an array: task t is the run offset + t
 };
 
 /// The number of a job in the answer of sbatch --parsable, "4711" or "4711;cluster", behind
