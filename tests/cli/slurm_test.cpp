@@ -175,6 +175,17 @@ class SlurmForks : public SlurmSites {
         folder.path());
   }
 
+  /// Two runs that last for minutes.
+  app::output::ProcessResult long_runs() {
+    return app::output::run_process(
+        "/bin/bash",
+        {"-c",
+         "PATH=\"$PWD/bin:$PATH\" exec \"$0\" sweep scene.toml -p seed=1,2 --set frames=100000 "
+         "--out out --movie none --engine slurm",
+         NEVE_BINARY},
+        folder.path());
+  }
+
   /// "beginning.sh 0 0", a task and its exit code a line.
   std::vector<std::string> tasks_made() {
     std::istringstream lines(read_text(folder / "order"));
@@ -246,13 +257,7 @@ TEST_F(SlurmForks, ARunWhoseTaskIsKilledHasCrashedAndNamesItsLog) {
   kill -9 -- -$p; wait $p; return 1
 }
 )");
-  const auto done = app::output::run_process(
-      "/bin/bash",
-      {"-c",
-       "PATH=\"$PWD/bin:$PATH\" exec \"$0\" sweep scene.toml -p seed=1,2 --set frames=100000 "
-       "--out out --movie none --engine slurm",
-       NEVE_BINARY},
-      folder.path());
+  const auto done = long_runs();
   EXPECT_EQ(done.exit_code, app::exit_runs_failed) << done.errors;
   EXPECT_TRUE(contains(done.errors, "run 0: its job ended before it was made; see")) << done.errors;
   EXPECT_TRUE(contains(done.errors, "run 1: its job ended before it began; see")) << done.errors;
@@ -261,6 +266,37 @@ TEST_F(SlurmForks, ARunWhoseTaskIsKilledHasCrashedAndNamesItsLog) {
   EXPECT_EQ(status["reason"], "its job ended; see slurm/4711_0.log");
   EXPECT_TRUE(contains(read_text(folder / "out/data.csv"), "crashed"));
   EXPECT_FALSE(contains(read_text(folder / "out/data.csv"), "running"));
+}
+
+TEST_F(SlurmForks, AnInterruptedRunWhoseNextJobDoesNotBeginItIsNotInterruptedAgain) {
+  folder.write("before_job", R"(bash() {
+  case $* in *collect.sh*) command bash $*; return;; esac
+  [ -e told$SLURM_ARRAY_TASK_ID ] && return 1
+  touch told$SLURM_ARRAY_TASK_ID
+  "$BASH" $* & p=$!
+  until [ -e out/runs/000$SLURM_ARRAY_TASK_ID/particles/0000.png ]; do sleep 0.05; done
+  kill $p; wait $p
+}
+)");
+  EXPECT_EQ(long_runs().exit_code, app::exit_resumable);
+  EXPECT_EQ(json_of("out/runs/0001/status.json")["state"], "interrupted");
+  const auto again = long_runs();
+  EXPECT_EQ(again.exit_code, app::exit_runs_failed) << again.errors;
+  EXPECT_TRUE(contains(again.errors, "runs 0-1: their jobs ended before they began"))
+      << again.errors;
+  EXPECT_EQ(json_of("out/runs/0001/status.json")["state"], "interrupted");
+}
+
+TEST_F(SlurmForks, RunsWhoseBeginningIsInterruptedWaitForTheNextTime) {
+  folder.write("before_job", R"(bash() {
+  case $* in *collect.sh*) command bash $*; return;; esac
+  "$BASH" $* & p=$!
+  until grep -q '"running"' out/beginning*/status.json 2>/dev/null; do sleep 0.05; done
+  kill $p; wait $p; return 1
+}
+)");
+  const auto done = forks("out", "--set solver.max_dt=1e-6 --engine slurm", 2);
+  EXPECT_EQ(done.exit_code, app::exit_resumable) << done.errors;
 }
 
 TEST_F(SlurmForks, AFirstSubmissionThatRetriesTriesABeginningOnce) {

@@ -365,17 +365,44 @@ std::string ended_text(const fs::path& folder, const std::vector<int>& runs, con
                      next);
 }
 
-/// What became of runs whose jobs have ended.
+/// Attempts of the runs that are interrupted, by run.
+std::map<int, int> attempts_of_interrupted(const fs::path& folder, const store::Manifest& manifest,
+                                           const std::vector<int>& indices) {
+  std::map<int, int> attempts;
+  for (const int index : indices) {
+    const store::RunStatus status =
+        store::read_status(store::runs_folder(folder) / manifest.run_of(index)->folder);
+    if (status.state == store::RunState::interrupted) attempts[index] = status.attempts;
+  }
+  return attempts;
+}
+
+/// A run that has not begun, because its common beginning was interrupted.
+bool waits_for_beginning(const fs::path& folder, const store::Manifest& manifest, const Run& run,
+                         store::RunState state) {
+  if (state != store::RunState::pending || !manifest.beginning) return false;
+  const fs::path beginning = store::beginning_folder(folder, manifest.beginning->run_of(run));
+  return store::read_status(beginning).state == store::RunState::interrupted;
+}
+
+/// What became of runs whose jobs have ended. @param before  attempts of those that were
+/// interrupted
 void judge_ended(const fs::path& folder, const store::Manifest& manifest,
-                 const std::vector<int>& indices, const Tasks& tasks, JobsResult& result,
-                 Progress& progress) {
+                 const std::vector<int>& indices, const Tasks& tasks,
+                 const std::map<int, int>& before, JobsResult& result, Progress& progress) {
   std::vector<int> died, unmade;
   for (const int index : indices) {
     const Run& run = *manifest.run_of(index);
     const fs::path run_folder = store::runs_folder(folder) / run.folder;
-    const store::RunState state = store::read_status(run_folder).state;
-    if (state == store::RunState::interrupted) result.is_interrupted = true;
-    if (state == store::RunState::pending) unmade.push_back(index);
+    const store::RunStatus status = store::read_status(run_folder);
+    const store::RunState state = status.state;
+    const auto earlier = before.find(index);
+    const bool is_interrupted_now = state == store::RunState::interrupted &&
+                                    (earlier == before.end() || earlier->second < status.attempts);
+    if (is_interrupted_now || waits_for_beginning(folder, manifest, run, state))
+      result.is_interrupted = true;
+    else if (state == store::RunState::pending || state == store::RunState::interrupted)
+      unmade.push_back(index);
     if (state != store::RunState::running) continue;
     const auto task = tasks.find(index);
     if (end_with_job(run_folder, task == tasks.end() ? "" : task->second)) {
@@ -404,6 +431,7 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
   const store::Retry retry =
       retry_failed.empty() ? store::Retry{} : store::parse_retry(retry_failed);
   const std::vector<int> missing = missing_runs(folder, manifest, indices, retry);
+  const std::map<int, int> before = attempts_of_interrupted(folder, manifest, missing);
   JobsResult result;
   Queue queue(folder, manifest, options, living(queued_jobs(folder)));
   if (!queue.jobs().empty()) progress.note("waiting for the jobs submitted before");
@@ -427,12 +455,12 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
     progress.runs(counts);
     std::this_thread::sleep_for(check_interval);
     note_tried();
-    const std::size_t before = queue.jobs().size();
+    const std::size_t queued = queue.jobs().size();
     queue.forget_ended(progress);
     std::vector<int> rest;
     std::ranges::copy_if(missing, std::back_inserter(rest),
                          [&](int run) { return !tried.contains(run); });
-    if (queue.jobs().size() < before && !rest.empty())
+    if (queue.jobs().size() < queued && !rest.empty())
       result.started += static_cast<int>(queue_rest(queue, rest, progress));
   }
   if (is_interrupted() && !queue.jobs().empty()) {
@@ -440,7 +468,8 @@ JobsResult run_slurm(const fs::path& folder, const store::Manifest& manifest,
     result.is_interrupted = true;
   }
   progress.clear();
-  if (!result.is_interrupted) judge_ended(folder, manifest, indices, tried, result, progress);
+  if (!result.is_interrupted)
+    judge_ended(folder, manifest, indices, tried, before, result, progress);
   const RunCounts counts = count(folder, manifest, indices);
   result.ok = counts.finished - counts.failed;
   result.failed += counts.failed;
