@@ -131,7 +131,7 @@ render::Frame FrameBuilder::build(const scene::View& wanted, const Snapshot& sna
     add_points(view, snapshot, look, frame);
   add_grid(view, snapshot, frame);
   if (scene::has_layer(view, scene::Layer::scale))
-    add_scale_bar(view, snapshot, plane_of(view, snapshot), frame);
+    add_scale_bar(view, snapshot, plane_of(scene_, view, seeded_, snapshot), frame);
   if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(scene_, view);
   if (is_of_stage) add_stage_change(snapshot, *look, frame);
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
@@ -236,7 +236,7 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
     add_smoke(scene_, view, fields, frame);
   if (scene::has_layer(view, scene::Layer::dust) && snapshot.dust && !snapshot.stage_change)
     add_dust(view, *snapshot.dust, frame);
-  const SlicePlane plane = plane_of(view, snapshot);
+  const SlicePlane plane = plane_of(scene_, view, seeded_, snapshot);
   add_slice(scene_, view, snapshot, plane, {pixels_on(plane, frame), seeded_.spacing}, frame);
   if (!frame.footnote.empty() && !view.slice.follow.empty() &&
       !centre_of(view.slice.follow, scene_, scene_.colliders, seeded_.body_end, snapshot.particles,
@@ -252,9 +252,10 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
     mark_extremes(view, fields, snapshot.advance.dt_max, frame);
 }
 
-SlicePlane FrameBuilder::plane_of(const scene::View& view, const Snapshot& snapshot) const {
+SlicePlane plane_of(const scene::Scene& scene, const scene::View& view,
+                    const setup::SeededScene& seeded, const Snapshot& snapshot) {
   return slice_plane(view.slice, snapshot.time,
-                     followed_by(view.slice.follow, scene_, scene_.colliders, seeded_.body_end,
+                     followed_by(view.slice.follow, scene, scene.colliders, seeded.body_end,
                                  snapshot.particles, snapshot.time));
 }
 
@@ -265,8 +266,9 @@ std::optional<StageLook> FrameBuilder::stage_look(const scene::View& view,
   const scene::CameraSettings& camera =
       scene_.camera && scene_.camera->eye ? *scene_.camera : settings_of(scene_, view);
   const sim::Vec3d eye = setup::camera_at(camera, 0, scene::duration(scene_)).eye;
-  return StageLook{StageCut(view, plane_of(view, snapshot), eye, scene_.solver.cell_size),
-                   snapshot.stage_change->largest()};
+  return StageLook{
+      StageCut(view, plane_of(scene_, view, seeded_, snapshot), eye, scene_.solver.cell_size),
+      snapshot.stage_change->largest()};
 }
 
 /// A box around each body, with its name where there are several.

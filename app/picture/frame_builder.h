@@ -56,7 +56,6 @@ class FrameBuilder {
  private:
   void add_points(const scene::View& view, const Snapshot& snapshot,
                   const std::optional<StageLook>& look, render::Frame& frame) const;
-  SlicePlane plane_of(const scene::View& view, const Snapshot& snapshot) const;
   /// Absent where no stage is looked at.
   std::optional<StageLook> stage_look(const scene::View& view, const Snapshot& snapshot) const;
   void add_grid(const scene::View& view, const Snapshot& snapshot, render::Frame& frame) const;
@@ -79,6 +78,10 @@ setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& vi
 /// The same as the renderer takes it.
 render::Camera camera_of(const scene::Scene& scene, const scene::View& view,
                          const setup::SeededScene& seeded, const Snapshot& snapshot);
+
+/// The plane of the view's slice, where what it follows has taken it.
+SlicePlane plane_of(const scene::Scene& scene, const scene::View& view,
+                    const setup::SeededScene& seeded, const Snapshot& snapshot);
 
 /// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for a value of a collider;
 /// the whole address where two are named alike. None for other cameras, views and colours: these

@@ -184,6 +184,40 @@ TEST_F(ViewByScript, AClickBesideTheSnowIsAnsweredForAMoment) {
   EXPECT_EQ(changed_bytes(before, image("after.png")), 0u);
 }
 
+/// A click on a plane that follows a body is a click on the same plane at a place of its own.
+TEST_F(ViewByScript, AClickOnASliceIsOnThePlaneThatIsDrawn) {
+  const auto picture = [&](const std::string& plane) {
+    folder.write("scene.toml", R"(
+[solver]
+cell_size = 0.04
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.12, 0.3], radius = 0.08 } }
+[[view]]
+name = "slice"
+[view.camera]
+eye = [0.3, 0.3, 0.7]
+target = [0, 0.12, 0.3]
+[view.slice]
+normal = [0, 0, 1]
+)" + plane);
+    const auto result = view(R"([
+      {"click": "Inspect"}, {"wait_for": "label Probe"},
+      {"wait": 20}, {"click": {"label": "picture", "part": [0.53, 0.45]}},
+      {"wait_for": "label Clear"}, {"wait": 20}, {"screenshot": "picture.png", "crop": "picture"}])",
+                             {"--view", "slice"});
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == app::exit_no_backend) << result.errors;
+    return result.exit_code == 0
+               ? render::decode_png(app::output::read_file(folder / "out/picture.png"))
+               : render::Image{};
+  };
+  const render::Image here = picture("point = [0, 0.12, 0.3]");
+  if (here.pixels.empty()) SKIP_OR_FAIL("no way to draw");
+  const render::Image at_body = picture("follow = \"ball\"\npoint = [0, 0, 0]");
+  // The ring about the node would be at another place; the centre of the snow is near the ball's.
+  EXPECT_LT(changed_bytes(here, at_body), 1000u);
+}
+
 TEST_F(ViewByScript, ImpossibleActionsEndItWithStepAndReason) {
   const auto result = view("[{\"wait\": 2},\n {\"click\": \"Simulate\"}]");
   SKIP_WITHOUT_GL(result);

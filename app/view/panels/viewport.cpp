@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/picture/slice.h"
+#include "app/picture/frame_builder.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/pick.h"
 
@@ -39,11 +39,10 @@ std::optional<dump::Probe> pick(const ViewerState& state, ImVec2 mouse, bool wan
   const auto [x, y] = in_picture(state, mouse);
   const session::LiveFrame& live = *state.live;
   const scene::View& view = current_view(state);
-  const bool is_slice = scene::shows_slice(view);
   const bool takes_node = wants_node || !scene::shows_particles(view);
-  if (takes_node && is_slice && view.slice.point) {
-    const auto place =
-        pick_plane(state.orbit, x, y, picture::slice_plane(view.slice, live.snapshot.time));
+  if (takes_node && scene::shows_slice(view)) {
+    const auto place = pick_plane(
+        state.orbit, x, y, picture::plane_of(*live.scene, view, *live.seeded, live.snapshot));
     if (place && is_in_snow(live, *place)) return dump::Probe(*place);
   }
   const auto hit = pick_particle(state.orbit, x, y, live, view.clip);
