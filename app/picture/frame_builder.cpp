@@ -19,7 +19,6 @@
 #include "app/picture/snow_volume.h"
 #include "app/picture/stage_look.h"
 #include "app/picture/to_float.h"
-#include "app/picture/turn.h"
 #include "app/picture/wires.h"
 #include "app/scene/burn_in.h"
 #include "app/scene/coarsen.h"

@@ -8,12 +8,22 @@
 
 #include "app/picture/node_fields.h"
 #include "app/picture/plots.h"
-#include "app/picture/stage_change.h"
 #include "app/scene/live_change.h"
 #include "app/scene/scene.h"
 #include "sim/simulation.h"
 
 namespace neve::app::picture {
+
+/// The change of the snow by one stage of a step: a number or a vector per particle, in id order.
+struct StageChange {
+  std::string title, unit;  ///< "change of velocity", "m/s"
+  std::vector<double> magnitude;
+  std::vector<sim::Vec3d> vector;  ///< the same with direction; empty where it has none
+  bool is_of_nodes = false;        ///< the stage works on the grid, which slices show
+
+  /// The end of the scale: 0 where nothing changed.
+  double largest() const;
+};
 
 /// Shared by all views of a frame.
 struct Snapshot {

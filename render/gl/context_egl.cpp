@@ -1,16 +1,97 @@
 /// EGL without display: on a device (GPU or software) and on Mesa's surfaceless platform.
 
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <map>
 #include <mutex>
+#include <string>
+#include <string_view>
 
 #include "render/gl/context_backends.h"
-#include "render/gl/egl.h"
 #include "render/gl/gl.h"
+#include "render/gl/shared_library.h"
 
 namespace neve::render::gl {
 namespace {
+
+// NOLINTBEGIN(bugprone-macro-parentheses): names cannot be put in parentheses
+#define NEVE_EGL_FUNCTIONS(X) \
+  X(BindAPI)                  \
+  X(ChooseConfig)             \
+  X(CreateContext)            \
+  X(CreatePbufferSurface)     \
+  X(DestroyContext)           \
+  X(DestroySurface)           \
+  X(GetCurrentContext)        \
+  X(GetError)                 \
+  X(GetProcAddress)           \
+  X(Initialize)               \
+  X(MakeCurrent)              \
+  X(QueryString)              \
+  X(Terminate)
+
+/// libEGL, loaded at run time so that neve starts where it is missing: one member per function,
+/// without the egl prefix.
+struct Egl {
+  SharedLibrary library{"libEGL.so.1", "libEGL.so"};
+#define NEVE_EGL_MEMBER(name) decltype(&egl##name) name = nullptr;
+  NEVE_EGL_FUNCTIONS(NEVE_EGL_MEMBER)
+#undef NEVE_EGL_MEMBER
+  // NOLINTEND(bugprone-macro-parentheses)
+  // Extensions; null if the library does not have them.
+  PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay = nullptr;
+  PFNEGLQUERYDEVICESEXTPROC QueryDevices = nullptr;
+  PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceString = nullptr;
+  bool is_complete = false;  ///< all but the extensions are there
+
+  Egl();
+  /// The last error of this thread, for messages.
+  std::string error() const;
+};
+
+Egl::Egl() {
+  if (!library) return;
+  is_complete = true;
+#define NEVE_EGL_LOAD(name)                         \
+  name = library.find<decltype(name)>("egl" #name); \
+  is_complete = is_complete && name != nullptr;
+  NEVE_EGL_FUNCTIONS(NEVE_EGL_LOAD)
+#undef NEVE_EGL_LOAD
+  if (!is_complete) return;
+  GetPlatformDisplay =
+      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(GetProcAddress("eglGetPlatformDisplayEXT"));
+  QueryDevices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(GetProcAddress("eglQueryDevicesEXT"));
+  QueryDeviceString =
+      reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(GetProcAddress("eglQueryDeviceStringEXT"));
+}
+
+std::string Egl::error() const {
+  char text[32];
+  std::snprintf(text, sizeof text, "error 0x%x", static_cast<unsigned>(GetError()));
+  return text;
+}
+
+/// Loaded at the first call.
+const Egl& egl() {
+  static const Egl instance;
+  return instance;
+}
+
+/// True if a name is among extensions separated by spaces. Compares whole words, because some names
+/// are prefixes of others.
+bool lists(const char* extensions, std::string_view name) {
+  std::string_view rest = extensions ? extensions : "";
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, end) == name) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
+}
 
 /// An initialised display. EGL hands out the same handle every time a display is asked for and
 /// eglTerminate ends it for everyone, so users are counted.

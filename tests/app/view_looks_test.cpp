@@ -9,7 +9,7 @@
 #include "app/picture/collider_looks.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/mosaic.h"
-#include "app/picture/turn.h"
+#include "app/picture/to_float.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 

@@ -5,21 +5,84 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <future>
+#include <map>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "app/forecast/step_cost.h"
 #include "app/setup/curves.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/interrupt.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
 #include "app/sweep/plan/order.h"
-#include "app/sweep/plan/run_distance.h"
+#include "app/sweep/plan/sweep_plan.h"
 
 namespace neve::app::sweep::plan {
 
 namespace {
+
+/// A value that a run leaves to the scene comes first, then numbers by their size, then texts.
+struct ByValue {
+  static int kind(const std::string& value) { return value.empty() ? 0 : number_of(value) ? 1 : 2; }
+  bool operator()(const std::string& a, const std::string& b) const {
+    if (kind(a) != kind(b)) return kind(a) < kind(b);
+    return kind(a) == 1 ? *number_of(a) < *number_of(b) : a < b;
+  }
+};
+
+/// Places of the runs of a sweep along each of its parameters, from 0 to 1 by the rank of the value
+/// among the values of the sweep. Runs that differ in their seed alone are
+/// in one place.
+class RunPlaces {
+ public:
+  explicit RunPlaces(const std::vector<PlannedRun>& runs);
+
+  /// The one of `others`, which are not empty, with the least squared distance; of equal ones the
+  /// first.
+  std::size_t nearest(std::size_t run, const std::vector<std::size_t>& others) const;
+
+ private:
+  double distance(std::size_t a, std::size_t b) const;
+
+  std::vector<std::vector<double>> places_;  ///< by run, then by parameter
+};
+
+RunPlaces::RunPlaces(const std::vector<PlannedRun>& runs) : places_(runs.size()) {
+  std::set<std::string> addresses;
+  for (const PlannedRun& item : runs)
+    for (const scene::Override& setting : item.run.settings) addresses.insert(setting.address);
+  addresses.erase("seed");  // another draw of the same values
+  for (const std::string& address : addresses) {
+    std::map<std::string, double, ByValue> ranks;
+    for (const PlannedRun& item : runs) ranks[item.run.setting(address)] = 0;
+    double rank = 0;
+    for (auto& [value, place] : ranks)
+      place = rank++ / static_cast<double>(std::max<std::size_t>(1, ranks.size() - 1));
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      places_[k].push_back(ranks.at(runs[k].run.setting(address)));
+  }
+}
+
+double RunPlaces::distance(std::size_t a, std::size_t b) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < places_[a].size(); ++k) {
+    const double apart = places_[a][k] - places_[b][k];
+    sum += apart * apart;
+  }
+  return sum;
+}
+
+std::size_t RunPlaces::nearest(std::size_t run, const std::vector<std::size_t>& others) const {
+  return *std::min_element(others.begin(), others.end(), [&](std::size_t a, std::size_t b) {
+    return distance(run, a) < distance(run, b);
+  });
+}
 
 /// Seconds of a particle and step that a forecast counts with where nothing was measured: about
 /// those of one thread of a machine of 2022.

@@ -7,18 +7,52 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 #include "app/support/clock.h"
 #include "app/view/web/web_listen.h"
-#include "app/view/web/web_page.h"
 
 namespace neve::app::view::web {
+
+/// Files of this folder that are compiled in; see cmake/EmbedFiles.cmake.
+std::string_view find_embedded_page(std::string_view file_name);
+
 namespace {
 
 constexpr double goodbye_seconds = 0.5;
 
 std::string plain(int status, std::string_view sentence, const HttpHeaders& more = {}) {
   return http_answer(status, "text/plain; charset=utf-8", std::string(sentence) + "\n", more);
+}
+
+std::string fill_in(std::string_view page, const std::string& number) {
+  std::string text(page);
+  constexpr std::string_view mark = "{{nonce}}";
+  for (std::size_t k = 0; (k = text.find(mark, k)) != std::string::npos; k += number.size())
+    text.replace(k, mark.size(), number);
+  return text;
+}
+
+std::string answer_with(int status, std::string_view file, const std::string& may_connect) {
+  const std::string nonce = make_token();
+  const std::string policy = "default-src 'none'; script-src 'nonce-" + nonce +
+                             "'; style-src 'nonce-" + nonce + "'; connect-src " + may_connect +
+                             "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+  return http_answer(status, "text/html; charset=utf-8", fill_in(find_embedded_page(file), nonce),
+                     {{"Content-Security-Policy", policy}});
+}
+
+/// The answer with the page. Its script and its style carry a number of this answer only, so that
+/// nothing else can run in it, and it may connect only to these places.
+/// @param sockets  origins of web sockets between blanks, of checked hosts: "ws://localhost:8080"
+std::string page_answer(const std::string& sockets) {
+  return answer_with(200, "web_page.html", sockets);
+}
+
+/// Answer to a request without token. A reloaded tab finds its token again.
+std::string no_token_answer() {
+  return answer_with(403, "web_no_token.html", "'none'");
 }
 
 }  // namespace
