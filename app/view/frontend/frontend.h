@@ -6,36 +6,12 @@
 #include <vector>
 
 #include "render/screen.h"
+#include "render/window.h"
 
 namespace neve::app::view::frontend {
 
-struct Modifiers {
-  bool ctrl = false, shift = false, alt = false, super = false;
-
-  bool operator==(const Modifiers&) const = default;
-};
-
-/// Keys are their capital letter, digit or sign in ASCII, or one of these.
-namespace key {
-inline constexpr int escape = 256, enter = 257, tab = 258, backspace = 259, insert = 260, del = 261,
-                     right = 262, left = 263, down = 264, up = 265, page_up = 266, page_down = 267,
-                     home = 268, end = 269, f1 = 290, shift = 340, ctrl = 341, alt = 342,
-                     super = 343, last = 348;
-}
-
-/// One input event. Places are pixels of the picture from its upper left corner. `gone`: the
-/// sender of the earlier events has left, and they are void.
-struct InputEvent {
-  enum class Kind { move, button, wheel, key, text, resize, drop, paste, close, gone };
-
-  Kind kind = Kind::move;
-  float x = 0, y = 0;    ///< place; of a wheel notches to the right and up
-  int button = 0;        ///< 0 left, 1 right, 2 middle
-  int key = 0;           ///< see namespace key
-  bool is_down = false;  ///< of button and key
-  Modifiers held{};
-  std::string text{};  ///< UTF-8: the typed text, the clipboard that is pasted, the file dropped
-};
+using render::Modifiers, render::InputEvent, render::off_picture;
+namespace key = render::key;
 
 struct ScreenSize {
   int width = 1280, height = 720;  ///< px

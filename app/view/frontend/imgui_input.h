@@ -11,9 +11,6 @@ struct ImGuiIO;
 
 namespace neve::app::view::frontend {
 
-/// Mouse position outside the picture, for events of kind `move`.
-inline constexpr float off_picture = -100000;
-
 /// Dear ImGui looks at its input once per frame. It notices one change of each key or button, and
 /// it does not know the order of the rest: a click that starts and ends between two frames would
 /// be lost, and a click before a move would land behind it. So events wait here and every frame
