@@ -125,8 +125,6 @@ TEST_F(Browser, BrowserSeesThePictureAndHidesTheToken) {
   EXPECT_EQ(browser->evaluate("location.href"), "http://" + host + "/");
   front->set_title("snow \"ball\"");
   EXPECT_TRUE(wait_until([&] { return browser->evaluate("document.title") == "snow \"ball\""; }));
-  front->set_cursor(app::view::web::Cursor::resize_horizontal);
-  EXPECT_TRUE(wait_until([&] { return is_true("picture.style.cursor === 'ew-resize'"); }));
 }
 
 TEST_F(Browser, ReloadNeedsNoTokenInTheAddress) {

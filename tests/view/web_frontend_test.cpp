@@ -204,18 +204,18 @@ TEST_F(Web, ClipboardGoesBothWays) {
   EXPECT_EQ(front->clipboard(), "0.25\n");
 }
 
-TEST_F(Web, TitleAndCursorAreToldToEveryViewerAndOnlyWhenTheyChange) {
+TEST_F(Web, TitleAndTypingAreToldToEveryViewerAndOnlyWhenTheyChange) {
   start();
   front->set_title("snowball");
   auto page = connect();
   ASSERT_TRUE(wait_until([&] { return front->is_ready(); }));
   for (int k = 0; k < 5; ++k) {
-    front->set_cursor(app::view::web::Cursor::resize_rising);
+    front->set_typing(true);
     front->set_title("snowball");
   }
   std::string all;
   while (const auto frame = page->receive(WebClient::text, 0.2)) all += frame->payload;
-  EXPECT_EQ(all, "{\"title\":\"snowball\"}{\"cursor\":\"default\"}{\"cursor\":\"nesw-resize\"}");
+  EXPECT_EQ(all, "{\"title\":\"snowball\"}{\"typing\":\"on\"}");
 }
 
 TEST_F(Web, NewViewerTakesThePlaceOfTheOneBefore) {

@@ -36,32 +36,6 @@ WebServerOptions server_options(const WebOptions& options) {
   return result;
 }
 
-const char* css_of(Cursor cursor) {
-  switch (cursor) {
-    case Cursor::arrow:
-      return "default";
-    case Cursor::text:
-      return "text";
-    case Cursor::hand:
-      return "pointer";
-    case Cursor::resize_all:
-      return "move";
-    case Cursor::resize_horizontal:
-      return "ew-resize";
-    case Cursor::resize_vertical:
-      return "ns-resize";
-    case Cursor::resize_rising:
-      return "nesw-resize";
-    case Cursor::resize_falling:
-      return "nwse-resize";
-    case Cursor::forbidden:
-      return "not-allowed";
-    case Cursor::none:
-      return "none";
-  }
-  return "default";
-}
-
 bool shows_same(const render::Image& a, const render::Image& b) {
   return a.width == b.width && a.height == b.height && a.channels == b.channels &&
          a.pixels == b.pixels;
@@ -217,13 +191,6 @@ std::string WebFrontend::clipboard() const {
   return clipboard_;
 }
 
-void WebFrontend::set_cursor(Cursor cursor) {
-  const std::lock_guard lock(mutex_);
-  if (cursor_ == css_of(cursor)) return;
-  cursor_ = css_of(cursor);
-  tell(page_text("cursor", cursor_));
-}
-
 void WebFrontend::set_typing(bool is_wanted) {
   const std::lock_guard lock(mutex_);
   if (is_typing_ == is_wanted) return;
@@ -263,7 +230,6 @@ void WebFrontend::on_viewer(std::uint64_t viewer) {
     has_told_size_ = false;
     is_visible_ = is_wanted_ = true;
     tell(page_text("title", title_));
-    tell(page_text("cursor", cursor_));
     if (is_typing_) tell(page_text("typing", "on"));
     if (!scrolls_.empty()) tell(page_text("scrolls", scrolls_));
   }

@@ -27,20 +27,6 @@ struct WebOptions {
   WebLimits limits{};
 };
 
-/// Shapes of the pointer, as CSS calls them.
-enum class Cursor {
-  arrow,
-  text,
-  hand,
-  resize_all,
-  resize_horizontal,
-  resize_vertical,
-  resize_rising,   ///< from lower left to upper right
-  resize_falling,  ///< from upper left to lower right
-  forbidden,
-  none
-};
-
 /// Only one page is connected at a time: the one opened last. All but where(), wake() and the
 /// destructor belong to one thread, the program's; the server's thread only fills queues.
 class WebFrontend final : public frontend::Frontend, private WebListener {
@@ -72,7 +58,6 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
 
   void set_typing(bool is_wanted) override;
   void set_scrolling(const std::vector<frontend::ScrollPlace>& places) override;
-  void set_cursor(Cursor cursor);
   /// Sets the title of the page, shown in the browser's tab.
   void set_title(const std::string& title);
 
@@ -104,7 +89,7 @@ class WebFrontend final : public frontend::Frontend, private WebListener {
   frontend::EventQueue events_;
   FramePacing pacing_;
   frontend::ScreenSize size_;
-  std::string clipboard_, cursor_ = "default", title_ = "neve";
+  std::string clipboard_, title_ = "neve";
   std::string scrolls_;       ///< "x y width height notch" of each list, between semicolons
   std::uint64_t viewer_ = 0;  ///< 0: no page is connected
   bool has_told_size_ = false, is_visible_ = true;
