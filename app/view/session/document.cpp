@@ -212,26 +212,25 @@ void Document::forget(const std::string& address) {
   undone_.clear();
 }
 
-std::string Document::undo() {
-  if (done_.empty()) return {};
+/// Becomes the newest of one list, and puts what it was into the other.
+std::string Document::step(std::vector<std::vector<scene::Override>>& from,
+                           std::vector<std::vector<scene::Override>>& to) {
+  if (from.empty()) return {};
   const std::vector<scene::Override> before = edits_;
-  become(done_.back());
-  done_.pop_back();
-  undone_.push_back(before);
+  become(from.back());
+  from.pop_back();
+  to.push_back(before);
   gesture_ = 0;
   const std::vector<std::string> changed = difference(before, edits_);
   return changed.empty() ? std::string() : changed.front();
 }
 
+std::string Document::undo() {
+  return step(done_, undone_);
+}
+
 std::string Document::redo() {
-  if (undone_.empty()) return {};
-  const std::vector<scene::Override> before = edits_;
-  become(undone_.back());
-  undone_.pop_back();
-  done_.push_back(before);
-  gesture_ = 0;
-  const std::vector<std::string> changed = difference(before, edits_);
-  return changed.empty() ? std::string() : changed.front();
+  return step(undone_, done_);
 }
 
 std::vector<ChangedValue> Document::changes() const {

@@ -98,6 +98,8 @@ class Document {
   void put_object(std::vector<scene::Override>& edits, const std::string& address,
                   const std::string& value) const;
   void become(std::vector<scene::Override> edits);
+  std::string step(std::vector<std::vector<scene::Override>>& from,
+                   std::vector<std::vector<scene::Override>>& to);
   void require_within_limits(const scene::Scene& next) const;
 
   std::string file_, text_;

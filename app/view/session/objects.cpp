@@ -32,23 +32,14 @@ struct Kind {
 };
 
 Kind kind_of(NewObject object) {
-  switch (object) {
-    case NewObject::snow_ball:
-      return {"body", "ball", "Body: a sphere"};
-    case NewObject::snow_block:
-      return {"body", "block", "Body: a box"};
-    case NewObject::emitter:
-      return {"emitter", "emitter", "Emitter of snow"};
-    case NewObject::sink:
-      return {"sink", "sink", "Sink for snow"};
-    case NewObject::sphere:
-      return {"collider", "sphere", "Collider: a sphere"};
-    case NewObject::box:
-      return {"collider", "box", "Collider: a box"};
-    case NewObject::floor:
-      break;
-  }
-  return {"collider", "floor", "Floor"};
+  constexpr Kind kinds[] = {{"body", "ball", "Body: a sphere"},
+                            {"body", "block", "Body: a box"},
+                            {"emitter", "emitter", "Emitter of snow"},
+                            {"sink", "sink", "Sink for snow"},
+                            {"collider", "sphere", "Collider: a sphere"},
+                            {"collider", "box", "Collider: a box"},
+                            {"collider", "floor", "Floor"}};  // in the order of NewObject
+  return kinds[static_cast<std::size_t>(object)];
 }
 
 /// Every shape of a list with the name of its object.
@@ -199,31 +190,22 @@ const char* title_of(NewObject object) {
 }
 
 std::vector<std::pair<std::string, Vec3d>> places_of(const Shape& shape) {
-  std::vector<std::pair<std::string, Vec3d>> places;
-  const auto add = [&](const char* address, const Vec3d& place) {
-    places.emplace_back(address, place);
-  };
-  if (const auto* s = std::get_if<sim::shapes::Sphere>(&shape.form))
-    add("sphere.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Box>(&shape.form)) add("box.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Cylinder>(&shape.form))
-    add("cylinder.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Cone>(&shape.form)) add("cone.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Torus>(&shape.form)) add("torus.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Mesh>(&shape.form)) add("mesh.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::MeshSequence>(&shape.form))
-    add("mesh_sequence.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Points>(&shape.form))
-    add("points.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Terrain>(&shape.form))
-    add("terrain.center", s->center);
-  if (const auto* s = std::get_if<sim::shapes::Cover>(&shape.form)) add("cover.center", s->center);
-  if (const auto* s = std::get_if<Plane>(&shape.form)) add("plane.point", s->point);
-  if (const auto* s = std::get_if<sim::shapes::Capsule>(&shape.form)) {
-    add("capsule.a", s->a);
-    add("capsule.b", s->b);
-  }
-  return places;
+  constexpr const char* forms[] = {"sphere",        "box",    "capsule", "cylinder",
+                                   "cone",          "torus",  "plane",   "mesh",
+                                   "mesh_sequence", "points", "terrain", "cover"};
+  static_assert(std::size(forms) == std::variant_size_v<decltype(shape.form)>);
+  const std::string form = std::string(forms[shape.form.index()]) + ".";
+  using Places = std::vector<std::pair<std::string, Vec3d>>;
+  return std::visit(
+      [&](const auto& s) -> Places {
+        if constexpr (requires { s.center; })
+          return {{form + "center", s.center}};
+        else if constexpr (requires { s.point; })
+          return {{form + "point", s.point}};
+        else
+          return {{form + "a", s.a}, {form + "b", s.b}};
+      },
+      shape.form);
 }
 
 AddedObject new_object(const scene::Scene& scene, NewObject object, const Vec3d& near,

@@ -63,34 +63,21 @@ int judge_unfinished(std::string_view bytes) {
 }
 
 std::string_view reason_of(int status) {
-  switch (status) {
-    case 101:
-      return "Switching Protocols";
-    case 200:
-      return "OK";
-    case 204:
-      return "No Content";
-    case 400:
-      return "Bad Request";
-    case 403:
-      return "Forbidden";
-    case 404:
-      return "Not Found";
-    case 405:
-      return "Method Not Allowed";
-    case 408:
-      return "Request Timeout";
-    case 414:
-      return "URI Too Long";
-    case 426:
-      return "Upgrade Required";
-    case 431:
-      return "Request Header Fields Too Large";
-    case 505:
-      return "HTTP Version Not Supported";
-    default:
-      return "Error";
-  }
+  constexpr std::pair<int, std::string_view> reasons[] = {{101, "Switching Protocols"},
+                                                          {200, "OK"},
+                                                          {204, "No Content"},
+                                                          {400, "Bad Request"},
+                                                          {403, "Forbidden"},
+                                                          {404, "Not Found"},
+                                                          {405, "Method Not Allowed"},
+                                                          {408, "Request Timeout"},
+                                                          {414, "URI Too Long"},
+                                                          {426, "Upgrade Required"},
+                                                          {431, "Request Header Fields Too Large"},
+                                                          {505, "HTTP Version Not Supported"}};
+  for (const auto& [number, reason] : reasons)
+    if (number == status) return reason;
+  return "Error";
 }
 
 }  // namespace
