@@ -71,18 +71,4 @@ Rgb8 map_value(ColorMap map, float value, float range_min, float range_max) {
   return map_color(map, (0.5f * value - 0.5f * range_min) / width);
 }
 
-const char* colormap_name(ColorMap map) {
-  switch (map) {
-    case ColorMap::viridis:
-      return "viridis";
-    case ColorMap::magma:
-      return "magma";
-    case ColorMap::turbo:
-      return "turbo";
-    case ColorMap::coolwarm:
-      break;
-  }
-  return "coolwarm";
-}
-
 }  // namespace neve::render

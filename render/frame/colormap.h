@@ -19,7 +19,4 @@ Rgb8 map_color(ColorMap map, float t);
 /// Colour of a value in a range; a range of no width maps everything to its middle.
 Rgb8 map_value(ColorMap map, float value, float range_min, float range_max);
 
-/// The name that scenes use.
-const char* colormap_name(ColorMap map);
-
 }  // namespace neve::render

@@ -198,8 +198,9 @@ TEST_P(ParticlePass, ValuesAreShownInTheColoursOfTheMap) {
       const float dot = static_cast<float>(p.r * c.r + p.g * c.g + p.b * c.b);
       const float size = std::sqrt(static_cast<float>(p.r * p.r + p.g * p.g + p.b * p.b)) *
                          std::sqrt(static_cast<float>(c.r * c.r + c.g * c.g + c.b * c.b));
-      EXPECT_GT(dot / size, 0.985f) << colormap_name(map) << " at " << value;
-      EXPECT_NEAR(p.brightness(), (c.r + c.g + c.b) / 3, 45) << colormap_name(map) << " " << value;
+      EXPECT_GT(dot / size, 0.985f) << static_cast<int>(map) << " at " << value;
+      EXPECT_NEAR(p.brightness(), (c.r + c.g + c.b) / 3, 45)
+          << static_cast<int>(map) << " " << value;
     }
   }
 }

@@ -63,7 +63,7 @@ TEST(HeatMapPass, HeatMapPassShowsTheColoursOfTheLegend) {
       // The root of 8 bits that the G-buffer keeps, and dither: two or three steps of 255.
       for (const int x : {10, 60, 110})
         EXPECT_TRUE(is_close(pixel(image, x, 45), map_value(colormap, value, 0, 4), 3))
-            << value << " at " << x << " of " << colormap_name(colormap);
+            << value << " at " << x << " of " << static_cast<int>(colormap);
     }
 }
 
