@@ -38,8 +38,7 @@ void draw_panel_switch(ViewerState& state) {
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoBackground)) {
-    if (ImGui::Button("Panels")) state.panels.left = state.panels.right = true;
-    note_label("Panels");
+    if (labelled_button("Panels")) state.panels.left = state.panels.right = true;
   }
   ImGui::End();
 }
@@ -116,11 +115,9 @@ void draw_offer(ViewerState& state) {
       ImGui::PopStyleColor();
     }
     ImGui::PopTextWrapPos();
-    const bool is_reload = ImGui::Button("Reload and restart");
-    note_label("Reload and restart");
+    const bool is_reload = labelled_button("Reload and restart");
     ImGui::SameLine();
-    const bool is_kept = ImGui::Button("Keep the current scene");
-    note_label("Keep the current scene");
+    const bool is_kept = labelled_button("Keep the current scene");
     if (is_reload) state.bench.reload();
     if (is_kept) state.bench.keep_file();
     if (is_reload || is_kept) state.is_reload_offered = state.bench.has_file_changed();

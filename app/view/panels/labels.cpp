@@ -80,4 +80,10 @@ void note_label(const char* name, const LabelPlace& place) {
   Labels::of_panels().note(shown_part(name), place, ImGui::GetFrameCount());
 }
 
+bool labelled_button(const char* words, const char* name) {
+  const bool is_pressed = ImGui::Button(words);
+  note_label(name ? name : words);
+  return is_pressed;
+}
+
 }  // namespace neve::app::view::panels

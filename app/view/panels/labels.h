@@ -48,6 +48,9 @@ class Labels {
 /// Notes the widget that ImGui drew last; text after "##" in a name is left out, as on the
 /// widget.
 void note_label(const char* name);
+/// A button with its label. @param name  where it is another than the words @return whether it is
+/// pressed
+bool labelled_button(const char* words, const char* name = nullptr);
 /// Notes any rectangle, such as that of the 3D picture.
 void note_label(const char* name, const LabelPlace& place);
 

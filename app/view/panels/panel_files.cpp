@@ -6,6 +6,7 @@
 #include "app/view/panels/beside.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/viewer_state.h"
+#include "app/view/panels/words.h"
 
 namespace neve::app::view::panels {
 
@@ -22,11 +23,8 @@ void draw_files(ViewerState& state) {
   if (ImGui::Begin("Files", &state.is_file_list_open,
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextDisabled("%s", state.files.empty()
-                                  ? "Nothing has been written yet: save a picture or the scene."
-                                  : "Click a file to download it.");
-    ImGui::PopTextWrapPos();
+    dim_text(state.files.empty() ? "Nothing has been written yet: save a picture or the scene."
+                                 : "Click a file to download it.");
     ImGui::BeginChild("list of files");
     for (const session::WrittenFile& file : state.files) {
       if (ImGui::Selectable((file.name + "  (" + bytes_text(file.bytes) + ")").c_str()))

@@ -80,10 +80,9 @@ void draw_stage_table(ViewerState& state, const session::StageSummary& look) {
       std::to_string(look.rows) + (look.is_of_nodes ? " nodes, " + std::to_string(look.negligible) +
                                                           " of them too light and left out"
                                                     : " particles");
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   wrapped_text(std::string("after ") + sim::name(look.stage) + " of a step of " +
-               rough_text(look.dt) + " s: magnitudes of " + rows);
-  ImGui::PopStyleColor();
+                   rough_text(look.dt) + " s: magnitudes of " + rows,
+               ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   if (!begin_quantities("stage")) return;
   for (const session::QuantitySummary& quantity : look.quantities) {
     ImGui::TableNextRow();
@@ -191,14 +190,11 @@ void draw_stages(ViewerState& state) {
     for (const auto& named : scene::names(sim::Stage{})) draw_stage(state, named.value, named.text);
     ImGui::EndTable();
   }
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("%s", live.stage ? "Time of each stage of this one step, taken stage by "
-                                         "stage on a copy. The run itself is faster."
-                            : live.steps > 0
-                                ? "Time of the run so far, by phase, because the run joins the "
-                                  "stages of a phase. Click a stage for its own time."
-                                : "Click a stage to inspect a step, on a copy.");
-  ImGui::PopTextWrapPos();
+  dim_text(live.stage       ? "Time of each stage of this one step, taken stage by "
+                              "stage on a copy. The run itself is faster."
+           : live.steps > 0 ? "Time of the run so far, by phase, because the run joins the "
+                              "stages of a phase. Click a stage for its own time."
+                            : "Click a stage to inspect a step, on a copy.");
   if (live.stage) draw_stage_table(state, *live.stage);
 }
 
@@ -237,18 +233,15 @@ void draw_trace(ViewerState& state) {
 void draw_probe(ViewerState& state) {
   const session::LiveFrame& live = *state.live;
   if (!state.probe) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextDisabled(
+    dim_text(
         "Click a particle in the picture, or ctrl-click the nearest node of the grid, to read its "
         "values.");
-    ImGui::PopTextWrapPos();
     return;
   }
-  if (ImGui::Button("Clear")) {
+  if (labelled_button("Clear")) {
     set_probe(state, std::nullopt);
     return;
   }
-  note_label("Clear");
   ImGui::SameLine();
   ImGui::Checkbox("follow it", &state.follows_probe);
   note_label("follow it");

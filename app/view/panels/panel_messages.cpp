@@ -18,37 +18,27 @@ namespace neve::app::view::panels {
 namespace {
 
 ImVec4 message_color(session::Message::Kind kind) {
-  switch (kind) {
-    case session::Message::Kind::note:
-      return {0.80f, 0.84f, 0.90f, 1};
-    case session::Message::Kind::warning:
-      return {1.0f, 0.80f, 0.35f, 1};
-    case session::Message::Kind::error:
-      return {1.0f, 0.42f, 0.32f, 1};
-  }
-  return {1, 1, 1, 1};
+  if (kind == session::Message::Kind::error) return {1.0f, 0.42f, 0.32f, 1};
+  if (kind == session::Message::Kind::warning) return {1.0f, 0.80f, 0.35f, 1};
+  return {0.80f, 0.84f, 0.90f, 1};
 }
 
 void draw_incident(ViewerState& state) {
   const session::LiveFrame& live = *state.live;
   if (!live.divergence || !live.diagnosis) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, message_color(session::Message::Kind::error));
-  wrapped_text(health::sentence(*live.divergence, *live.diagnosis));
-  ImGui::PopStyleColor();
-  if (ImGui::Button("Show me")) show_incident(state);
-  note_label("Show me");
+  wrapped_text(health::sentence(*live.divergence, *live.diagnosis),
+               message_color(session::Message::Kind::error));
+  if (labelled_button("Show me")) show_incident(state);
   ImGui::SameLine();
   if (!live.diagnosis->address.empty()) {
-    if (ImGui::Button("Find the parameter")) state.filter = live.diagnosis->address;
-    note_label("Find the parameter");
+    if (labelled_button("Find the parameter")) state.filter = live.diagnosis->address;
   }
   const bool is_ignored = live.scene->solver.on_divergence == sim::OnDivergence::ignore;
   if (!is_ignored && !sim::is_final_rule(live.divergence->rule)) {
-    if (ImGui::Button("Continue anyway")) {
+    if (labelled_button("Continue anyway")) {
       state.shows_incident = false;
       state.bench.continue_anyway();
     }
-    note_label("Continue anyway");
     tip("from the last kept frame, past the broken rule, to watch the snow burst;\n"
         "pictures say so");
   }
@@ -145,14 +135,12 @@ void draw_question(ViewerState& state, ImVec2 at) {
                    "Continuing here drops the frames {} to {}, and the changes made in them.",
                    first, start + live.head))
             .c_str());
-    if (ImGui::Button("Drop them and continue")) {
+    if (labelled_button("Drop them and continue")) {
       state.asks_to_continue = false;
       state.bench.continue_from_here();
     }
-    note_label("Drop them and continue");
     ImGui::SameLine();
-    if (ImGui::Button("Keep them")) state.asks_to_continue = false;
-    note_label("Keep them");
+    if (labelled_button("Keep them")) state.asks_to_continue = false;
   }
   ImGui::End();
 }
@@ -164,9 +152,7 @@ void draw_messages(ViewerState& state) {
   const std::deque<session::Message>& messages = state.bench.messages();
   if (messages.empty() && !state.live->divergence) ImGui::TextDisabled("Nothing to report.");
   for (auto message = messages.rbegin(); message != messages.rend(); ++message) {
-    ImGui::PushStyleColor(ImGuiCol_Text, message_color(message->kind));
-    wrapped_text(message->text);
-    ImGui::PopStyleColor();
+    wrapped_text(message->text, message_color(message->kind));
     ImGui::Spacing();
   }
 }

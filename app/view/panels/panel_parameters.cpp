@@ -172,10 +172,7 @@ void draw_parameters(ViewerState& state) {
   Knobs knobs(panel, "");
   scene::describe(knobs, scene);
   if (!panel.has_shown()) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextDisabled("No parameter here is called \"%s\" or has it in its description.",
-                        state.filter.c_str());
-    ImGui::PopTextWrapPos();
+    dim_text("No parameter here is called \"" + state.filter + "\" or has it in its description.");
   }
   ImGui::EndChild();
   waiting.draw();
@@ -185,16 +182,12 @@ void draw_parameters(ViewerState& state) {
 void draw_changes(ViewerState& state) {
   const std::vector<session::ChangedValue> changes = state.bench.document().changes();
   if (changes.empty()) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextDisabled("Nothing differs from %s.", state.bench.document().file().c_str());
-    ImGui::PopTextWrapPos();
+    dim_text("Nothing differs from " + state.bench.document().file() + ".");
     return;
   }
-  if (ImGui::Button("Restore all")) state.bench.forget("");
-  note_label("Restore all");
+  if (labelled_button("Restore all")) state.bench.forget("");
   ImGui::SameLine();
-  if (ImGui::Button("Copy the command")) state.copy(state.bench.command());
-  note_label("Copy the command");
+  if (labelled_button("Copy the command")) state.copy(state.bench.command());
   ImGui::BeginChild("changes");
   for (const session::ChangedValue& change : changes) {
     ImGui::PushID(change.address.c_str());
@@ -216,8 +209,7 @@ void draw_changes(ViewerState& state) {
 namespace {
 
 void draw_add_menu(ViewerState& state) {
-  if (ImGui::Button("Add ...")) ImGui::OpenPopup("add");
-  note_label("Add ...");
+  if (labelled_button("Add ...")) ImGui::OpenPopup("add");
   tip("add a body, a collider, an emitter or a sink where the camera looks");
   if (!ImGui::BeginPopup("add")) return;
   using enum session::NewObject;
@@ -239,15 +231,13 @@ void draw_object_buttons(ViewerState& state) {
   draw_add_menu(state);
   if (state.selected.empty()) return;
   ImGui::SameLine();
-  if (ImGui::Button("Copy")) {
+  if (labelled_button("Copy")) {
     const std::string copied = state.bench.copy_object(state.selected);
     if (!copied.empty()) state.selected = copied;
   }
-  note_label("Copy");
   tip("add a copy of the selected object, with its changes, beside it");
   ImGui::SameLine();
-  if (ImGui::Button("Remove")) state.bench.set(state.selected, "none");
-  note_label("Remove");
+  if (labelled_button("Remove")) state.bench.set(state.selected, "none");
   tip("remove the selected object; ctrl+Z brings it back");
 }
 
@@ -313,16 +303,13 @@ void draw_view_panel(ViewerState& state) {
     draw_view_buttons(state, scene.views);
   else
     draw_view_list(state, scene.views);
-  if (ImGui::Button("Frame all")) frame_all(state);
-  note_label("Frame all");
+  if (labelled_button("Frame all")) frame_all(state);
   ImGui::SameLine();
-  if (ImGui::Button("Scene's camera")) state.is_camera_of_scene = true;
-  note_label("Scene's camera");
+  if (labelled_button("Scene's camera")) state.is_camera_of_scene = true;
   if (current_view(state).particles.color_by != scene::ColorBy::snow &&
       scene::shows_particles(current_view(state))) {
     ImGui::SameLine();
-    if (ImGui::Button("Fit the range")) fit_range(state, current_view(state));
-    note_label("Fit the range");
+    if (labelled_button("Fit the range")) fit_range(state, current_view(state));
     tip("colours from the smallest to the largest value of the selected body,\nor of all snow, at "
         "this moment");
   }

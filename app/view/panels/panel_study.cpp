@@ -23,12 +23,6 @@ namespace {
 
 constexpr std::size_t max_axes = 2, max_found = 8;
 
-bool labelled_button(const char* label, const char* name = nullptr) {
-  const bool is_pressed = ImGui::Button(label);
-  note_label(name ? name : label);
-  return is_pressed;
-}
-
 /// Live parameters of the simulation that a text means; without a text those of materials.
 std::vector<scene::FlatParam> found_parameters(const ViewerState& state) {
   const scene::Search search(state.study.filter);
@@ -123,9 +117,7 @@ void draw_form(ViewerState& state) {
   if (!live.is_frame_end || live.is_running)
     wrapped_text("Runs begin at the end of a frame: pause, or go to one on the time line.");
   if (state.study.error.empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 0.45f, 0.4f, 1));
-  wrapped_text(state.study.error);
-  ImGui::PopStyleColor();
+  wrapped_text(state.study.error, ImVec4(1, 0.45f, 0.4f, 1));
 }
 
 void draw_running(ViewerState& state, const session::StudyProgress& progress) {

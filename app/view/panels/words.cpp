@@ -42,4 +42,16 @@ void wrapped_text(const std::string& text) {
   ImGui::PopTextWrapPos();
 }
 
+void wrapped_text(const std::string& text, const ImVec4& color) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  wrapped_text(text);
+  ImGui::PopStyleColor();
+}
+
+void dim_text(const std::string& text) {
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%s", text.c_str());
+  ImGui::PopTextWrapPos();
+}
+
 }  // namespace neve::app::view::panels

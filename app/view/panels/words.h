@@ -14,5 +14,9 @@ std::string in_lines(const std::string& text, float width);
 
 /// Draws text in the width that is left. A word that is wider alone is broken inside.
 void wrapped_text(const std::string& text);
+/// The same in another colour.
+void wrapped_text(const std::string& text, const ImVec4& color);
+/// A remark, in the colour of what is off.
+void dim_text(const std::string& text);
 
 }  // namespace neve::app::view::panels

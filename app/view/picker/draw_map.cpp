@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/view/panels/labels.h"
+#include "app/view/panels/words.h"
 #include "app/view/picker/colours.h"
 #include "app/view/picker/picker_state.h"
 #include "render/overlay/plots.h"
@@ -20,9 +21,7 @@ void draw_map(const PickerState& state) {
       *state.map, {at.x + left, at.x + left + side, at.y + top, at.y + top + side}, {}, canvas);
   ImGui::Dummy(ImVec2(width, top + side + 3.2f * em()));
   panels::note_label("map");
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("%s", pick::map_words);
-  ImGui::PopTextWrapPos();
+  panels::dim_text(pick::map_words);
 }
 
 }  // namespace neve::app::view::picker

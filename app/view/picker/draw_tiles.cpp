@@ -127,12 +127,6 @@ void draw_tile(PickerState& state, int tile) {
   if (ImGui::IsItemClicked(1) && shown.is_new) state.closer = tile;
 }
 
-bool small_button(const char* name) {
-  const bool is_pressed = ImGui::Button(name);
-  panels::note_label(name);
-  return is_pressed;
-}
-
 void draw_closer(PickerState& state) {
   const Frame frame = whole_grid(state.layout.grid);
   const int tile = *state.closer;
@@ -147,10 +141,10 @@ void draw_closer(PickerState& state) {
   state.pointed = tile;
   ImGui::SetCursorScreenPos(ImVec2(frame.low.x + inset, frame.high.y - 2.3f * em()));
   const bool is_asking = state.phase == Phase::asking;
-  if (is_asking && small_button("Choose this one"))
+  if (is_asking && panels::labelled_button("Choose this one"))
     click_tile(state, tile, ImGui::GetIO().KeyShift);
   if (is_asking) ImGui::SameLine();
-  if (small_button("All nine")) state.closer.reset();
+  if (panels::labelled_button("All nine")) state.closer.reset();
 }
 
 /// The picture of the result takes the place of the tiles, or a veil lies over them.

@@ -33,12 +33,6 @@ void draw_paragraph(const std::string& text, ImU32 color = colour::text) {
   ImGui::Dummy(ImVec2(0, 0.15f * em()));
 }
 
-bool draw_button(const std::string& name) {
-  const bool is_pressed = ImGui::Button(name.c_str());
-  panels::note_label(name.c_str());
-  return is_pressed;
-}
-
 void draw_lesson(const PickerState& state) {
   draw_heading("Learned so far");
   if (!state.map) {
@@ -79,7 +73,7 @@ void draw_failure(PickerState& state) {
 
 void draw_command(const PickerState& state, const std::string& command, const char* button) {
   say(command);
-  if (draw_button(button)) state.copy(command);
+  if (panels::labelled_button(button)) state.copy(command);
 }
 
 void draw_next(const PickerState& state) {
@@ -96,7 +90,7 @@ void draw_files(const PickerState& state) {
   const auto row = [&](const char* name, const char* meaning) {
     if (!state.download)
       say(name);
-    else if (draw_button(std::string("Download ") + name))
+    else if (panels::labelled_button((std::string("Download ") + name).c_str()))
       state.download(state.game.folder() / name);
     say(meaning, colour::dim);
   };
