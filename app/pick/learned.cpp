@@ -55,10 +55,6 @@ std::string short_value(const PickAxis& axis, double u) {
   return fmt::format("{:.3g}", axis.value(u));
 }
 
-std::string axis_title(const PickAxis& axis) {
-  return axis.name + (axis.unit.empty() ? "" : " (" + axis.unit + ")");
-}
-
 std::vector<AxisTaste> axis_tastes(const std::vector<PickAxis>& axes,
                                    const search::Preference& taste, const Point& favourite) {
   std::vector<AxisTaste> tastes;

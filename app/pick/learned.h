@@ -34,8 +34,6 @@ inline constexpr const char* map_words =
     "Light: liked. Pale: little known. Red: chosen. Ring: favourite so far.";
 std::string map_svg(const render::Plot& map);
 
-/// "name (unit)"
-std::string axis_title(const PickAxis& axis);
 /// A value with three digits, without its unit.
 std::string short_value(const PickAxis& axis, double u);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/pick/learned.h"
+#include "app/sweep/plan/labels.h"
 #include "render/overlay/svg.h"
 
 namespace neve::app::pick {
@@ -78,8 +79,8 @@ render::Plot taste_map(const std::vector<PickAxis>& axes, const search::Preferen
       add_dot(round.tiles[static_cast<std::size_t>(k)], x, y, is_chosen ? chosen : others);
     }
   render::Plot map;
-  map.title = axis_title(upwards) + ", upwards";
-  map.x_title = axis_title(across);
+  map.title = sweep::plan::titled(upwards.name, upwards.unit) + ", upwards";
+  map.x_title = sweep::plan::titled(across.name, across.unit);
   map.x_unit.clear();
   map.x_ticks = {{0, short_value(across, 0)}, {1, short_value(across, 1)}};
   map.ticks = {{0, short_value(upwards, 0)}, {1, short_value(upwards, 1)}};

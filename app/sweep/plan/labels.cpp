@@ -55,6 +55,10 @@ std::string value_text(const std::string& value) {
   return std::string(text) + "e" + std::to_string(power);
 }
 
+std::string titled(const std::string& title, const std::string& unit) {
+  return title + (unit.empty() ? "" : " (" + unit + ")");
+}
+
 std::vector<Parameter> varied_parameters(const SweepPlan& plan) {
   std::vector<std::string> addresses;
   for (const PlannedRun& item : plan.runs)

@@ -14,6 +14,9 @@ std::vector<std::string> short_names(const std::vector<std::string>& addresses);
 /// "1.4e5", "[0, -5, 0]", "flip": a value as it is given, numbers with at most six digits.
 std::string value_text(const std::string& value);
 
+/// "spread (m)"; without a unit the title alone.
+std::string titled(const std::string& title, const std::string& unit);
+
 /// All parameters that differ between runs, in the order of the file.
 std::vector<Parameter> varied_parameters(const SweepPlan& plan);
 

@@ -9,6 +9,7 @@
 
 #include "app/support/text.h"
 #include "app/sweep/plan/designs.h"
+#include "app/sweep/plan/labels.h"
 #include "app/sweep/store/points.h"
 #include "render/overlay/svg.h"
 
@@ -90,11 +91,6 @@ std::vector<Column> columns_of(const store::Manifest& manifest,
     if (column.strongest > 0) columns.push_back(std::move(column));
   }
   return columns;
-}
-
-std::string title_of(std::size_t metric) {
-  const store::MetricInfo& info = store::metric_infos()[metric];
-  return std::string(info.title) + (info.unit[0] ? std::string(" (") + info.unit + ")" : "");
 }
 
 /// Axes by the sum of their shares of the strongest effects.
@@ -290,7 +286,8 @@ std::vector<std::string> effect_lines(const store::Manifest& manifest,
       return order.size() > place && !column.effects[order[place]].is_noise &&
              column.effects[order[place]].strength > 0;
     };
-    std::string line = title_of(column.metric) + ": ";
+    const store::MetricInfo& info = store::metric_infos()[column.metric];
+    std::string line = plan::titled(info.title, info.unit) + ": ";
     line += is_told(0) ? part(order[0]) : "all effects are within noise";
     if (is_told(1)) line += ", then " + part(order[1]);
     lines.push_back(std::move(line));

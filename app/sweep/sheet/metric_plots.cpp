@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/support/text.h"
+#include "app/sweep/plan/labels.h"
 #include "app/sweep/store/points.h"
 #include "render/overlay/svg.h"
 
@@ -64,7 +65,7 @@ Across by_choice(const store::Manifest& manifest, const Parameter& parameter) {
 /// Logarithmic where the values are positive and go over more than a factor of 20.
 Across by_number(const Parameter& parameter, const std::vector<std::optional<double>>& values) {
   Across across;
-  across.title = parameter.name + (parameter.unit.empty() ? "" : " (" + parameter.unit + ")");
+  across.title = plan::titled(parameter.name, parameter.unit);
   double low = 1e300, high = -1e300;
   for (const std::optional<double>& x : values)
     if (x) low = std::min(low, *x), high = std::max(high, *x);

@@ -101,19 +101,14 @@ std::string more_section(const store::Manifest& manifest,
 
 std::string summary_of(const store::Manifest& manifest,
                        const std::vector<store::RunResult>& results) {
-  int failed = 0, ok = 0;
-  for (const store::RunResult& result : results) {
-    failed += store::has_failed(result.status.state);
-    ok += result.status.state == store::RunState::ok;
-  }
-  const int open = static_cast<int>(manifest.runs.size()) - ok - failed;
+  int ok = 0;
+  const std::string others = store::other_ends(results, ok);
   const std::size_t seeds = static_cast<std::size_t>(manifest.seeds), runs = manifest.runs.size();
   std::string text =
       std::to_string(runs) + " runs of " + manifest.scene_file + ": " + std::to_string(ok) + " ok";
   if (seeds > 1)
     text = std::to_string(runs / seeds) + " points of " + std::to_string(seeds) + " seeds, " + text;
-  if (failed > 0) text += ", " + std::to_string(failed) + " failed";
-  if (open > 0) text += ", " + std::to_string(open) + " not finished";
+  text += others;
   if (!manifest.coarsened.empty()) text += "; " + manifest.coarsened;
   return text + "; neve " + manifest.version;
 }

@@ -7,6 +7,7 @@
 
 #include "app/options/arguments.h"
 #include "app/support/text.h"
+#include "app/sweep/plan/labels.h"
 #include "app/sweep/sheet/seals.h"
 #include "app/sweep/sheet/star.h"
 #include "app/sweep/store/points.h"
@@ -33,10 +34,6 @@ bool has_labels(const store::Manifest& manifest) {
                      [](const Run& run) { return !run.label.empty(); });
 }
 
-std::string titled(const std::string& title, const std::string& unit) {
-  return title + (unit.empty() ? "" : " (" + unit + ")");
-}
-
 /// Of a quantity in columns and noise: no metric has such a name.
 std::string full_name(predict::Quantity quantity) {
   return std::string("full_") + predict::info_of(quantity).name;
@@ -51,8 +48,8 @@ void add_prediction_columns(Json& columns) {
   columns.push_back(column("prediction", "at full resolution", true, "full_verdict"));
   for_each_quantity([&](predict::Quantity quantity) {
     const predict::QuantityInfo& info = predict::info_of(quantity);
-    columns.push_back(column("metric", titled(std::string("full ") + info.title, info.unit), false,
-                             full_name(quantity)));
+    columns.push_back(column("metric", plan::titled(std::string("full ") + info.title, info.unit),
+                             false, full_name(quantity)));
   });
 }
 
@@ -63,15 +60,16 @@ Json column_names(const store::Manifest& manifest, bool has_predictions,
   if (has_labels(manifest)) columns.push_back(column("name", "name", true));
   for (const Parameter& p : manifest.parameters)
     columns.push_back(column(manifest.seeds > 1 && p.address == "seed" ? "seed" : "parameter",
-                             titled(p.name, p.unit), p.type != "number" && p.type != "integer",
-                             p.address));
+                             plan::titled(p.name, p.unit),
+                             p.type != "number" && p.type != "integer", p.address));
   columns.push_back(column("star", "star", true, "stars and notes of neve sweep star"));
   columns.push_back(column("state", "state", true));
   columns.push_back(column("warnings", "warnings", false, "hover over a cell for the text"));
   if (has_predictions) add_prediction_columns(columns);
   for (const std::size_t k : metrics) {
     const store::MetricInfo& metric = store::metric_infos()[k];
-    columns.push_back(column("metric", titled(metric.title, metric.unit), false, metric.name));
+    columns.push_back(
+        column("metric", plan::titled(metric.title, metric.unit), false, metric.name));
   }
   columns.push_back(column("reason", "reason", true));
   return columns;

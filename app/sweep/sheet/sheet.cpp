@@ -104,19 +104,14 @@ std::pair<std::string, std::string> split_state(const std::string& text) {
 /// "12 runs, 1 failed", "3 points, 12 runs".
 std::string run_count_text(const store::Manifest& manifest,
                            const std::vector<store::RunResult>& results) {
-  int ok = 0, failed = 0;
-  for (const store::RunResult& result : results) {
-    ok += result.status.state == store::RunState::ok;
-    failed += store::has_failed(result.status.state);
-  }
-  const int open = static_cast<int>(results.size()) - ok - failed;
+  int ok = 0;
+  const std::string others = store::other_ends(results, ok);
   std::string text = std::to_string(results.size()) + (results.size() == 1 ? " run" : " runs");
   if (manifest.seeds > 1)
     text = fmt::format("{} points of {} seeds, {}",
                        results.size() / static_cast<std::size_t>(manifest.seeds), manifest.seeds,
                        text);
-  if (failed > 0) text += ", " + std::to_string(failed) + " failed";
-  if (open > 0) text += ", " + std::to_string(open) + " not finished";
+  text += others;
   if (!manifest.coarsened.empty()) text += dot + manifest.coarsened;
   return text;
 }

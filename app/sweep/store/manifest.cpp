@@ -63,12 +63,6 @@ AxisLabels manifest_axis(const read::Axis& axis, const std::vector<Parameter>& p
   return result;
 }
 
-Json pairs_json(const std::vector<scene::Override>& settings) {
-  Json list = Json::array();
-  for (const scene::Override& setting : settings) list.push_back({setting.address, setting.value});
-  return list;
-}
-
 std::vector<scene::Override> settings_of(const Json& pairs) {
   std::vector<scene::Override> settings;
   for (const Json& pair : pairs)
@@ -94,8 +88,8 @@ Json run_json(const Run& run) {
           {"folder", run.folder},
           {"key", run.key},
           {"label", run.label},
-          {"settings", pairs_json(run.settings)},
-          {"unset", pairs_json(run.inherited)},
+          {"settings", settings_json(run.settings)},
+          {"unset", settings_json(run.inherited)},
           {"coordinates", run.coordinates},
           {"first_frame", run.frames.first},
           {"last_frame", run.frames.last},
@@ -184,9 +178,7 @@ std::optional<std::vector<std::string>> axis_addresses(const Manifest& manifest)
 }
 
 std::string axes_text(const std::vector<std::string>& addresses) {
-  std::string text;
-  for (const std::string& address : addresses) text += (text.empty() ? "" : ", ") + address;
-  return text.empty() ? "only its [[run]]s" : text;
+  return addresses.empty() ? "only its [[run]]s" : joined(addresses, ", ");
 }
 
 /// Manifest of the folder; nothing if it cannot be read.
@@ -288,6 +280,12 @@ void check_values(const Manifest& m) {
 }
 
 }  // namespace
+
+Json settings_json(const std::vector<scene::Override>& settings) {
+  Json list = Json::array();
+  for (const scene::Override& setting : settings) list.push_back({setting.address, setting.value});
+  return list;
+}
 
 std::string run_text(const Run& run) {
   return run.folder == run_folder_name(run.index)
@@ -482,7 +480,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   json["quality"] = setup::name(m.quality);
   json["seconds_per_work"] = m.seconds_per_work;
   json["seeds"] = m.seeds;
-  json["set"] = pairs_json(m.fixed);
+  json["set"] = settings_json(m.fixed);
   json["scene_hash"] = m.scene_hash;
   json["runs"] = Json::array();
   for (const Run& run : m.runs) json["runs"].push_back(run_json(run));

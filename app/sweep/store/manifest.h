@@ -19,6 +19,9 @@ namespace neve::app::sweep::store {
 /// "run 1 (runs/0010)"
 std::string run_text(const Run& run);
 
+/// As files and pages have them: an address and a value each.
+Json settings_json(const std::vector<scene::Override>& settings);
+
 /// An axis as the edge of the sheet names it.
 struct AxisLabels {
   std::string name;                      ///< may be empty

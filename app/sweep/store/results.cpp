@@ -241,6 +241,18 @@ bool is_idle(const std::string& address, const Manifest& manifest,
 
 }  // namespace
 
+std::string other_ends(const std::vector<RunResult>& results, int& ok) {
+  int failed = 0;
+  ok = 0;
+  for (const RunResult& result : results) {
+    failed += has_failed(result.status.state);
+    ok += result.status.state == RunState::ok;
+  }
+  const int open = static_cast<int>(results.size()) - ok - failed;
+  return (failed > 0 ? fmt::format(", {} failed", failed) : "") +
+         (open > 0 ? fmt::format(", {} not finished", open) : "");
+}
+
 std::vector<std::string> idle_lines(const Manifest& manifest,
                                     const std::vector<RunResult>& results) {
   std::set<std::string> addresses;

@@ -78,6 +78,9 @@ std::string warning_count_text(std::size_t count);
 /// Runs of one table that different instructions or different programs have made.
 std::vector<std::string> mixture_lines(const std::vector<RunResult>& results);
 
+/// ", 1 failed, 2 not finished"; "" where all are ok. @param ok  receives how many are
+std::string other_ends(const std::vector<RunResult>& results, int& ok);
+
 /// Parameters that change nothing: runs that differ in one alone end with the same bits.
 std::vector<std::string> idle_lines(const Manifest& manifest,
                                     const std::vector<RunResult>& results);

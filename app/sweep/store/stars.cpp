@@ -121,12 +121,6 @@ std::vector<scene::Override> telling_settings(const Manifest& manifest, const Ru
   return settings;
 }
 
-Json settings_json(const std::vector<scene::Override>& settings) {
-  Json list = Json::array();
-  for (const scene::Override& setting : settings) list.push_back({setting.address, setting.value});
-  return list;
-}
-
 KeptMarks read_marks(const fs::path& folder, const Manifest& manifest) {
   std::error_code error;
   const fs::path file = marks_path(folder);

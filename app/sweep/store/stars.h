@@ -28,8 +28,6 @@ struct KeptMarks {
 
 /// Values of the parameters by which the sweep tells its runs apart.
 std::vector<scene::Override> telling_settings(const Manifest& manifest, const Run& run);
-/// As files and pages have them: an address and a value each.
-Json settings_json(const std::vector<scene::Override>& settings);
 
 /// None where there is no such file. @throws Error if it is broken, IoError
 KeptMarks read_marks(const std::filesystem::path& folder, const Manifest& manifest);
