@@ -4,15 +4,130 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "render/surface/block_map.h"
-#include "render/surface/grain_order.h"
 #include "render/surface/loops.h"
 #include "sim/base/lanes.h"
 
 namespace neve::render::surface {
 
 namespace {
+
+/// First node of the kernel of a particle.
+NEVE_INLINE Vec3i spline_node(const NodePlace& p) {
+  return {p.node.x - (p.rest.x < 0.5f ? 1 : 0), p.node.y - (p.rest.y < 0.5f ? 1 : 0),
+          p.node.z - (p.rest.z < 0.5f ? 1 : 0)};
+}
+
+/// Blocks with particles, and how far in them their first nodes are.
+struct Occupied {
+  BlockMap map;
+  struct Reach {
+    Vec3i low{7, 7, 7}, high{0, 0, 0};
+
+    void include(Vec3i from, Vec3i to) {
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], from[axis]);
+        high[axis] = std::max(high[axis], to[axis]);
+      }
+    }
+  };
+  std::vector<Reach> reach;
+
+  std::uint32_t insert(BlockKey key) {
+    const std::uint32_t b = map.insert(key);
+    if (b >= reach.size()) reach.resize(b + 1);
+    return b;
+  }
+};
+
+/// A run of particles, and the blocks that they are in.
+struct Run {
+  Occupied occupied;
+  std::vector<std::uint32_t> count;  ///< particles in each of these blocks
+  std::vector<std::uint32_t> next;   ///< where the next of them goes in the bins
+};
+
+/// The particles in runs, one for each part.
+struct Runs {
+  std::vector<Run> run;
+  std::vector<std::uint32_t> block_of;  ///< number of its block in its run; no_block: left out
+
+  Runs(const Grains& grains, float cell, ThreadPool* pool);
+};
+
+constexpr BlockKey no_key = ~BlockKey{0};
+
+void fill_run(const Grains& grains, float cell, std::size_t begin, std::size_t end, Run& to,
+              std::vector<std::uint32_t>& block_of) {
+  BlockKey last = no_key;
+  std::uint32_t b = no_block;
+  for (std::size_t p = begin; p < end; ++p) {
+    NodePlace place;
+    const float volume = grains.volume[p];
+    if (!(volume > 0) || !is_finite(volume) || !find_node(grains.position[p], cell, place))
+      continue;
+    const Vec3i node = spline_node(place);
+    const BlockKey key = block_key({node.x >> 3, node.y >> 3, node.z >> 3});
+    if (key != last) {
+      b = to.occupied.insert(last = key);
+      to.count.resize(to.occupied.map.size());
+    }
+    const Vec3i in{node.x & 7, node.y & 7, node.z & 7};
+    to.occupied.reach[b].include(in, in);
+    ++to.count[b];
+    block_of[p] = b;
+  }
+}
+
+Runs::Runs(const Grains& grains, float cell, ThreadPool* pool)
+    : run(part_count(pool)), block_of(grains.position.size(), no_block) {
+  for_parts(pool, block_of.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    fill_run(grains, cell, begin, end, run[part], block_of);
+  });
+}
+
+Occupied occupied_blocks(const Runs& runs) {
+  Occupied all;
+  for (const Run& run : runs.run)
+    for (std::size_t b = 0; b < run.count.size(); ++b) {
+      const Occupied::Reach& reach = run.occupied.reach[b];
+      all.reach[all.insert(run.occupied.map.keys()[b])].include(reach.low, reach.high);
+    }
+  return all;
+}
+
+/// Fills the bins. A run knows where its particles go, so all runs can go there at once.
+/// @param map  of the blocks of the field
+void sort_grains(const Grains& grains, Runs& runs, const BlockMap& map, ThreadPool* pool,
+                 GrainField& made) {
+  std::vector<std::uint32_t> count(map.size(), 0);
+  for (Run& run : runs.run) {
+    run.next.resize(run.count.size());
+    for (std::size_t b = 0; b < run.count.size(); ++b) {
+      std::uint32_t& before = count[map.find(run.occupied.map.keys()[b])];
+      run.next[b] = before;
+      before += run.count[b];
+    }
+  }
+  Bins& bins = made.grains;
+  bins.first.assign(map.size() + 1, 0);
+  for (std::size_t b = 0; b < map.size(); ++b) bins.first[b + 1] = bins.first[b] + count[b];
+  bins.grain.resize(bins.first.back());
+  made.placed.resize(bins.first.back());
+  for_parts(pool, runs.block_of.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Run& run = runs.run[part];
+    for (std::size_t b = 0; b < run.next.size(); ++b)
+      run.next[b] += bins.first[map.find(run.occupied.map.keys()[b])];
+    for (std::size_t p = begin; p < end; ++p) {
+      if (runs.block_of[p] == no_block) continue;
+      const std::uint32_t to = run.next[runs.block_of[p]]++;
+      bins.grain[to] = static_cast<std::uint32_t>(p);
+      made.placed[to] = {grains.position[p], grains.volume[p]};
+    }
+  });
+}
 
 /// Symmetric weights that sum to 1; the weight of k nodes away.
 struct Filter {

@@ -11,7 +11,6 @@
 
 #include "app/view/frontend/frontend.h"
 #include "app/view/panels/labels.h"
-#include "app/view/replay/replay_events.h"
 #include "app/view/replay/replay_script.h"
 
 namespace neve::app::view::replay {
