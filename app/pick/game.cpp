@@ -9,6 +9,7 @@
 #include "app/pick/page.h"
 #include "app/record/run_json.h"
 #include "app/scene/read.h"
+#include "app/setup/curves.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/sweep/read/read_sweep.h"
@@ -48,6 +49,8 @@ Game::Game(const PickOptions& options) : options_(options) {
   scene_ = {options.runs.file, sweep.fixed, axes_of(sweep)};
   folder_ =
       options.runs.out.empty() ? out_folder() / (sweep.name + ".pick") : fs::path(options.runs.out);
+  setup::refuse_followers(scene::read_scene_file(scene_.file),
+                          settings_at(scene_.axes, search::Point::Constant(dimension(), 0)));
   // Complains about settings, and both ends of the axes, before anything is written.
   for (const double end : {0., 1.})
     picked_scene(scene_, search::Point::Constant(dimension(), end), folder_ / "picked.toml");
