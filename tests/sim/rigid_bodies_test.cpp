@@ -26,7 +26,7 @@ using namespace neve::test;
 rigid::MassProperties counted_mass(const shapes::Shape& shape) {
   const shapes::Solid solid(shape);
   const shapes::Bounds box = solid.local_bounds();
-  constexpr int n = 160;
+  constexpr int n = 80;
   const Vec3d step = (box.max - box.min) / n;
   double count = 0;
   Vec3d first = Vec3d::Zero();
@@ -57,7 +57,7 @@ TEST(RigidMass, OfEveryFormIsThatOfItsPoints) {
     SCOPED_TRACE(shape.form.index());
     const rigid::MassProperties exact = rigid::mass_properties(shape, 1),
                                 found = counted_mass(shape);
-    // A lattice of 160 points a side.
+    // A lattice of 80 points a side.
     EXPECT_NEAR(found.mass / exact.mass, 1, 5e-3);
     EXPECT_LE((found.centre - exact.centre).norm(), 2e-3);
     EXPECT_LE((found.inertia - exact.inertia).norm(), 1e-2 * exact.inertia.norm());
