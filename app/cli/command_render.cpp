@@ -237,20 +237,26 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
 
 /// The run at full resolution, by copies of it; that of the run which is resumed, if it has one.
 void predict_full(const run::RenderOptions& options, run::RenderJob& job, Progress& progress) {
+  if (!job.finer) {
+    if (job.prediction_lines.empty())
+      throw UsageError("--predict", job.scene_file + " was made without a prediction",
+                       "name its scene, with --coarsen, --predict and --replace");
+    return;
+  }
   const scene::Scene& full = *job.finer;
   const int last = scene::number_of(full, job.frames.last);
   const Json before = options.resume ? record::read_run_json(job.folder) : Json();
   const Json known = record::is_untouched(before) ? before.value("prediction", Json()) : Json();
   if (known.is_object() && known.value("frame", Json()) == last) {
-    job.prediction_record = known;
+    job.prediction = known;
   } else {
     const setup::Plan plan = setup::make_plan(full, job.frames, job.quality, options.threads);
     const double seconds = health::examine(full, plan, options.threads).seconds().expected;
-    job.prediction_record = predict::to_json(
+    job.prediction = predict::to_json(
         predict::make_prediction(full, job.frames.last, seconds, options.threads, progress));
   }
-  job.prediction = job.prediction_record.at("text").get<std::vector<std::string>>();
-  for (const std::string& line : job.prediction) progress.note(line);
+  job.prediction_lines = job.prediction.at("text").get<std::vector<std::string>>();
+  for (const std::string& line : job.prediction_lines) progress.note(line);
 }
 
 /// "validation: 19 checks at 12 steps, all held", or which did not.

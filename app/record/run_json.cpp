@@ -374,6 +374,7 @@ Json to_json(const RunRecord& run) {
   json["version"] = version;
   json["build"] = build_json();
   json["scene"] = run.scene;
+  if (!run.undrawn.empty()) json["undrawn"] = run.undrawn;
   json["scene_file"] = run.scene_file;
   json["overrides"] = run.overrides;
   json["changes"] = scene::to_json(run.changes);

@@ -97,7 +97,8 @@ struct ViewRecord {
 };
 
 struct RunRecord {
-  std::string scene;  ///< resolved, TOML
+  std::string scene;    ///< resolved, TOML
+  std::string undrawn;  ///< views and mosaics that it does not draw, of scene::write_undrawn
   std::string scene_file;
   std::vector<std::string> overrides;
   std::vector<scene::LiveChange> changes;  ///< made while it ran

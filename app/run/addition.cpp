@@ -171,7 +171,7 @@ bool has_other_movie(const RenderJob& job, const EarlierRun& earlier, const std:
       output::movie_path({}, view, job.options.movie.format).filename().string();
   const Json styles = earlier.json.value("movies", Json::object());
   return earlier.pictures.files.contains(name) && styles.is_object() && styles.contains(name) &&
-         styles[name] != movie_style_text(job);
+         styles[name] != movie_style_text(job, job.options.movie);
 }
 
 /// Views of the command whose files differ from those that are there.
@@ -346,9 +346,13 @@ void keep_views(const RenderJob& job, const EarlierRun& earlier, record::RunReco
   }
   for (const std::string& view : ours.views)
     if (!earlier.has(view)) ours.view_records[view].frames = record::ViewFrames{};
-  ours.scene = scene::write_scene(other_views(earlier, ours).empty()
-                                      ? with_length_and_exports_of(earlier.scene, job.scene)
-                                      : with_views_of(earlier.scene, job.scene));
+  scene::Scene merged = other_views(earlier, ours).empty()
+                            ? with_length_and_exports_of(earlier.scene, job.scene)
+                            : with_views_of(earlier.scene, job.scene);
+  merged.undrawn_views = others_than(merged.views, job.scene.undrawn_views);
+  merged.undrawn_mosaics = others_than(merged.mosaics, job.scene.undrawn_mosaics);
+  ours.scene = scene::write_scene(merged);
+  ours.undrawn = scene::write_undrawn(merged);
   if (!job.run.empty()) ours.scene_file = name_of_earlier(earlier);
   for (const char* key : {"forked", "prediction", "slate", "validation", "divergence", "exports",
                           "passes", "retries"})

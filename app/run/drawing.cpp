@@ -21,7 +21,7 @@ Drawing::Drawing(const RenderJob& job, const setup::SeededScene& seeded, render:
       renderer_(renderer),
       record_(std::move(record)),
       scene_(job.scene),
-      builder_(scene_, seeded, {job.quality, job.overrides, job.coarsening, job.prediction}) {
+      builder_(scene_, seeded, {job.quality, job.overrides, job.coarsening, job.prediction_lines}) {
   if (!job.lut.empty()) lut_ = read_lut(job.lut);
   if (!job.passes.empty()) passes_.emplace(scene_, seeded, pass_list(job.passes));
 }

@@ -23,7 +23,15 @@ namespace {
 /// Degrees at final quality: half of each frame, as film cameras have it.
 constexpr double usual_shutter = 180;
 
-/// Keeps the views and mosaics of these names, and the views that the mosaics need.
+/// Makes `chosen` what is drawn, and keeps the others by name.
+template <class Named>
+void draw_only(std::vector<Named> chosen, std::vector<Named>& drawn, std::vector<Named>& undrawn) {
+  undrawn.insert(undrawn.end(), drawn.begin(), drawn.end());
+  undrawn = others_than(chosen, std::move(undrawn));
+  drawn = std::move(chosen);
+}
+
+/// Draws the views and mosaics of these names, and the views that the mosaics need.
 void choose_views(const std::vector<std::string>& names, RenderJob& job) {
   std::vector<scene::View> views;
   std::vector<scene::Mosaic> mosaics;
@@ -42,8 +50,8 @@ void choose_views(const std::vector<std::string>& names, RenderJob& job) {
       for (const std::string& tile : mosaic->views)
         if (add_view(tile)) job.only_tiles.push_back(tile);
     }
-  job.scene.views = views;
-  job.scene.mosaics = mosaics;
+  draw_only(std::move(views), job.scene.views, job.scene.undrawn_views);
+  draw_only(std::move(mosaics), job.scene.mosaics, job.scene.undrawn_mosaics);
 }
 
 /// Checks that the last change of each address can be set, and that its passes are known.
@@ -66,7 +74,7 @@ void take_picture(const record::PictureRecord& picture, RenderJob& job) {
   job.folder = out_folder() / fmt::format("{:04}-again", picture.frame);
   job.quality = setup::quality_named(picture.quality);
   job.passes = picture.passes;
-  job.prediction = picture.prediction;
+  job.prediction_lines = picture.prediction;
   job.shutter = picture.shutter;
   job.plate = picture.plate;
   job.lut = picture.lut;
@@ -101,8 +109,11 @@ void set_sizes(const RenderOptions& options, scene::Scene& scene) {
 }  // namespace
 
 const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name) {
-  const auto found = std::ranges::find(scene.mosaics, name, &scene::Mosaic::name);
-  return found == scene.mosaics.end() ? nullptr : &*found;
+  for (const std::vector<scene::Mosaic>* mosaics : {&scene.mosaics, &scene.undrawn_mosaics})
+    if (const auto found = std::ranges::find(*mosaics, name, &scene::Mosaic::name);
+        found != mosaics->end())
+      return &*found;
+  return nullptr;
 }
 
 RenderJob make_job(const RenderOptions& options) {
@@ -125,6 +136,10 @@ RenderJob make_job(const RenderOptions& options) {
   RenderJob job{timeline::Origin::of(options.scene, edits), options};
   job.folder = job.run.empty() ? out_folder() / job.name() : job.run;
   if (job.picture) take_picture(*job.picture, job);
+  // A fork is another future than the one that was predicted.
+  if (options.from) job.prediction = Json();
+  if (job.prediction.is_object())
+    job.prediction_lines = job.prediction.value("text", std::vector<std::string>());
   if (!options.views.empty()) choose_views(options.views, job);
   if (!options.has_caption)
     for (scene::View& view : job.scene.views) std::erase(view.layers, scene::Layer::caption);
@@ -167,7 +182,7 @@ record::PictureRecord picture_record(const RenderJob& job, const std::string& sc
   picture.overrides = job.overrides;
   picture.changes = job.changes;
   picture.coarsening = job.coarsening;
-  picture.prediction = job.prediction;
+  picture.prediction = job.prediction_lines;
   picture.seed = job.scene.seed;
   picture.version = version;
   picture.quality = setup::name(job.quality);
@@ -182,13 +197,14 @@ record::PictureRecord picture_record(const RenderJob& job, const std::string& sc
 record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation) {
   record::RunRecord record;
   record.scene = scene::write_scene(job.scene);
+  record.undrawn = scene::write_undrawn(job.scene);
   record.scene_file = job.scene_file;
   record.first_number = scene::number_of(job.scene, 0);
   record.world_offset = scene::world_offset(job.scene);
   record.overrides = job.overrides;
   record.changes = job.changes;
   record.coarsening = job.coarsening;
-  record.prediction = job.prediction_record;
+  record.prediction = job.prediction;
   record.threads = simulation.threads();
   record.simd = simulation.simd();
   return record;

@@ -1,6 +1,7 @@
 #pragma once
 /// Job of `neve render`, assembled from the scene, the flags, or a picture.
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,12 +33,21 @@ struct RenderJob : timeline::Origin {
   double shutter = 0;                     ///< degrees of motion blur; 0: none
   std::vector<std::string> passes{};      ///< of --passes, see passes.h; none: only PNGs
   std::vector<std::string> warnings{};    ///< of the start, for run.json
-  std::vector<std::string> prediction{};  ///< of --predict or of the picture, for captions
-  Json prediction_record{};               ///< the same for run.json; null without
+  /// Of --predict, of the picture, or of the run, for captions.
+  std::vector<std::string> prediction_lines{};
   std::optional<Fork> fork{};
 
   bool has_movies() const { return options.has_movies && options.movie.is_made; }
 };
+
+/// Those of a list that have other names than these.
+template <class Named>
+std::vector<Named> others_than(const std::vector<Named>& these, std::vector<Named> list) {
+  std::erase_if(list, [&](const Named& one) {
+    return std::ranges::find(these, one.name, &Named::name) != these.end();
+  });
+  return list;
+}
 
 /// Null where there is no mosaic of the name.
 const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name);

@@ -7,6 +7,7 @@
 #include "app/run/passes.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
+#include "app/timeline/origin.h"
 
 namespace neve::app::run {
 
@@ -166,7 +167,7 @@ void describe(options::Command& visit, RenderOptions& o) {
   options::describe_verbosity(visit, o.verbosity, "Print more about each frame");
   visit.check([&o] {
     std::error_code error;
-    if (o.predicts && !(o.coarsening.value_or(1) > 1))
+    if (o.predicts && !(o.coarsening.value_or(1) > 1) && !timeline::is_folder(o.scene))
       throw UsageError("--predict", "predicts the full run from a coarse copy, and this is none",
                        "add --coarsen 2, or see neve check --predict");
     if (o.from && !o.scene.empty() && !std::filesystem::exists(o.scene, error))

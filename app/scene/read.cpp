@@ -187,6 +187,48 @@ Scene read_scene_text(std::string_view text, const std::string& name, const std:
   return scene_of(std::move(root), name, base_dir, overrides);
 }
 
+namespace {
+
+/// Appends the items of one list to the same list of another table.
+void append_list(const char* key, const toml::Table& from, toml::Table& to) {
+  const toml::Entry* more = from.find(key);
+  if (!more) return;
+  toml::Entry* list = to.find(key);
+  if (!list) list = &to.entries.emplace_back(toml::Entry{key, {}, {toml::Array(), {}}});
+  const auto& items = std::get<toml::Array>(more->value.data);
+  auto& all = std::get<toml::Array>(list->value.data);
+  all.insert(all.end(), items.begin(), items.end());
+}
+
+/// Those of the list, which all have names.
+template <class Named>
+void move_named(const char* key, const toml::Table& list, std::vector<Named>& drawn,
+                std::vector<Named>& undrawn) {
+  const toml::Entry* entry = list.find(key);
+  if (!entry) return;
+  for (const toml::Value& item : std::get<toml::Array>(entry->value.data)) {
+    const toml::Entry* name = std::get<toml::Table>(item.data).find("name");
+    const auto found =
+        std::ranges::find(drawn, name ? std::get<std::string>(name->value.data) : "", &Named::name);
+    if (found == drawn.end()) continue;  // it was removed
+    undrawn.push_back(std::move(*found));
+    drawn.erase(found);
+  }
+}
+
+}  // namespace
+
+Scene read_with_undrawn(std::string_view text, std::string_view undrawn, const std::string& name,
+                        const std::vector<Override>& overrides) {
+  toml::Table root = toml::parse_toml(text, name);
+  const toml::Table more = toml::parse_toml(undrawn, name);
+  for (const char* key : {"view", "mosaic"}) append_list(key, more, root);
+  Scene scene = scene_of(std::move(root), name, {}, overrides);
+  move_named("view", more, scene.views, scene.undrawn_views);
+  move_named("mosaic", more, scene.mosaics, scene.undrawn_mosaics);
+  return scene;
+}
+
 Scene apply(const Scene& scene, const std::vector<Override>& overrides, const std::string& name) {
   return scene_of(scene_table(scene), name, {}, overrides);
 }
@@ -231,10 +273,11 @@ std::optional<sim::Vec3d> world_offset(const Scene& scene) {
 
 View find_view(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;
-  for (const View& view : scene.views) {
-    if (view.name == name) return view;
-    names.push_back(view.name);
-  }
+  for (const std::vector<View>* views : {&scene.views, &scene.undrawn_views})
+    for (const View& view : *views) {
+      if (view.name == name) return view;
+      names.push_back(view.name);
+    }
   for (const View& view : built_in_views()) {
     if (view.name == name) return view;
     if (std::find(names.begin(), names.end(), view.name) == names.end()) names.push_back(view.name);

@@ -37,6 +37,12 @@ Scene apply(const Scene& scene, const std::vector<Override>& overrides,
 /// bit. Mesh files are written as absolute paths, so it reads the same from anywhere.
 std::string write_scene(const Scene& scene);
 
+/// The views and mosaics of the scene that its run does not draw, as TOML; empty: none.
+std::string write_undrawn(const Scene& scene);
+/// The scene of both texts. Overrides find all of its views and mosaics.
+Scene read_with_undrawn(std::string_view text, std::string_view undrawn, const std::string& name,
+                        const std::vector<Override>& overrides = {});
+
 /// The same before it is text.
 toml::Table scene_table(const Scene& scene);
 

@@ -272,6 +272,10 @@ struct Scene {
   LightSettings light;
   std::vector<View> views;
   std::vector<Mosaic> mosaics;
+  /// Views and mosaics that a run leaves undrawn: known by name, and written by write_undrawn
+  /// alone.
+  std::vector<View> undrawn_views;
+  std::vector<Mosaic> undrawn_mosaics;
   std::vector<Export> exports;
   PictureSize size;
   Background background = Background::gradient;

@@ -185,11 +185,13 @@ void read_run(const Edits& edits, Origin& origin) {
     const Json run = output::read_json(file);
     const auto text = run.at("scene").get<std::string>();
     const std::string place = file.string() + " (its scene)";
-    origin.scene = scene::read_scene_text(text, place, {}, changes);
+    const auto undrawn = run.value("undrawn", std::string());
+    origin.scene = scene::read_with_undrawn(text, undrawn, place, changes);
     origin.changes = changes_of_run(run, file);
     origin.overrides = run.value("overrides", std::vector<std::string>{});
     origin.overrides.insert(origin.overrides.end(), edits.overrides.begin(), edits.overrides.end());
     origin.coarsening = run.value("coarsen", 1.0);
+    origin.prediction = run.value("prediction", Json());
     origin.run_frames = record::frame_records(run);
     // By the numbers that the run has, whatever the edits say.
     const scene::Scene before = scene::read_scene_text(text, place);

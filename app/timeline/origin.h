@@ -44,7 +44,8 @@ struct Origin {
   setup::FrameRange frames;  ///< that it shows, counted from 0: of a picture one
   std::optional<record::PictureRecord> picture;  ///< the origin is this picture
   std::filesystem::path run;                     ///< the origin is the run in this folder
-  std::vector<record::FrameRecord> run_frames;   ///< that the run lists, counted from 0
+  Json prediction;  ///< of that run, for full resolution; null: it has none
+  std::vector<record::FrameRecord> run_frames;  ///< that the run lists, counted from 0
 
   /// @param named  a scene file, a picture made by neve, the folder of a run; empty: the default
   /// @throws SceneError, UsageError, IoError, Error

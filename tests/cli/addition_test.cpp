@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/output/atomic_file.h"
+#include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/child.h"
 
@@ -56,6 +57,40 @@ TEST_F(Addition, AFinishedRunIsDrawnInAnotherViewWithoutAStep) {
   render({"scene.toml", "--view", "smoke", "--out", "b", "--no-movie"});
   EXPECT_TRUE(pictures("a/smoke") == pictures("b/smoke"));
   EXPECT_EQ(hashes("a"), hashes("b"));
+}
+
+/// "slice" is the name of a built-in view, too.
+TEST_F(Addition, ViewsThatARunDidNotDrawAreKnownByItsFolder) {
+  folder.write("scene.toml", std::string(tiny_scene) + R"([[view]]
+name = "slice"
+layers = ["heatmap"]
+[view.slice]
+scalar = "pressure"
+[[view]]
+name = "close"
+size = [64, 64]
+[[mosaic]]
+name = "both"
+views = ["slice", "close"]
+)");
+  render({"scene.toml", "--view", "particles", "--out", "a", "--no-movie"});
+  EXPECT_EQ(json_of("a/run.json")["views"], app::Json{"particles"});
+  render({"a", "--view", "slice", "--no-movie"});
+  render({"a", "--view", "both", "--no-movie"});
+  render({"a", "--view", "close", "--set", "view.close.layers=[\"ground\"]", "--no-movie"});
+  expect_whole("a");
+  render({"scene.toml", "--view", "slice", "--out", "b", "--no-movie"});
+  const auto pixels = [&](const std::string& file) {
+    return render::decode_png(app::output::read_file(folder / file)).pixels;
+  };
+  EXPECT_EQ(pixels("a/slice/0003.png"), pixels("b/slice/0003.png"));
+  EXPECT_TRUE(exists("a/both/0003.png"));
+  EXPECT_TRUE(contains(neve({"info", "a/close/0002.png"}).output, "layers = [\"ground\"]"));
+  EXPECT_FALSE(json_of("a/run.json").contains("undrawn")) << "all are drawn";
+  // Without a name those that the folder has, and no others.
+  render({"scene.toml", "--view", "close", "--out", "c", "--no-movie"});
+  render({"c", "--size", "32x32", "--out", "d", "--no-movie"});
+  EXPECT_EQ(json_of("d/run.json")["views"], app::Json{"close"});
 }
 
 TEST_F(Addition, TheSameCommandAgainDrawsNothing) {

@@ -156,6 +156,15 @@ TEST_F(Prediction, PicturesAndRunJsonSayWhatTheFullRunDoes) {
   const auto again = neve(resumed);
   EXPECT_FALSE(contains(again.errors, "coarse copies")) << "a run that is resumed knows it";
   EXPECT_EQ(json_of("run/run.json").at("prediction"), prediction);
+  // So does one that is named by its folder, whatever is drawn of it, longer or not.
+  const auto longer = neve({"render", "run", "--frames", "6", "--no-movie"});
+  EXPECT_EQ(longer.exit_code, 0) << longer.errors;
+  EXPECT_FALSE(contains(longer.errors, "coarse copies")) << longer.errors;
+  const auto flagged = neve({"render", "run", "--resume", "--predict", "--no-movie"});
+  EXPECT_EQ(flagged.exit_code, 0) << flagged.errors;
+  EXPECT_EQ(json_of("run/run.json").at("prediction"), prediction);
+  const app::Json last = app::parse_json(neve({"info", "run/particles/0006.png", "--json"}).output);
+  EXPECT_EQ(last.at("prediction"), prediction.at("text"));
 }
 
 TEST_F(Prediction, OnlyCoarseRunsOfScenesArePredicted) {
@@ -164,6 +173,11 @@ TEST_F(Prediction, OnlyCoarseRunsOfScenesArePredicted) {
   EXPECT_TRUE(contains(without.errors, "--coarsen 2")) << without.errors;
   EXPECT_EQ(neve({"sweep", "scene.toml", "-p", "seed=1,2", "--predict"}).exit_code,
             app::exit_usage);
+  ASSERT_EQ(neve({"render", "scene.toml", "--frames", "0", "--out", "run", "--no-movie"}).exit_code,
+            0);
+  const auto of_run = neve({"render", "run", "--frames", "1", "--predict", "--no-movie"});
+  EXPECT_EQ(of_run.exit_code, app::exit_usage);
+  EXPECT_TRUE(contains(of_run.errors, "was made without a prediction")) << of_run.errors;
   const auto forked = neve({"sweep", "scene.toml", "-p", "solver.gravity=[0,-9,0],[0,-8,0]",
                             "--predict", "--coarsen", "2", "--fork", "0.05"});
   EXPECT_EQ(forked.exit_code, app::exit_usage);

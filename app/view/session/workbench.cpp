@@ -129,12 +129,20 @@ void write_sweep_around(const std::filesystem::path& file, const Document& docum
   throw UsageError("", "nothing has the address " + address);
 }
 
+scene::Scene with_all_views(scene::Scene scene) {
+  scene.views.insert(scene.views.end(), scene.undrawn_views.begin(), scene.undrawn_views.end());
+  scene.mosaics.insert(scene.mosaics.end(), scene.undrawn_mosaics.begin(),
+                       scene.undrawn_mosaics.end());
+  return scene;
+}
+
 /// A run at its newest moment, as a session has it in which its changes were made.
 Opened open_run(const std::string& folder, const timeline::Edits& edits) {
   const timeline::Origin origin = timeline::Origin::of(folder, edits);
   const std::string beside =
       origin.scene_file.substr(0, folder.find_last_not_of('/') + 1) + ".toml";
-  Opened opened{Document(beside, scene::write_scene(origin.scene), {}, 1), origin.overrides};
+  Opened opened{Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1),
+                origin.overrides};
   timeline::Moments moments;
   moments.add_run(origin.run);
   Past past{origin.run, origin.changes, origin.run_frames, moments.find_newest(origin.scene.fps)};
