@@ -69,7 +69,7 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   const int first = timeline::frame_at(job.fork->time, job.scene.fps) + 1;
   const std::optional<setup::FrameRange> frames =
       options.frames ? std::optional(setup::frames_of(job.scene, *options.frames)) : std::nullopt;
-  const int last = frames ? frames->last : scene::last_frame(forked);
+  const int last = frames ? frames->last : job.last_frame();
   if (last < first)
     throw UsageError("--from",
                      fmt::format("{} s is at or after frame {}, the last one", job.fork->time,

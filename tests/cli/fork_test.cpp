@@ -97,6 +97,25 @@ TEST_F(Fork, BetweenTwoFramesTheStepsBeforeTheTimeAreThoseOfTheRun) {
   EXPECT_EQ(hashes("b").begin()->first, 3);
 }
 
+/// The scene has 4 frames.
+TEST_F(Fork, ABranchEndsWhereTheRunEndsThatBecameLonger) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  ASSERT_EQ(render({"a", "--frames", "7"}).exit_code, 0);
+  const std::vector<std::string> change{"--set", "material.snow.hardening=4"};
+  for (const char* time : {"0.125s", "0.25s"}) {
+    const auto branch = render({"a", "--from", time, change[0], change[1], "--out", "b"});
+    ASSERT_EQ(branch.exit_code, 0) << branch.errors;
+    EXPECT_EQ(hashes("b").rbegin()->first, 7) << time;
+    std::filesystem::remove_all(folder / "b");
+  }
+  const auto swept = neve({"sweep", "a", "--from", "0.125s", "-p", "material.snow.hardening=4,5",
+                           "--dry-run", "--json"});
+  ASSERT_EQ(swept.exit_code, 0) << swept.errors;
+  EXPECT_TRUE(contains(swept.output, "\"last_frame\": 7") ||
+              contains(swept.output, "\"last_frame\":7"))
+      << swept.output;
+}
+
 TEST_F(Fork, APictureAndASceneAreForkedLikeTheRunThatMadeThem) {
   ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
   const auto fork = [&](const char* source, const char* out) {

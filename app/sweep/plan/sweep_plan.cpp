@@ -122,13 +122,14 @@ class SceneMaker {
   std::vector<scene::Override> none_;
 };
 
-/// Counted from 0.
+/// Counted from 0. @param source  a run may have more frames than its scene
 setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
-                            const scene::Scene& scene) {
+                            const scene::Scene& scene,
+                            const std::optional<run::RenderJob>& source = {}) {
   if (options.frames) return setup::frames_of(scene, *options.frames);
   if (!sweep.settings.frames.empty())
     return setup::frames_of(scene, options::frames().read("--frames", sweep.settings.frames));
-  return {0, scene::last_frame(scene)};
+  return {0, source ? source->last_frame() : scene::last_frame(scene)};
 }
 
 /// A setting of a run that says how many frames there are; null if none does.
@@ -356,7 +357,7 @@ SweepPlan plan_sweep(const SweepOptions& options) {
     runs = with_seeds(runs, plan.base.seed, seeds);
   for (Run& run : runs) {
     scene::Scene scene = maker.make(run.settings);
-    run.frames = setup::numbers_of(scene, frames_of(options, plan.sweep, scene));
+    run.frames = setup::numbers_of(scene, frames_of(options, plan.sweep, scene, plan.source));
     plan.runs.push_back(planned(std::move(run), std::move(scene), plan.quality));
   }
   plan.coarsening = options.coarsening.value_or(1);
