@@ -136,7 +136,7 @@ render::Frame FrameBuilder::build(const scene::View& wanted, const Snapshot& sna
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
   if (scene::has_layer(view, scene::Layer::plots))
     frame.plots = make_plots(view.plots, !scene_.colliders.empty(), snapshot.history, snapshot.time,
-                             1 / scene_.fps, scene::duration(scene_));
+                             1 / scene_.fps, std::max(scene::duration(scene_), snapshot.time));
   frame.caption = words(view, snapshot);
   if (scene::has_burn_in(scene_.burn_in)) {
     std::vector<std::string> changes = override_lines(options_.overrides);
@@ -321,7 +321,9 @@ std::vector<std::string> FrameBuilder::words(const scene::View& view,
     const int last = scene::number_of(scene_, scene::last_frame(scene_));
     const int now = scene::number_of(scene_, snapshot.frame);
     const std::size_t digits = std::to_string(std::abs(last)).size();
-    lines.push_back(fmt::format("{}{:0{}} / {}", now < 0 ? "-" : "", std::abs(now), digits, last));
+    // A film that became longer than its scene has no end that all of its pictures know.
+    lines.push_back(fmt::format("{}{:0{}}", now < 0 ? "-" : "", std::abs(now), digits) +
+                    (now > last ? "" : fmt::format(" / {}", last)));
   }
   if (scene::has_layer(view, scene::Layer::slate) && snapshot.frame == 0)
     for (std::string& line : slate()) lines.push_back(std::move(line));

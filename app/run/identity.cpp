@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 
 #include "app/output/json_file.h"
@@ -114,10 +115,26 @@ std::string difference_from_run(const std::filesystem::path& folder,
   return "its scene, changes, views, quality or version differ";
 }
 
-std::string movie_style_text(const RenderJob& job) {
-  const output::MovieStyle& style = job.options.movie;
+namespace {
+
+double rate_of(const RenderJob& job, const output::MovieStyle& style) {
+  return style.fps > 0 ? style.fps : job.scene.fps;
+}
+
+}  // namespace
+
+std::string movie_style_text(const RenderJob& job, const output::MovieStyle& style) {
   return fmt::format("quality {}, {} frames per second", style.quality,
-                     rough_text(style.fps > 0 ? style.fps : job.scene.fps));
+                     rough_text(rate_of(job, style)));
+}
+
+output::MovieStyle movie_style_of(const RenderJob& job, const std::string& text) {
+  output::MovieStyle style;
+  double rate = 0;
+  if (std::sscanf(text.c_str(), "quality %d, %lf", &style.quality, &rate) == 2 &&
+      text != movie_style_text(job, style))
+    style.fps = rate;
+  return style;
 }
 
 }  // namespace neve::app::run

@@ -32,8 +32,10 @@ std::string difference_text(const std::vector<scene::Difference>& list);
 std::string difference_from_run(const std::filesystem::path& folder,
                                 const record::PictureRecord& picture, const std::string& simd = {});
 
-/// Names the quality and the speed of the movies of a job.
-std::string movie_style_text(const RenderJob& job);
+/// Names the quality and the speed of a movie of a job.
+std::string movie_style_text(const RenderJob& job, const output::MovieStyle& style);
+/// The style that movie_style_text names, without its format.
+output::MovieStyle movie_style_of(const RenderJob& job, const std::string& text);
 
 /// Bytes of a particle on disk in single precision, about.
 inline constexpr double state_bytes_per_particle = 160;

@@ -162,7 +162,10 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
   std::vector<std::filesystem::path> movies;
   // One picture is no movie.
   if (job_.has_movies())
-    for (const std::string& view : record_.views) write_movie(view, movies);
+    for (const std::string& view : record_.views) {
+      write_movie(view, job_.options.movie, movies);
+      if (has_added_) write_earlier_movies(view, movies);
+    }
   for (const output::WrittenFile& file : exporter_.finish()) note_file(file);
   record_.status = status;
   // A run that ended early has not got further by other pictures of its frames.
@@ -174,8 +177,22 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
   return movies;
 }
 
-void Ledger::write_movie(const std::string& view, std::vector<std::filesystem::path>& movies) {
-  const output::MovieStyle& style = job_.options.movie;
+/// Movies in other formats would end where the film did before.
+void Ledger::write_earlier_movies(const std::string& view,
+                                  std::vector<std::filesystem::path>& movies) {
+  std::set<std::string> made{output::movie_path({}, view, job_.options.movie.format).string()};
+  for (const output::MovieFormat format : output::all_movie_formats) {
+    const std::string name = output::movie_path({}, view, format).string();
+    const auto listed = record_.movies.find(name);
+    if (listed == record_.movies.end() || !made.insert(name).second) continue;
+    output::MovieStyle style = movie_style_of(job_, listed->second);
+    style.format = format;
+    write_movie(view, style, movies);
+  }
+}
+
+void Ledger::write_movie(const std::string& view, const output::MovieStyle& style,
+                         std::vector<std::filesystem::path>& movies) {
   const record::ViewFrames frames = record::frames_of(record_, view);
   if (frames.count() <= 1) return;
   const int first = frames.first - (record_.slate ? 1 : 0);
@@ -203,7 +220,7 @@ void Ledger::write_movie(const std::string& view, std::vector<std::filesystem::p
       movies.push_back(request.file);
       record_.files[request.file.filename().string()] =
           record::hash_text(output::hash_file(request.file));
-      record_.movies[request.file.filename().string()] = movie_style_text(job_);
+      record_.movies[request.file.filename().string()] = movie_style_text(job_, style);
       return;
     case output::MovieOutcome::no_ffmpeg:
       if (view == record_.views.front())

@@ -65,7 +65,9 @@ class Ledger {
  private:
   void note_written();
   void note_exports();
-  void write_movie(const std::string& view, std::vector<std::filesystem::path>& movies);
+  void write_movie(const std::string& view, const output::MovieStyle& style,
+                   std::vector<std::filesystem::path>& movies);
+  void write_earlier_movies(const std::string& view, std::vector<std::filesystem::path>& movies);
   void forget_unwritten_frames();
   bool is_missing(const std::string& view, int number) const;
   bool is_inside_earlier() const;

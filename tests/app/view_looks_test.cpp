@@ -34,8 +34,11 @@ std::string view_error(const std::string& more) {
   return "no error";
 }
 
-render::Frame build(const app::scene::Scene& scene, const std::vector<Vec3d>& positions) {
+render::Frame build(const app::scene::Scene& scene, const std::vector<Vec3d>& positions,
+                    int frame = 0) {
   app::picture::Snapshot snapshot;
+  snapshot.frame = frame;
+  snapshot.time = frame / scene.fps;
   snapshot.particles.x = positions;
   snapshot.particles.v.assign(positions.size(), Vec3d(0, 0, 0));
   snapshot.particles.m.assign(positions.size(), 1);
@@ -177,6 +180,18 @@ TEST(Counter, FramesBelowZeroAreWrittenAsInNamesOfFiles) {
           looked_at,
       "s.toml");
   EXPECT_EQ(build(scene, {{0, 0, 0}}).caption, std::vector<std::string>{"-008 / 217"});
+}
+
+/// A run may become longer than its scene; its earlier pictures know no other end.
+TEST(Counter, FramesBeyondTheSceneHaveNoEnd) {
+  const app::scene::Scene scene = app::scene::read_scene_text(
+      std::string("frames = 20\n[[view]]\nlayers = [\"counter\", \"plots\"]\n") + looked_at,
+      "s.toml");
+  const auto frame_at = [&](int frame) { return build(scene, {{0, 0, 0}}, frame); };
+  EXPECT_EQ(frame_at(20).caption, std::vector<std::string>{"20 / 20"});
+  EXPECT_EQ(frame_at(31).caption, std::vector<std::string>{"31"});
+  EXPECT_EQ(frame_at(20).plots.at(0).x_end, float(20 / scene.fps));
+  EXPECT_EQ(frame_at(31).plots.at(0).x_end, float(31 / scene.fps));
 }
 
 const char* const three_views = R"([[view]]

@@ -34,6 +34,20 @@ TEST_F(MovieFlags, AFinishedRunGetsAnotherMovieWithoutARun) {
     EXPECT_FALSE(exists(movie)) << movie;
 }
 
+TEST_F(MovieFlags, ALongerFilmIsLongerInAllOfItsFormats) {
+  ASSERT_EQ(
+      neve({"render", "scene.toml", "--out", "a", "--movie", "gif", "--movie-fps", "12"}).exit_code,
+      0);
+  const app::Json styles = json_of("a/run.json")["movies"];
+  const std::uintmax_t before = std::filesystem::file_size(folder / "a/particles.gif");
+  const auto longer = neve({"render", "a", "--frames", "8"});
+  ASSERT_EQ(longer.exit_code, 0) << longer.errors;
+  EXPECT_GT(std::filesystem::file_size(folder / "a/particles.gif"), before * 5 / 4);
+  EXPECT_TRUE(exists("a/particles.mp4"));
+  EXPECT_EQ(json_of("a/run.json")["movies"]["particles.gif"], styles["particles.gif"]);
+  EXPECT_EQ(neve({"verify", "a"}).exit_code, 0);
+}
+
 TEST_F(MovieFlags, SheetsAndComparisonsHaveThemToo) {
   const auto swept = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0-2", "--size",
                            "96x54", "--out", "s", "--movie", "gif"});
