@@ -105,9 +105,11 @@ class Candidate {
   }
 
   /// None if the copy diverges: a broken state foretells nothing.
-  std::optional<Copied> run_copy(int last) const {
-    const Forecast forecast =
-        foresee(scene_, setup::planned_particles(scene_), last, forecast_budget);
+  /// @param max_work  ends the copy, in explicit steps
+  std::optional<Copied> run_copy(int last, double max_work = forecast_budget.work) const {
+    ForecastBudget budget = forecast_budget;
+    budget.work = max_work;
+    const Forecast forecast = foresee(scene_, setup::planned_particles(scene_), last, budget);
     if (!forecast.divergence.empty() || forecast.frames.empty()) return std::nullopt;
     return Copied{forecast.work(0, last).expected, forecast.peak_force, forecast.mean_J_P};
   }
@@ -163,11 +165,11 @@ FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::s
   Candidate other(scene, chosen, coarsening);
   scene.solver.is_implicit() ? other.take_explicit_steps() : other.take_semi_implicit_steps();
   if (takes_cap) other.limit_hardening();
-  if (other.is_implicit() == scene.solver.is_implicit()) return look;
+  if (other.is_implicit() == scene.solver.is_implicit() || !look.work) return look;
   const bool has_longest_steps = !scene.solver.is_implicit() && fast_cfl(scene) == flip_snow_cfl;
   const double worth = has_longest_steps ? worth_after_longest_steps : worth_another_step;
-  const Copy copy = other.run_copy(last);
-  if (!copy || !look.work || copy->work >= worth * *look.work) return look;
+  const Copy copy = other.run_copy(last, worth * *look.work);
+  if (!copy || copy->work >= worth * *look.work) return look;
   // Semi-implicit steps damp: snow that breaks in explicit ones may hold together in them.
   if (!other.is_implicit() || !before || copy->is_like(*before)) take(other, *copy);
   return look;

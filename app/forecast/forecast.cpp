@@ -226,6 +226,7 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
     }
     frame_forecast.frame = frame;
     result.frames.push_back(frame_forecast);
+    is_over = is_over || result.work(0, frame).expected > budget.work;
   }
   result.withheld = withheld_by(*coarse, simulation);
   const std::string copy = "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) + " m";

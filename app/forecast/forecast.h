@@ -82,6 +82,7 @@ struct ForecastBudget {
   /// Bounds a second copy, which is as fine as they allow: a few cells do not pack and harden as
   /// many do. 0: there is none.
   double fine_particle_steps = 0;
+  double work = 1e300;  ///< of the run: a copy that foretells more need not tell how much more
 };
 
 /// @param particles of the scene
