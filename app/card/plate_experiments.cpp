@@ -149,6 +149,7 @@ Experiment tear(const Subject& subject) {
   // first.
   const double nothing = sim::laws::of(m).is_granular ? 1e-5 : 1e-6;
   const bool has_strength = strength > nothing * m.youngs_modulus;
+  if (!has_strength) strength = strain_there = work = 0;
   const bool tears = !e.y.empty() && e.y.back() < 0.5 * strength;
   // What does not tear bears more than was pulled: its strength and work are not known.
   const bool is_known = tears || !has_strength;

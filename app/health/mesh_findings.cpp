@@ -141,8 +141,11 @@ void check_distance(const scene::Scene& scene, const sim::shapes::Shape& shape,
        "coordinates = \"world\" takes the offset of a map out, and exports put it back"});
 }
 
-std::string height_text(double height) {
-  return scene::toml::number_text(std::round(10 * height) / 10) + " m";
+/// To a thousandth of the range, a decimal place at least.
+std::string height_text(double height, double range) {
+  const double digit =
+      std::pow(10, std::min(-1.0, std::floor(std::log10(std::max(range, 1e-9))) - 2));
+  return scene::toml::number_text(std::round(height / digit) * digit + 0.0) + " m";
 }
 
 void note_posts(const sim::shapes::Terrain& terrain, const std::string& address,
@@ -153,7 +156,8 @@ void note_posts(const sim::shapes::Terrain& terrain, const std::string& address,
       {Severity::note, address + ".shape.terrain.file",
        fmt::format("{} has {} x {} posts, {} apart, at heights from {} to {}", name, grid.columns,
                    grid.rows, rough_text(grid.spacing) + " m",
-                   height_text(grid.datum + grid.lowest), height_text(grid.datum + grid.highest)),
+                   height_text(grid.datum + grid.lowest, grid.highest - grid.lowest),
+                   height_text(grid.datum + grid.highest, grid.highest - grid.lowest)),
        "beyond its posts it continues level"});
 }
 

@@ -61,6 +61,16 @@ TEST_F(Terrain, CheckSaysMassAndDepthOfACover) {
 }
 
 /// The curve of docs/scenes.md: snow on a roof settles, held by friction, and then slides.
+TEST_F(Terrain, HeightsAreToldAsFinelyAsTheyDiffer) {
+  folder.write("slope.asc", height_grid(5, 5, 0.05, [](double x, double) { return 0.05 * x; }));
+  const std::vector<std::string> words{
+      "check", "scene.toml",
+      "--set", "collider.slope.shape={ terrain = { file = \"slope.asc\" } }",
+      "--set", "body.slab.shape={ sphere = { center = [0, 1, 0], radius = 0.2 } }"};
+  const auto check = neve(words);
+  EXPECT_TRUE(contains(check.output, "at heights from 0 m to 0.01 m")) << check.output;
+}
+
 TEST_F(Terrain, ACoverMaySettleBeforeItSlides) {
   std::string scene = read_text(NEVE_SOURCE_DIR "/scenes/roof.toml");
   const std::string page = read_text(NEVE_SOURCE_DIR "/docs/scenes.md"), start = "[[curve]]  ";
