@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "app/support/json.h"
 #include "app/sweep/sheet/review.h"
+#include "tests/support/temporary_folder.h"
 
 namespace neve::test {
 namespace {
@@ -62,6 +65,25 @@ TEST(ReviewTimeline, NamesLinksWhereThereAreSome) {
   EXPECT_EQ(media["target_url_base"], "review/");
   EXPECT_EQ(media["name_prefix"], "run_0001.");
   EXPECT_EQ(media["name_suffix"], ".png");
+}
+
+/// OTIO pads behind the sign: it looks for -0002.png where neve writes -002.png.
+TEST(ReviewTimeline, NumbersBelowZeroAreThoseOfLinks) {
+  std::vector<app::sweep::store::RunResult> results(2);
+  results[0].frames = {-2, -1, 0, 1, 2};
+  for (const bool has_links : {false, true}) {
+    const Json timeline = app::parse_json(
+        std::string_view(app::sweep::sheet::otio_timeline(two_runs(), results, has_links)));
+    const Json& clip = timeline["tracks"]["children"][0]["children"][0];
+    const int first = has_links ? -2 : 0;
+    EXPECT_EQ(clip["media_reference"]["start_frame"], first);
+    EXPECT_EQ(clip["source_range"]["start_time"]["value"], double(first));
+    EXPECT_EQ(clip["source_range"]["duration"]["value"], double(3 - first));
+  }
+  const TemporaryFolder folder;
+  app::sweep::sheet::link_pictures(folder.path(), two_runs(), results);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "review/run_0000.-0002.png"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "review/run_0000.0002.png"));
 }
 
 TEST(ReviewTimeline, RunsThatDidNotEndHaveCostsAlone) {

@@ -140,6 +140,15 @@ top_left = "AAA"
   expect_made_again(file);
 }
 
+TEST_F(ViewByScript, ASecondPictureOfAFrameIsAnotherFile) {
+  const auto result =
+      view(R"([{"wait": 5}, {"key": "p"}, {"wait": 10}, {"key": "p"}, {"wait": 10}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(files("particles_0000_step0", ".png"),
+            (std::vector<std::string>{"particles_0000_step0_2.png", "particles_0000_step0.png"}));
+}
+
 TEST_F(ViewByScript, ASettingThatIsTakenBackAfterAResetIsInNoPicture) {
   const auto result = view(R"([{"wait": 5}, {"click": "find a parameter"},
     {"type": "burn_in.top_left"}, {"wait": 3}, {"click": "burn_in.top_left"}, {"wait": 2},

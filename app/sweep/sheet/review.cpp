@@ -52,9 +52,16 @@ Json marker_json(const Parameter& parameter, const std::string& value, double fi
   return json;
 }
 
+/// The first frame of a clip. Of numbers below zero only links have the names that OTIO makes of
+/// them.
+int first_of_clip(const store::RunResult& result, bool has_links) {
+  const int first = result.frames.front();
+  return has_links || result.frames.back() < 0 ? first : std::max(0, first);
+}
+
 Json media_json(const store::Manifest& manifest, const Run& run, const store::RunResult& result,
                 bool has_links) {
-  const int first = result.frames.front();
+  const int first = first_of_clip(result, has_links);
   const double count = result.frames.back() - first + 1, fps = manifest.fps_of(run);
   Json json = schema("ImageSequenceReference.1");
   json["available_range"] = range_json(first, count, fps);
@@ -84,7 +91,7 @@ Json metrics_json(const Run& run, const store::RunResult& result) {
 
 Json clip_json(const store::Manifest& manifest, const Run& run, const store::RunResult& result,
                bool has_links) {
-  const int first = result.frames.front();
+  const int first = first_of_clip(result, has_links);
   const double fps = manifest.fps_of(run);
   Json json = schema("Clip.1");
   json["name"] = run.label.empty() ? store::run_text(run) : run.label;
@@ -152,7 +159,9 @@ void link_pictures(const fs::path& folder, const store::Manifest& manifest,
     for (const int frame : results[k].frames) {
       const fs::path picture =
           output::frame_path(fs::path("..") / "runs" / run.folder, manifest.view, frame);
-      const fs::path link = review / (review_prefix(run) + picture.filename().string());
+      // OTIO pads behind the sign.
+      const fs::path link = review / fmt::format("{}{}{:04}.png", review_prefix(run),
+                                                 frame < 0 ? "-" : "", std::abs(frame));
       fs::create_symlink(picture, link, error);
       if (error)
         throw IoError(link.string() + ": cannot be linked: " + error.message(), link.string(),
