@@ -15,10 +15,15 @@ endif()
 install(TARGETS neve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY scenes shaders DESTINATION ${neve_data} PATTERN make EXCLUDE)
 install(FILES python/neve.py python/pyproject.toml DESTINATION ${neve_data}/python)
-install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN "frame.py")
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING
+  PATTERN "*.md" PATTERN "*.png" PATTERN "*.jpg" PATTERN "*.webp" PATTERN "*.svg" PATTERN "*.json"
+  PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.py" PATTERN "page.md" EXCLUDE)
+# Pages link to scenes beside them.
+install(CODE "file(RELATIVE_PATH scenes \"/${CMAKE_INSTALL_DOCDIR}\" \"/${neve_data}/scenes\")
+  file(CREATE_LINK \"\${scenes}\"
+    \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/scenes\" SYMBOLIC)")
 set(manual ${PROJECT_BINARY_DIR}/manual)
 install(CODE "execute_process(COMMAND \"$<TARGET_FILE:neve>\" manual \"${manual}\"
   COMMAND_ERROR_IS_FATAL ANY)")

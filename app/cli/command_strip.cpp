@@ -20,7 +20,8 @@ int run_strip_command(const run::StripOptions& options) {
     set_answer({{"file", file}, {"times", drawn}, {"is_whole", drawn.size() == job.times.size()}});
   }
   const std::string written = std::to_string(result.tiles) + " of " +
-                              std::to_string(job.times.size()) + " moments in " + file;
+                              std::to_string(job.times.size()) + " moments" +
+                              (result.tiles > 0 ? " in " + file : ", so there is no picture");
   if (result.divergence)
     throw Error(exit_diverged, result.divergence->sentence + "; drew " + written,
                 job.run.scene_file, "neve render explains the cause");

@@ -95,7 +95,8 @@ void describe_params(Command& visit, ParamsOptions& o) {
         "means, as in camera, \"time step\", sticky");
   visit("--wishes", o.is_wishes,
         "Print the table from wishes (stickier, heavier, ...) to parameters");
-  visit("--markdown", o.is_markdown, "With --wishes, print it as in docs/wishes.md");
+  visit("--markdown", o.is_markdown, "With --wishes, print it as in docs/wishes.md")
+      .needs("--wishes", "is a way to print the table of wishes", "give --wishes too");
   visit("--sweep", o.is_sweep, "List the parameters of sweep files instead of scenes");
   visit("--json", o.is_json, json_help);
 }

@@ -12,18 +12,22 @@ namespace {
 
 using options::Command;
 
-/// "127.0.0.1", "0.0.0.0:8080", ":8080", "[::1]:8080"
+/// "127.0.0.1", "0.0.0.0:8080", ":8080", "[::1]:8080", "::1"
 void read_address(const std::string& text, view::ScreenOptions& screen) {
   const std::size_t bracket = text.find(']'), colon = text.rfind(':');
   const bool has_brackets = bracket != std::string::npos;
-  const bool has_port = colon != std::string::npos && (!has_brackets || colon > bracket);
+  // Several colons are of an address without a port.
+  const bool has_port =
+      colon != std::string::npos && (has_brackets ? colon > bracket : text.find(':') == colon);
   const std::string port = has_port ? text.substr(colon + 1) : "";
   const std::optional<int> number = number_of<int>(port);
   if ((has_brackets && text.front() != '[') ||
-      (has_port && !(number && *number >= 1 && *number <= 65535)))
+      (has_port && !(number && *number >= 0 && *number <= 65535)))
     throw UsageError("--listen", "cannot use \"" + text + "\"",
                      "expected an address, a :PORT, or both, as in 127.0.0.1:8080");
-  screen.listen = has_brackets ? text.substr(1, bracket - 1) : text.substr(0, colon);
+  screen.listen = has_brackets ? text.substr(1, bracket - 1)
+                  : has_port   ? text.substr(0, colon)
+                               : text;
   screen.port = number.value_or(0);
   screen.is_web = true;
 }

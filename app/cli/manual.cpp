@@ -88,9 +88,12 @@ std::string bash_completion(const Entry& program) {
   std::string text =
       "# Completion of neve for bash.\n_neve() {\n"
       "  local word=${COMP_WORDS[COMP_CWORD]} flags=\n  COMPREPLY=()\n"
-      "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \"" +
+      "  local commands=\"" +
       joined(program.part_names(), " ") +
-      "\" -- \"$word\"))\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n";
+      "\"\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \"$commands " +
+      joined(program.command.flags(), " ") +
+      "\" -- \"$word\"))\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n    help) "
+      "COMPREPLY=($(compgen -W \"$commands\" -- \"$word\")); return ;;\n";
   for (const Entry& entry : program.parts) {
     std::string words = joined(entry.command.flags(), " ");
     for (const Entry& part : entry.parts)
@@ -100,8 +103,10 @@ std::string bash_completion(const Entry& program) {
   return text +
          "  esac\n  COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
          "  local IFS=$'\\n'  # names of files may have blanks\n"
-         "  case $word in -*) ;; *) COMPREPLY+=($(compgen -f -- \"$word\")) ;; esac\n}\n"
-         "complete -o filenames -F _neve neve\n";
+         "  case $word in\n    -*) ;;\n    # a part may have the name of a folder\n"
+         "    *) [ ${#COMPREPLY[@]} -gt 0 ] || compopt -o filenames 2>/dev/null; "
+         "COMPREPLY+=($(compgen -f -- \"$word\")) ;;\n  esac\n}\n"
+         "complete -F _neve neve\n";
 }
 
 std::string zsh_completion(const Entry& program) {
@@ -124,7 +129,8 @@ std::string zsh_completion(const Entry& program) {
     text += "  " + entry.name() + ")\n    _arguments '*:file:_files'";
     for (const options::Option& option : entry.command.options)
       if (!option.is_argument())
-        text += " \\\n      '" + option.long_name() + "[" + plain(option.help) + "]" +
+        text += std::string(" \\\n      '") + (option.is_repeatable ? "*" : "") +
+                option.long_name() + "[" + plain(option.help) + "]" +
                 (option.needs_value() ? ":value:_files'" : "'");
     text += "\n    ;;\n";
   }
@@ -133,10 +139,14 @@ std::string zsh_completion(const Entry& program) {
 
 std::string fish_completion(const Entry& program) {
   const auto quoted = [](const std::string& text) { return quoted_word(text, "\\'"); };
-  std::string text = "# Completion of neve for fish.\n";
+  std::string text =
+      "# Completion of neve for fish.\ncomplete -c neve -n __fish_use_subcommand -f\n";
   for (const Entry& entry : program.parts) {
     text += "complete -c neve -n __fish_use_subcommand -a " + entry.name() + " -d " +
             quoted(entry.command.help) + "\n";
+    for (const std::string& part : entry.part_names())
+      text += "complete -c neve -n '__fish_seen_subcommand_from " + entry.name() + "' -a " + part +
+              "\n";
     for (const options::Option& option : entry.command.options)
       if (!option.is_argument())
         text += "complete -c neve -n '__fish_seen_subcommand_from " + entry.name() + "' -l " +

@@ -31,10 +31,11 @@ double memory_cap(const std::string& text, const std::string& where) {
   std::optional<double> bytes = bytes_of(text);
   if (!bytes) bytes = finite_number(text);
   // Nothing runs in less: 16 is 16GiB without its unit.
-  constexpr double least = 1e6;
+  constexpr double least = 1e6, max_gib = 1e5;
   if (bytes && *bytes > 0 && *bytes < least)
-    throw UsageError(where, "\"" + text + "\" is less than a run needs: bytes",
-                     advice::did_you_mean(rough_text(*bytes) + "GiB"));
+    throw UsageError(where, "\"" + text + "\" is less than a run needs",
+                     finite_number(text) && *bytes < max_gib ? advice::did_you_mean(text + "GiB")
+                                                             : "expected a size such as 8GiB");
   if (!bytes || !(*bytes >= 1))
     throw UsageError(where, "cannot use \"" + text + "\"",
                      "expected bytes, or a size such as 8GiB or 500MB");

@@ -63,6 +63,8 @@ TEST_F(Cli, WordsOfOtherProgramsGetTheWordsOfThisOne) {
       {{"sweep", "scene.toml", "-p", "seed=1,2", "--resume"}, "the same command continues"},
       {{"completion"}, "neve manual DIR"},
       {{"render", "scene.toml", "--max-memory", "16"}, "did you mean 16GiB?"},
+      {{"render", "scene.toml", "--max-memory", "1KiB"}, "expected a size such as 8GiB"},
+      {{"params", "--markdown"}, "give --wishes too"},
       {{"sweep", "str", "out/study", "0"}, "did you mean neve sweep star?"},
       {{"sweep", "promot", "out/study", "0"}, "did you mean neve sweep promote?"},
       {{"check", "scene.toml", "--set", points + "npz\" } }"}, "it is not a table of points"},

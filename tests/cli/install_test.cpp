@@ -59,7 +59,7 @@ TEST_F(Install, HelpManPagesAndCompletionsHaveEveryOption) {
       EXPECT_TRUE(contains(page, flag + "\\fR")) << place;
       if (option["is_argument"] == true || words.size() != 2) continue;
       EXPECT_TRUE(contains(bash, flag)) << place;
-      EXPECT_TRUE(contains(zsh, "'" + flag + "[")) << place;
+      EXPECT_TRUE(contains(zsh, flag + "[")) << place;
       EXPECT_TRUE(contains(fish, " -l " + flag.substr(2) + " ")) << place;
     }
   }
@@ -80,6 +80,12 @@ TEST_F(Install, BashCompletesCommandsFlagsAndFiles) {
   EXPECT_EQ(completed("neve ren", 1), "render\n");
   EXPECT_EQ(completed("neve export --att", 2), "--attributes\n");
   EXPECT_EQ(completed("neve check sce", 2), "scene.toml\n");
+  EXPECT_EQ(completed("neve --vers", 1), "--version\n");
+  EXPECT_EQ(completed("neve help ren", 2), "render\n");
+  // A folder of the same name does not make it one: no slash follows.
+  std::filesystem::create_directory(folder / "sim");
+  EXPECT_FALSE(contains(read_text(folder / "m/bash/neve"), "complete -o filenames"));
+  EXPECT_EQ(completed("neve bench si", 2), "sim sim\n");
   EXPECT_EQ(neve({"manual"}).exit_code, 2);
   folder.write("file", "");
   EXPECT_EQ(neve({"manual", "file"}).exit_code, 6);

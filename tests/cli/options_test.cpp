@@ -60,6 +60,19 @@ void expect_same_again(const Entry& entry, const Words& path) {
   EXPECT_EQ(words_of(again, path), words);
 }
 
+TEST(Options, AnAddressMayHaveColonsAndAPort) {
+  for (const auto& [given, said] :
+       {std::pair{"::1", "[::1]"}, std::pair{"[::1]:8080", "[::1]:8080"},
+        std::pair{"2001:db8::5", "[2001:db8::5]"}, std::pair{":8080", ":8080"},
+        std::pair{"127.0.0.1:0", "127.0.0.1"}, std::pair{"localhost", "localhost"}}) {
+    Entry view = fresh({"view"});
+    EXPECT_EQ(app::options::parse(view.command, {"--listen", given}), Words{}) << given;
+    const auto listen = std::ranges::find_if(
+        view.command.options, [](const Option& option) { return option.name() == "--listen"; });
+    EXPECT_EQ(listen->write(), Words{said}) << given;
+  }
+}
+
 TEST(Options, OfNobodyHaveNoWords) {
   int commands = 0;
   for_each_command(app::cli::program(), [&](const Words& path) {

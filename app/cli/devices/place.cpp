@@ -111,10 +111,13 @@ void announce(const Place& place, bool is_json, bool is_quiet) {
   if (!place.web) return;
   std::cout << place.front->where() << std::endl;
   if (is_quiet) return;
-  std::cerr << "neve: open the address above in a browser; Ctrl-C ends\n"
-            << "neve: from another machine: ssh -L " << place.web->port()
-            << ":127.0.0.1:" << place.web->port() << " THIS_MACHINE, then the same address there"
-            << std::endl;
+  std::cerr << "neve: open the address above in a browser; Ctrl-C ends" << std::endl;
+  // Where the tunnel ends, the address of any other place is another.
+  const std::string where = place.front->where();
+  if (where.starts_with("http://127.0.0.1:") || where.starts_with("http://localhost:"))
+    std::cerr << "neve: from another machine: ssh -L " << place.web->port()
+              << ":127.0.0.1:" << place.web->port() << " THIS_MACHINE, then the same address there"
+              << std::endl;
 }
 
 }  // namespace neve::app::cli::devices
