@@ -117,7 +117,7 @@ TEST_F(Bodies, AStageThatARunGetsLaterHasPlacesThatTheSceneDoesNotSay) {
   const std::string stage = "[[export]]\nformat = \"usda\"\nevery = 4\n",
                     curve =
                         "[[curve]]\nparameter = \"collider.plow.velocity\"\nkeyframes = [\n"
-                        "{ time = 0, value = [1, 0, 0] }, { time = 0.1, value = [3, 0, 0] }]\n";
+                        "{ time = 0, vector = [1, 0, 0] }, { time = 0.1, vector = [3, 0, 0] }]\n";
   const auto stage_of = [&](const std::string& text, const std::string& out,
                             std::vector<std::string> more) {
     folder.write("plow.toml", text);
