@@ -19,7 +19,8 @@ install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING
   PATTERN "*.md" PATTERN "*.png" PATTERN "*.jpg" PATTERN "*.webp" PATTERN "*.svg" PATTERN "*.json"
-  PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.py" PATTERN "page.md" EXCLUDE)
+  PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.tsv" PATTERN "*.txt" PATTERN "*.py" PATTERN "*.cpp"
+  PATTERN "page.md" EXCLUDE)
 # Pages link to scenes beside them.
 install(CODE "file(RELATIVE_PATH scenes \"/${CMAKE_INSTALL_DOCDIR}\" \"/${neve_data}/scenes\")
   file(CREATE_LINK \"\${scenes}\"
