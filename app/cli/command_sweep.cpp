@@ -24,6 +24,7 @@
 #include "app/sweep/jobs/background.h"
 #include "app/sweep/jobs/local.h"
 #include "app/sweep/jobs/slurm.h"
+#include "app/sweep/jobs/source.h"
 #include "app/sweep/jobs/start_order.h"
 #include "app/sweep/plan/dry_run_report.h"
 #include "app/sweep/plan/refinement.h"

@@ -59,12 +59,6 @@ JobsResult run_local(const std::filesystem::path& folder, const store::Manifest&
 /// True where the common beginning of forked runs exists. @param folder  of the beginning
 bool has_beginning(const Run& run, const std::filesystem::path& folder);
 
-/// Brings the run of plan.source to the time of the fork, from its newest checkpoint that is early
-/// enough or from its start, and writes that moment into DIR/beginning, unless it exists.
-/// @throws IoError, UsageError, Error when the run does not get there
-void take_beginning(const plan::SweepPlan& plan, const store::Beginning& beginning, int threads,
-                    Progress& progress);
-
 /// Runs that have not ended, the one in question among them.
 struct RunsLeft {
   int runs = 1;

@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <optional>
-#include <set>
-#include <string>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 #include "app/output/atomic_file.h"
 #include "app/output/folder_lock.h"
 #include "app/output/movie.h"
-#include "app/output/movie_format.h"
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
 #include "app/picture/legends.h"
@@ -26,6 +21,7 @@
 #include "app/sweep/sheet/data_csv.h"
 #include "app/sweep/sheet/effects.h"
 #include "app/sweep/sheet/metric_plots.h"
+#include "app/sweep/sheet/outputs.h"
 #include "app/sweep/sheet/report.h"
 #include "app/sweep/sheet/review.h"
 #include "app/sweep/sheet/sheet.h"
@@ -39,91 +35,6 @@ namespace neve::app::sweep::sheet {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// "sheet", and "sheet_2" of a further page.
-bool is_page(const std::string& stem, const std::string& name) {
-  if (stem == name) return true;
-  if (!stem.starts_with(name + "_")) return false;
-  const auto number = number_of<int>(stem.substr(name.size() + 1));
-  return number && *number >= 2;
-}
-
-bool is_movie(const fs::path& file) {
-  return std::ranges::any_of(output::all_movie_formats, [&](output::MovieFormat format) {
-    return file.extension() == output::info_of(format).suffix;
-  });
-}
-
-/// A copy, as entries are removed while they are looked at.
-std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::directory_entry> entries;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    entries.push_back(entry);
-  return entries;
-}
-
-/// The pictures and movies that a collect has written into the folder of a sweep. Those that an
-/// earlier one has left would be taken for results of the present runs.
-class Outputs {
- public:
-  explicit Outputs(fs::path folder) : folder_(std::move(folder)) {}
-
-  /// @return the same path
-  const fs::path& add(const fs::path& file) {
-    return *written_.insert(file.lexically_normal()).first;
-  }
-
-  /// Removes sheets, strips, their frames and movies that were not added; nothing that has another
-  /// name than those. @throws IoError
-  void remove_others() const;
-
- private:
-  void remove_frames(const fs::path& frames) const;
-  void remove_unless_written(const fs::path& file) const;
-
-  fs::path folder_;
-  std::set<fs::path> written_;
-};
-
-/// Removes a result that the present runs do not have. @throws IoError
-void remove_result(const fs::path& file) {
-  std::error_code error;
-  fs::remove(file, error);
-  if (error)
-    throw IoError(file.string() + ": cannot be removed: " + error.message(), file.string(),
-                  "remove it, and neve sweep collect makes the results");
-}
-
-void Outputs::remove_unless_written(const fs::path& file) const {
-  if (!written_.contains(file.lexically_normal())) remove_result(file);
-}
-
-void Outputs::remove_frames(const fs::path& frames) const {
-  for (const fs::directory_entry& entry : entries_of(frames)) {
-    const fs::path file = entry.path();
-    const auto number = number_of<int>(file.stem().string());
-    if (number && file == output::frame_path(folder_, frames.filename().string(), *number))
-      remove_unless_written(file);
-  }
-  std::error_code error;
-  if (fs::is_empty(frames, error) && !error) remove_result(frames);
-}
-
-void Outputs::remove_others() const {
-  for (const fs::directory_entry& entry : entries_of(folder_)) {
-    const fs::path& file = entry.path();
-    const std::string stem = file.stem().string();
-    const bool is_sheet = is_page(stem, "sheet");
-    if (entry.is_symlink()) continue;
-    if (entry.is_directory()) {
-      if (is_sheet && !file.has_extension()) remove_frames(file);
-    } else if (file.extension() == ".png" ? is_sheet || is_page(stem, "strips")
-                                          : is_sheet && is_movie(file)) {
-      remove_unless_written(file);
-    }
-  }
-}
 
 constexpr const char* collect_lock = ".collect.lock";
 

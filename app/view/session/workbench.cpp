@@ -1,21 +1,14 @@
 #include "app/view/session/workbench.h"
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include "app/forecast/fast.h"
-#include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
 #include "app/record/picture_files.h"
 #include "app/record/run_json.h"
-#include "app/run/render_options.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/flat.h"
-#include "app/scene/leaf.h"
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
@@ -28,6 +21,7 @@
 #include "app/support/version.h"
 #include "app/sweep/plan/around.h"
 #include "app/timeline/origin.h"
+#include "app/view/session/export.h"
 
 namespace neve::app::view::session {
 
@@ -54,79 +48,6 @@ std::filesystem::file_time_type time_of(const std::string& file) {
   std::error_code error;
   const auto time = std::filesystem::last_write_time(file, error);
   return error ? std::filesystem::file_time_type{} : time;
-}
-
-/// A preset among all parameters of a scene: nothing but its choices matters to a sweep.
-std::vector<scene::FlatParam> with_presets(const scene::Scene& scene) {
-  std::vector<scene::FlatParam> params = scene::flatten(scene);
-  for (const sim::Material& material : scene.materials) {
-    scene::FlatParam& param = params.emplace_back();
-    param.address = "material." + material.name + ".preset";
-    param.type = "choice";
-    param.choices = scene::choices<scene::Preset>();
-    param.help = "Named kinds of snow.";
-    if (const auto preset = scene::preset_of(material)) param.value = scene::to_value(*preset);
-  }
-  return params;
-}
-
-/// Settings of all runs of a sweep, without the numbers that its presets set.
-std::vector<scene::Override> set_in_all(const Document& document, const std::string& address) {
-  std::vector<scene::Override> all =
-      setup::without_followers(*document.scene(), document.all_overrides());
-  if (!scene::is_preset_address(address)) return all;
-  const std::vector<std::string> numbers = scene::addresses_set_by(address);
-  std::erase_if(all, [&](const scene::Override& override) {
-    return std::find(numbers.begin(), numbers.end(), override.address) != numbers.end();
-  });
-  return all;
-}
-
-/// The value before the scene was coarsened, where it has one: the runs of the sweep are coarsened
-/// after their values are set.
-void take_finer_value(scene::FlatParam& param, const Document& document) {
-  if (!(document.coarsening() > 1)) return;
-  const scene::Scene finer =
-      scene::read_scene_text(document.text(), document.file(), scene::base_dir_of(document.file()),
-                             document.all_overrides());
-  for (const scene::FlatParam& other : scene::flatten(finer))
-    if (other.address == param.address && other.value) param.value = other.value;
-}
-
-/// "material_snow_hardening" for an address.
-std::string plain_file_name(const std::string& address) {
-  std::string name = address;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
-  return name;
-}
-
-/// The command that renders the document as it is now.
-std::string render_command(const Document& document) {
-  run::RenderOptions options;
-  options.scene = document.file();
-  options.overrides =
-      scene::texts_of(setup::without_followers(*document.scene(), document.all_overrides()));
-  if (document.coarsening() > 1) options.coarsening = document.coarsening();
-  return options::shell_line(options::words_of(options));
-}
-
-/// Writes a sweep file with values around the present one of a parameter; the rest of the document
-/// is as it is now.
-/// @param set_later see sweep_around()
-/// @throws IoError, UsageError
-void write_sweep_around(const std::filesystem::path& file, const Document& document,
-                        const std::string& address, const std::vector<std::string>& set_later) {
-  for (scene::FlatParam& param : with_presets(*document.scene())) {
-    if (param.address != address) continue;
-    take_finer_value(param, document);
-    output::make_folder(file.parent_path());
-    output::write_among_others(file, sweep::plan::sweep_around(document.file(), file.string(),
-                                                               param, set_in_all(document, address),
-                                                               document.coarsening(), set_later));
-    return;
-  }
-  throw UsageError("", "nothing has the address " + address);
 }
 
 scene::Scene with_all_views(scene::Scene scene) {

@@ -1,0 +1,25 @@
+#pragma once
+/// From tuning to production: exports edits, as files and commands for the other tools.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/view/session/document.h"
+
+namespace neve::app::view::session {
+
+/// "material_snow_hardening" for an address.
+std::string plain_file_name(const std::string& address);
+
+/// The command that renders the document as it is now.
+std::string render_command(const Document& document);
+
+/// Writes a sweep file with values around the present one of a parameter; the rest of the document
+/// is as it is now.
+/// @param set_later see sweep_around()
+/// @throws IoError, UsageError
+void write_sweep_around(const std::filesystem::path& file, const Document& document,
+                        const std::string& address, const std::vector<std::string>& set_later);
+
+}  // namespace neve::app::view::session
