@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <system_error>
 
 namespace neve::app::output {
 
@@ -38,6 +39,14 @@ fs::path incident_path(const fs::path& folder) {
 
 fs::path run_json_path(const fs::path& folder) {
   return folder / "run.json";
+}
+
+fs::path free_path(const fs::path& folder, const std::string& name, const std::string& suffix) {
+  std::error_code error;
+  fs::path path = folder / (name + suffix);
+  for (int k = 2; fs::exists(fs::symlink_status(path, error)); ++k)
+    path = folder / fmt::format("{}_{}{}", name, k, suffix);
+  return path;
 }
 
 fs::path export_list_path(const fs::path& folder) {

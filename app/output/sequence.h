@@ -33,6 +33,10 @@ std::filesystem::path movie_path(const std::filesystem::path& folder, const std:
 std::filesystem::path diverged_path(const std::filesystem::path& folder, const std::string& view);
 std::filesystem::path incident_path(const std::filesystem::path& folder);
 std::filesystem::path run_json_path(const std::filesystem::path& folder);
+/// DIR/NAME.png, or DIR/NAME_2.png and so on where a file or folder is called so already.
+/// @param suffix  ".png"; "" for a folder
+std::filesystem::path free_path(const std::filesystem::path& folder, const std::string& name,
+                                const std::string& suffix);
 /// The list of the files that `neve export` wrote into a folder.
 std::filesystem::path export_list_path(const std::filesystem::path& folder);
 /// That of the files that `neve compare` wrote into a folder.

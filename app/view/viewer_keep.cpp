@@ -13,15 +13,6 @@ namespace neve::app::view {
 
 namespace {
 
-/// A name that no file has: NAME.png, NAME_2.png, ...
-std::filesystem::path free_path(const std::filesystem::path& folder, const std::string& name) {
-  std::error_code error;
-  std::filesystem::path file = folder / (name + ".png");
-  for (int k = 2; std::filesystem::exists(std::filesystem::symlink_status(file, error)); ++k)
-    file = folder / (name + "_" + std::to_string(k) + ".png");
-  return file;
-}
-
 /// Its pictures would be replaced by those of another run.
 void require_no_run(const std::filesystem::path& folder) {
   std::error_code error;
@@ -77,7 +68,7 @@ void Viewer::save_picture() {
   std::snprintf(number, sizeof number, "%04d_step%zu", scene::number_of(*live.scene, live.frame),
                 live.steps);
   const std::filesystem::path file =
-      free_path(bench_.folder(), panels::current_view(state_).name + "_" + number);
+      output::free_path(bench_.folder(), panels::current_view(state_).name + "_" + number, ".png");
   try {
     const output::Picture picture = picture_to_keep(file);
     output::make_folder(bench_.folder());

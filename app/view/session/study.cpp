@@ -8,6 +8,7 @@
 
 #include "app/options/arguments.h"
 #include "app/output/process.h"
+#include "app/output/sequence.h"
 #include "app/support/errors.h"
 #include "app/sweep/plan/sweep_plan.h"
 
@@ -20,15 +21,6 @@ namespace fs = std::filesystem;
 constexpr int max_study_runs = 100;
 constexpr double study_grace = 10;  // s
 constexpr auto study_interval = std::chrono::milliseconds(300);
-
-/// DIR/vary_0012, or with a number where there is one already.
-fs::path new_folder(const fs::path& folder, int frame) {
-  const std::string name = fmt::format("vary_{:04}", frame);
-  std::error_code error;
-  fs::path path = folder / name;
-  for (int k = 2; fs::exists(path, error); ++k) path = folder / fmt::format("{}_{}", name, k);
-  return path;
-}
 
 std::vector<std::string> axes_of(const StudyRequest& request) {
   std::vector<std::string> axes;
@@ -49,7 +41,9 @@ void Study::start(const fs::path& folder, record::RunRecord run, timeline::Momen
   if (is_running()) throw UsageError("", "a sweep is in progress", "wait for it, or stop it");
   if (request.axes.empty()) throw UsageError("", "no parameter is chosen", "find one to vary");
   const int start = moment.scene ? scene::number_of(*moment.scene, 0) : 0;
-  const fs::path here = new_folder(folder, start + moment.frame);
+  // DIR/vary_0012, or with a number where there is one already.
+  const fs::path here =
+      output::free_path(folder, fmt::format("vary_{:04}", start + moment.frame), "");
   sweep::plan::SweepOptions options;
   options.file = (here / "start").string();
   options.from = moment.frame / fps;
