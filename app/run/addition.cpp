@@ -101,16 +101,6 @@ scene::Scene with_views_of(const scene::Scene& earlier, const scene::Scene& now)
   return merged;
 }
 
-/// Movies of a view, by the names of their files.
-std::vector<std::string> movies_of(const std::string& view, const record::FileHashes& files) {
-  std::vector<std::string> movies;
-  for (const output::MovieFormat format : output::all_movie_formats)
-    if (const std::string name = output::movie_path({}, view, format).string();
-        files.contains(name) && std::ranges::find(movies, name) == movies.end())
-      movies.push_back(name);
-  return movies;
-}
-
 std::size_t count_below(const std::string& folder, const record::FileHashes& files) {
   return static_cast<std::size_t>(std::count_if(files.begin(), files.end(), [&](const auto& f) {
     return f.first.starts_with(folder + "/");
@@ -212,6 +202,15 @@ record::ViewFrames EarlierRun::frames_of(const std::string& view) const {
   const auto part = pictures.view_frames.find(view);
   if (part != pictures.view_frames.end()) return part->second;
   return {pictures.frames.front().frame, pictures.frames.back().frame};
+}
+
+std::vector<std::string> movies_of(const std::string& view, const record::FileHashes& files) {
+  std::vector<std::string> movies;
+  for (const output::MovieFormat format : output::all_movie_formats)
+    if (const std::string name = output::movie_path({}, view, format).string();
+        files.contains(name) && std::ranges::find(movies, name) == movies.end())
+      movies.push_back(name);
+  return movies;
 }
 
 std::optional<EarlierRun> earlier_run(const RenderJob& job, const record::RunRecord& ours) {

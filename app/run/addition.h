@@ -29,6 +29,9 @@ struct EarlierRun {
 /// @param ours  record of the command, with its simulation
 std::optional<EarlierRun> earlier_run(const RenderJob& job, const record::RunRecord& ours);
 
+/// Movies of a view among files of a run, by their names.
+std::vector<std::string> movies_of(const std::string& view, const record::FileHashes& files);
+
 /// Names all that the pictures of a view depend on but the states of its run: neither other views
 /// nor whether the scene or the view has its size, camera and background.
 /// @param picture  of any view and frame

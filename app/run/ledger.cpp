@@ -180,13 +180,12 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
 /// Movies in other formats would end where the film did before.
 void Ledger::write_earlier_movies(const std::string& view,
                                   std::vector<std::filesystem::path>& movies) {
-  std::set<std::string> made{output::movie_path({}, view, job_.options.movie.format).string()};
-  for (const output::MovieFormat format : output::all_movie_formats) {
-    const std::string name = output::movie_path({}, view, format).string();
-    const auto listed = record_.movies.find(name);
-    if (listed == record_.movies.end() || !made.insert(name).second) continue;
+  const std::filesystem::path own = output::movie_path({}, view, job_.options.movie.format);
+  for (const std::filesystem::path file : movies_of(view, record_.files)) {
+    const auto listed = record_.movies.find(file.string());
+    if (file == own || listed == record_.movies.end()) continue;
     output::MovieStyle style = movie_style_of(job_, listed->second);
-    style.format = format;
+    style.format = *output::movie_format_named(file.extension().string().substr(1));
     write_movie(view, style, movies);
   }
 }
