@@ -184,7 +184,7 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
       foresee_frame(now, coarse_now, 1, simulation.step_limits(), {}, {});
   // Where few particles lie far apart, or meet meshes, a step costs far more than they do.
   constexpr double min_work_of_step = 400, max_steps_of_frame = 1e15;
-  double seconds = 0;
+  double seconds = 0, explicit_steps_so_far = 0;
   bool is_over = false;
   const auto is_late = [&] { return is_interrupted() || seconds_since(start) >= budget.seconds; };
   for (int frame = 1; frame <= last; ++frame) {
@@ -226,7 +226,8 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
     }
     frame_forecast.frame = frame;
     result.frames.push_back(frame_forecast);
-    is_over = is_over || result.work(0, frame).expected > budget.work;
+    explicit_steps_so_far += frame_forecast.steps * explicit_steps(frame_forecast.iterations);
+    is_over = is_over || explicit_steps_so_far > budget.work;
   }
   result.withheld = withheld_by(*coarse, simulation);
   const std::string copy = "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) + " m";

@@ -58,9 +58,9 @@ struct SeededBody : files::PointCloud {
 
 /// Points keep the places in their file and ignore sampling and particles_per_cell. Other shapes
 /// are filled. Jittered: one random point in every sub-cell of edge cell_size /
-/// cbrt(particles_per_cell). Poisson: random points no closer than 0.75 of that edge. Lattice: a
-/// regular grid with the shape's bounds in its middle. Neighbours in the list are near each other
-/// in space.
+/// cbrt(particles_per_cell). Poisson: random points no closer than poisson_distance_in_spacings
+/// (sampling.h) of that edge. Lattice: a regular grid with the shape's bounds in its middle.
+/// Neighbours in the list are near each other in space.
 /// @param body_index key of the random numbers, with seed
 /// @throws ShapeError when a mesh cannot be read or is open, the shape has no volume, or it would
 /// hold
