@@ -195,9 +195,12 @@ void append_list(const char* key, const toml::Table& from, toml::Table& to) {
   if (!more) return;
   toml::Entry* list = to.find(key);
   if (!list) list = &to.entries.emplace_back(toml::Entry{key, {}, {toml::Array(), {}}});
-  const auto& items = std::get<toml::Array>(more->value.data);
-  auto& all = std::get<toml::Array>(list->value.data);
-  all.insert(all.end(), items.begin(), items.end());
+  const auto* items = std::get_if<toml::Array>(&more->value.data);
+  auto* all = std::get_if<toml::Array>(&list->value.data);
+  if (items && all)
+    all->insert(all->end(), items->begin(), items->end());
+  else if (all)
+    list->value = more->value;  // no list: the reader says so
 }
 
 /// Those of the list, which all have names.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/output/atomic_file.h"
+#include "app/support/errors.h"
 #include "render/image/image.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/child.h"
@@ -87,6 +88,15 @@ views = ["slice", "close"]
   EXPECT_TRUE(exists("a/both/0003.png"));
   EXPECT_TRUE(contains(neve({"info", "a/close/0002.png"}).output, "layers = [\"ground\"]"));
   EXPECT_FALSE(json_of("a/run.json").contains("undrawn")) << "all are drawn";
+  // A damaged list of them is told.
+  app::Json damaged = json_of("b/run.json");
+  ASSERT_TRUE(damaged.contains("undrawn"));
+  for (const char* text : {"view = 3", "view = [3]", "view ["}) {
+    damaged["undrawn"] = text;
+    folder.write("b/run.json", damaged.dump());
+    const auto refused = render({"b", "--view", "close", "--no-movie"}, app::exit_invalid_scene);
+    EXPECT_TRUE(contains(refused.errors, "b/run.json (its scene):")) << refused.errors;
+  }
   // Without a name those that the folder has, and no others.
   render({"scene.toml", "--view", "close", "--out", "c", "--no-movie"});
   render({"c", "--size", "32x32", "--out", "d", "--no-movie"});
