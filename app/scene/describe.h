@@ -413,14 +413,14 @@ void describe_collider_forms(V& visit, sim::shapes::Shape& shape) {
                                             "The ground below a field of heights.");
 }
 
-/// Of what stands in a list.
+/// Describes the name of an item of a list.
 template <class V>
 void describe_name(V& visit, std::string& name) {
   visit("name", name, unit::none, identifier, Change::restart,
         "Name in addresses; default: its number, from 1.");
 }
 
-/// Of a keyframe.
+/// Describes the time of a keyframe.
 template <class V>
 void describe_time(V& visit, double& time) {
   visit("time", time, unit::second, between(0, 1e6), Change::live,

@@ -112,7 +112,7 @@ void announce(const Place& place, bool is_json, bool is_quiet) {
   std::cout << place.front->where() << std::endl;
   if (is_quiet) return;
   std::cerr << "neve: open the address above in a browser; Ctrl-C ends" << std::endl;
-  // Where the tunnel ends, the address of any other place is another.
+  // Only these addresses are the same at the other end of a tunnel.
   const std::string where = place.front->where();
   if (where.starts_with("http://127.0.0.1:") || where.starts_with("http://localhost:"))
     std::cerr << "neve: from another machine: ssh -L " << place.web->port()
