@@ -47,7 +47,7 @@ double fast_cfl(const scene::Scene& scene) {
 
 /// What the coarse copy of a scene tells.
 struct Copied {
-  double work = 0;   ///< in explicit steps
+  double work = 0;   ///< in explicit steps of packed snow
   double force = 0;  ///< N, the peak on a collider
   double J_P = 1;    ///< mean
 
@@ -105,12 +105,13 @@ class Candidate {
   }
 
   /// None if the copy diverges: a broken state foretells nothing.
-  /// @param max_work  ends the copy, in explicit steps
+  /// @param max_work  ends the copy, in explicit steps of packed snow
   std::optional<Copied> run_copy(int last, double max_work = forecast_budget.work) const {
     ForecastBudget budget = forecast_budget;
     budget.work = max_work;
-    const Forecast forecast = foresee(scene_, setup::planned_particles(scene_), last, budget);
+    Forecast forecast = foresee(scene_, setup::planned_particles(scene_), last, budget);
     if (!forecast.divergence.empty() || forecast.frames.empty()) return std::nullopt;
+    forecast.count_in_packed_steps();
     return Copied{forecast.work(0, last).expected, forecast.peak_force, forecast.mean_J_P};
   }
 

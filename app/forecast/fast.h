@@ -12,7 +12,8 @@ namespace neve::app::forecast {
 /// Changes of parameters that shorten a run.
 struct FastLook {
   std::vector<std::string> overrides;  ///< "ADDRESS=VALUE"; none if nothing would be gained
-  /// Forecasts of the work of the run, in explicit steps; none if the coarse copy diverges.
+  /// Forecasts of the work of the run, in explicit steps of packed snow; none if the coarse copy
+  /// diverges.
   std::optional<double> work, work_before;
   bool is_implicit = false;
   /// Of the peak force on a collider of the copy, relative: with the overrides, and with a ceiling

@@ -153,6 +153,13 @@ std::vector<Withheld> withheld_by(const scene::Scene& coarse, const sim::Simulat
   return list;
 }
 
+/// Of the steps of a copy, in explicit ones.
+double work_of(const sim::AdvanceReport& report) {
+  const auto steps = static_cast<double>(report.steps);
+  if (!report.solve || report.steps == 0) return steps;
+  return steps * explicit_steps(static_cast<double>(report.solve->all_iterations) / steps);
+}
+
 double mean_of(const std::vector<double>& values) {
   if (values.empty()) return 1;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -178,13 +185,13 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
       static_cast<double>(particles.x.size()) + setup::planned_emission(*coarse, last / scene.fps);
   scene::Scene now = setup::with_curves(scene, 0), coarse_now = setup::with_curves(*coarse, 0);
   sim::Simulation simulation = setup::make_simulation(coarse_now, particles, 1);
-  result.spread = spread_of(simulation);
+  result.spread = spread_of(simulation, coarse->solver);
   const auto start = Clock::now();
   FrameForecast frame_forecast =
       foresee_frame(now, coarse_now, 1, simulation.step_limits(), {}, {});
   // Where few particles lie far apart, or meet meshes, a step costs far more than they do.
   constexpr double min_work_of_step = 400, max_steps_of_frame = 1e15;
-  double seconds = 0, explicit_steps_so_far = 0;
+  double seconds = 0, packed_steps = 0;
   bool is_over = false;
   const auto is_late = [&] { return is_interrupted() || seconds_since(start) >= budget.seconds; };
   for (int frame = 1; frame <= last; ++frame) {
@@ -204,14 +211,26 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
       const auto last_step =
           simulation.steps() + static_cast<std::size_t>(2 * budget.particle_steps / work_of_step);
       const double from = simulation.time(), to = frame / scene.fps;
-      sim::AdvanceReport report = simulation.advance_to(to, is_late, last_step);
+      // The solves of one frame may take longer than all that the work allows.
+      const bool is_watched = budget.work < ForecastBudget{}.work;
+      const std::size_t steps_at_once = is_watched ? 32 : last_step;
+      sim::AdvanceReport report;
+      bool is_dear = false;
+      do {
+        const std::size_t until = std::min(last_step, simulation.steps() + steps_at_once);
+        report.append(simulation.advance_to(to, is_late, until));
+        is_dear = is_watched && packed_steps + work_of(report) * cost_of_step(spread_of(
+                                                                     simulation, coarse->solver)) >
+                                    budget.work;
+      } while (simulation.time() < to && simulation.steps() < last_step && !is_dear &&
+               !simulation.divergence() && !is_late());
       seconds += seconds_since(before_frame);
       result.peak_force = std::max(result.peak_force, report.max_force());
       run.work += static_cast<double>(report.steps) * work_of_step;
       run.particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
       if (simulation.divergence()) break;  // a broken state foretells nothing
-      is_over = simulation.steps() >= last_step || is_late();
+      is_over = simulation.steps() >= last_step || is_dear || is_late();
       if (is_over && simulation.time() > from)
         report.steps = static_cast<std::size_t>(
             std::min(max_steps_of_frame,
@@ -221,13 +240,14 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
           foresee_frame(now, coarse_now, frame, worst_of(before, simulation.step_limits()), report,
                         rarity_of(coarse_now, state, particle_count));
       result.mean_J_P = mean_of(state.J_P);
-      frame_forecast.spread = spread_of(simulation);
+      frame_forecast.spread = spread_of(simulation, coarse->solver);
       run.reached = frame;
     }
     frame_forecast.frame = frame;
     result.frames.push_back(frame_forecast);
-    explicit_steps_so_far += frame_forecast.steps * explicit_steps(frame_forecast.iterations);
-    is_over = is_over || explicit_steps_so_far > budget.work;
+    packed_steps += frame_forecast.steps * explicit_steps(frame_forecast.iterations) *
+                    cost_of_step(frame_forecast.spread);
+    is_over = is_over || packed_steps > budget.work;
   }
   result.withheld = withheld_by(*coarse, simulation);
   const std::string copy = "a copy with cells of " + fixed_text(coarse->solver.cell_size, 3) + " m";
@@ -355,6 +375,10 @@ Cost Forecast::steps_of_start() const {
 Cost Forecast::work(int after, int last) const {
   return weighed(*this, after, last,
                  [](const FrameForecast& frame) { return explicit_steps(frame.iterations); });
+}
+
+void Forecast::count_in_packed_steps() {
+  for (FrameForecast& frame : frames) frame.cost = frame.max_cost = cost_of_step(frame.spread);
 }
 
 void Forecast::include_spread(const Spread& start) {

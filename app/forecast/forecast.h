@@ -67,22 +67,26 @@ struct Forecast {
   Cost steps() const;  ///< of its frames
   /// Steps of its frames as those of the start: multiplied by the time of one they are seconds.
   Cost steps_of_start() const;
-  /// The work of the frames after one, to the last, in explicit steps of the start.
+  /// The work of the frames after one, to the last, in explicit steps of the start, or of packed
+  /// snow where steps are counted in those.
   Cost work(int after, int last) const;
   /// Fills in the cost of a step in each frame. @param start  of the scene itself at its start
   void include_spread(const Spread& start);
+  /// Steps cost what those of the copy cost, over a step of packed snow: kinds of steps compare.
+  void count_in_packed_steps();
 };
 
 /// Bounds the cost of the coarse copies of a forecast. Particle-steps are the same on every
 /// machine.
 struct ForecastBudget {
-  double seconds;           ///< of each copy
-  double particle_steps;    ///< of the first copy
-  double particles = 1500;  ///< of the first copy, about
+  double seconds = 0;         ///< of each copy
+  double particle_steps = 0;  ///< of the first copy
+  double particles = 1500;    ///< of the first copy, about
   /// Bounds a second copy, which is as fine as they allow: a few cells do not pack and harden as
   /// many do. 0: there is none.
   double fine_particle_steps = 0;
-  double work = 1e300;  ///< of the run: a copy that foretells more need not tell how much more
+  double work = 1e300;  ///< of the run, in explicit steps of packed snow: a copy that foretells
+                        ///< more need not tell how much more
 };
 
 /// @param particles of the scene

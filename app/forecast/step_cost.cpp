@@ -31,15 +31,17 @@ bool is_alone(const Block& block, const std::set<Block>& blocks) {
 
 }  // namespace
 
-Spread spread_of(const sim::Simulation& simulation) {
+Spread spread_of(const sim::Simulation& simulation, const sim::SolverSettings& solver) {
   std::set<Block> blocks;
   const std::vector<sim::Vec3i> cells = simulation.cells();
   for (const sim::Vec3i& cell : cells) blocks.insert({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2});
   if (cells.empty()) return {};
   const auto alone = std::count_if(blocks.begin(), blocks.end(),
                                    [&](const Block& block) { return is_alone(block, blocks); });
+  // In semi-implicit steps all snow is on the grid.
+  const bool is_alone_off_grid = !solver.is_implicit();
   return {static_cast<double>(blocks.size()) / static_cast<double>(cells.size()),
-          static_cast<double>(alone) / static_cast<double>(blocks.size())};
+          is_alone_off_grid ? static_cast<double>(alone) / static_cast<double>(blocks.size()) : 0};
 }
 
 double cost_of_step(const Spread& spread) {

@@ -10,10 +10,10 @@ namespace neve::app::forecast {
 /// Spread of the snow over the grid.
 struct Spread {
   double blocks = 0;  ///< per particle; 0: not known
-  double alone = 0;   ///< share of the blocks that have no neighbour
+  double alone = 0;   ///< share of the blocks that have no neighbour, and take no room on the grid
 };
 
-Spread spread_of(const sim::Simulation& simulation);
+Spread spread_of(const sim::Simulation& simulation, const sim::SolverSettings& solver);
 
 /// Cost of a step over that of packed snow.
 double cost_of_step(const Spread& spread);

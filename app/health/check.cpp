@@ -161,7 +161,7 @@ Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, d
     if (particles.x.empty()) choice = first_emission(scene, check.start);
     check.dt_start = choice.dt;
     check.limit_start = choice.limit;
-    spread = forecast::spread_of(simulation);
+    spread = forecast::spread_of(simulation, scene.solver);
     const forecast::StepTime step = forecast::measure_steps(simulation, 1 / scene.fps);
     check.seconds_per_step = step.seconds;
     check.solve = step.solve;

@@ -173,5 +173,36 @@ TEST(Slowness, AStepOfManyPartsTakesTheTimeOfOnePartEach) {
   EXPECT_LT(time.seconds * static_cast<double>(simulation.steps()), 3 * all);
 }
 
+/// Spray takes explicit steps off the grid. A solve has all snow on it, with a block for each
+/// particle here, so its steps cost many times as much, and a forecast that does not know so takes
+/// semi-implicit steps for the faster ones, as it did at impacts of 200 m/s.
+TEST(Slowness, SprayIsDearInSemiImplicitStepsAlone) {
+  const auto cost = [](const std::string& solver) {
+    const scene::Scene scene = scene::read_scene_text(slow_ball + solver, "");
+    sim::ParticleArrays spray = setup::seed_scene(scene).particles;
+    for (sim::Vec3d& x : spray.x) x *= 1000;
+    const sim::Simulation simulation = setup::make_simulation(scene, spray, 1);
+    const forecast::Spread spread = forecast::spread_of(simulation, scene.solver);
+    EXPECT_NEAR(spread.blocks, 1, 0.01);
+    return forecast::cost_of_step(spread);
+  };
+  // cost_alone and cost_on_grid of step_cost.cpp, beside the particle itself.
+  EXPECT_NEAR(cost(""), 4, 0.1);
+  EXPECT_NEAR(cost("[solver]\nbeta = 0.5\n"), 61, 1);
+}
+
+/// A copy is ended within the frame in which it becomes dearer than it may be.
+TEST(Slowness, ACopyThatIsTooDearEndsWithinItsFrame) {
+  const scene::Scene scene =
+      scene::read_scene_text(std::string(slow_ball) + "[solver]\nbeta = 1\nmax_dt = 1e-5\n", "");
+  forecast::ForecastBudget budget{60, 1e12, 500};
+  budget.work = 200;
+  const auto start = Clock::now();
+  const forecast::Forecast forecast = forecast::foresee(scene, 500, 1, budget);
+  EXPECT_GT(forecast.work(0, 1).expected, budget.work) << "and it says so";
+  EXPECT_GT(forecast.steps().expected, 1000);
+  EXPECT_LT(seconds_since(start), 10);
+}
+
 }  // namespace
 }  // namespace neve::app

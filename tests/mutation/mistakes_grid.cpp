@@ -51,10 +51,7 @@ std::vector<Mistake> gradient_mistakes() {
   return {
       {"grad_v_transposed",
        "∇v transposed: ∇w ⊗ v",
-       {gathered_gradient("is_mls ? inv_h * arm_scale : inv_h", "out.grad_v + 3 * c, 1")},
-       {},
-       {},
-       true},
+       {gathered_gradient("is_mls ? inv_h * arm_scale : inv_h", "out.grad_v + 3 * c, 1")}},
       {"strain_on_the_wrong_side",
        "F (I + dt ∇v) instead of (I + dt ∇v) F",
        {{stages,
@@ -201,8 +198,7 @@ std::vector<Mistake> affine_mistakes() {
          "           {{factor * C[3], factor * C[4], factor * C[5], V{}}},\n"
          "           {{factor * C[6], factor * C[7], factor * C[8], V{}}}}};"}},
        {"--asflip"},
-       about,
-       true},
+       about},
       {"moves_before_the_step",
        "ASFLIP: moves by the velocity before the step",
        {{stages, "v[a] = fused(beta, own[a], g.v[a]);",

@@ -167,7 +167,7 @@ Timing time_run(const PlannedRun& item) {
   if (seeded.particles.x.empty()) return {};
   sim::Simulation simulation =
       setup::make_simulation(setup::with_curves(item.scene, 0), seeded.particles, 1);
-  Timing timing{0, forecast::spread_of(simulation)};
+  Timing timing{0, forecast::spread_of(simulation, item.scene.solver)};
   const forecast::StepTime step =
       forecast::measure_steps(simulation, 1 / item.scene.fps, {20, 0.5});
   const double iterations =
