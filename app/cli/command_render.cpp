@@ -358,17 +358,19 @@ std::string films_text(const run::RenderJob& job, const run::RenderRun& run,
 int finish(const run::RenderOptions& options, const run::RenderJob& job, const run::RenderRun& run,
            const run::RenderResult& result, Progress& progress) {
   progress.clear();
-  if (result.status == record::RunStatus::diverged) {
+  const bool is_diverged = result.status == record::RunStatus::diverged;
+  const bool is_interrupted = result.status == record::RunStatus::interrupted;
+  const int code = is_diverged             ? exit_diverged
+                   : !is_interrupted       ? exit_ok
+                   : result.has_checkpoint ? exit_resumable
+                                           : exit_interrupted;
+  if (options.is_json) print_result(job, run, result, code);
+  if (is_diverged) {
     Error error(exit_diverged, health::sentence(*run.record().divergence, *result.diagnosis),
                 job.scene_file, "incident.json and diverged_*.png are in " + job.folder.string());
     error.warnings = run.record().warnings;
     throw error;
   }
-  const bool is_interrupted = result.status == record::RunStatus::interrupted;
-  const int code = !is_interrupted         ? exit_ok
-                   : result.has_checkpoint ? exit_resumable
-                                           : exit_interrupted;
-  if (options.is_json) print_result(job, run, result, code);
   if (is_interrupted) {
     progress.say(fmt::format("interrupted; {} frames are in {}", run.record().frames.size(),
                              job.folder.string()));

@@ -98,6 +98,12 @@ TEST_F(Cli, ErrorsInJsonHaveCodeAndPlace) {
   const auto diverged = neve({"render", "bang.toml", "--json", "--quiet"});
   EXPECT_EQ(json(diverged.output)["exit_code"], 5) << diverged.output;
   EXPECT_FALSE(json(diverged.output)["warnings"].empty()) << diverged.output;
+  // A script finds what is left of it as it finds a run that holds.
+  EXPECT_EQ(json(diverged.output)["status"], "diverged");
+  EXPECT_FALSE(json(diverged.output)["error"].empty());
+  EXPECT_TRUE(
+      std::filesystem::exists(folder.path() / json(diverged.output)["run_json"].get<std::string>()))
+      << diverged.output;
 }
 
 TEST_F(Cli, ProgressAsJsonIsOneObjectALine) {
