@@ -419,12 +419,18 @@ class LocalJobs {
       std::this_thread::sleep_for(poll_interval);
   }
 
+  /// What ended it leaves its last checkpoint whole: a signal, a limit, a node that went.
+  static bool leaves_a_checkpoint(const store::RunStatus& status) {
+    using enum store::RunState;
+    if (status.state == running || status.state == interrupted) return true;
+    return status.failed_beginning == 0 &&
+           (status.state == timeout || status.state == crashed || status.state == out_of_memory);
+  }
+
   /// A process that makes a run, or continues one. @param status  of the run, written
   Child start_child(const Run& run, const fs::path& folder, int threads,
                     store::RunStatus& status) const {
-    const bool resumes = status.state == store::RunState::running ||
-                         status.state == store::RunState::interrupted ||
-                         (status.state == store::RunState::timeout && status.failed_beginning == 0);
+    const bool resumes = leaves_a_checkpoint(status);
     wait_for_orphan(folder);
     if (!resumes) start_over(folder, status);
     Child child({options_.program, arguments_of(run, folder, threads, resumes), folder},
