@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/faulty_cli.h"
+#include "tests/support/killed.h"
 
 namespace neve::test {
 namespace {
@@ -155,6 +156,19 @@ TEST_F(Faults, TwoSweepsInOneFolderAreOneSweep) {
   ::kill(first, SIGTERM);
   EXPECT_EQ(wait_for(first), 75);
   EXPECT_EQ(json_of("s/manifest.json")["runs"].size(), 2u);
+}
+
+/// No process takes these runs into its care: what was killed while it planned them is removed by
+/// the next one that plans.
+TEST_F(Faults, ASweepThatOnlyPlansRemovesWhatAnotherHadNotFinished) {
+  const std::vector<std::string> plan{"sweep", "scene.toml", "-p", "seed=1,2", "--frames",
+                                      "0-1",   "--out",      "s",  "--emit",   "commands"};
+  ASSERT_EQ(neve(plan).exit_code, 0);
+  std::filesystem::remove(folder / "s/runs/0000/scene.toml");
+  std::filesystem::remove(folder / "s/runs/0001/status.json");
+  leave_unfinished({folder / "s/runs/0000", folder / "s/runs/0001"});
+  ASSERT_EQ(neve(plan).exit_code, 0);
+  expect_nothing_unfinished(folder.path(), "a second plan");
 }
 
 TEST_F(Faults, ARunThatCrashedIsRepeatedFromItsCheckpoint) {

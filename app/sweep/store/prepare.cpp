@@ -9,6 +9,7 @@
 #include "app/options/arguments.h"
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
+#include "app/output/temporary.h"
 #include "app/record/picture_record.h"
 #include "app/record/run_json.h"
 #include "app/run/identity.h"
@@ -112,9 +113,11 @@ struct RunFiles {
 /// is drawn again keeps the time that its simulation took.
 void write_run(const fs::path& folder, const RunFiles& files) {
   output::make_own_folder(folder);
-  if (!has_text(folder / "scene.toml", files.text))
-    output::write_file(folder / "scene.toml", files.text);
+  const bool has_scene = has_text(folder / "scene.toml", files.text);
   const RunStatus before = read_status(folder);
+  if (has_scene && before.key == files.key) return;
+  output::remove_abandoned(folder);
+  if (!has_scene) output::write_file(folder / "scene.toml", files.text);
   if (before.key == files.key) return;
   RunStatus status;
   status.key = files.key;
