@@ -204,6 +204,24 @@ void check_passes(const run::RenderJob& job, std::vector<health::Finding>& findi
                           "add --view snow or --view particles"});
 }
 
+/// Movies that get a line of black because their pictures have an odd side.
+void check_movie_sides(const run::RenderJob& job, std::vector<health::Finding>& findings) {
+  if (!job.has_movies() || !output::has_even_sides(job.options.movie.format)) return;
+  const auto check = [&](const std::string& view, const scene::PictureSize& size) {
+    if (size.width % 2 == 0 && size.height % 2 == 0) return;
+    const auto even = [](int side) { return side + side % 2; };
+    const std::string sides = fmt::format("{}x{}", even(size.width), even(size.height));
+    findings.push_back(
+        {health::Severity::note, "--movie",
+         fmt::format("{} has even sides: the movie of {} gets a line of black and is {}",
+                     output::name(job.options.movie.format), view, sides),
+         "choose an even size, as " + sides + ", or --movie gif"});
+  };
+  for (const scene::View& view : job.scene.views) check(view.name, setup::size_of(job.scene, view));
+  for (const scene::Mosaic& mosaic : job.scene.mosaics)
+    check(mosaic.name, setup::size_of(job.scene, mosaic));
+}
+
 /// Units that are not those of neve, snow that starts inside colliders or flies past everything:
 /// nothing else tells before the run.
 void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Progress& progress) {
@@ -221,6 +239,7 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
                         fmt::format("a share of the frame is 360 times as many degrees: {}",
                                     rough_text(360 * job.shutter))});
   if (!job.passes.empty()) check_passes(job, findings);
+  check_movie_sides(job, findings);
   // Of the command, not of the run: a sweep says it once for all of its runs.
   std::vector<health::Finding> idle;
   health::check_idle(job.scene, scene::addresses_of(scene::parse_overrides(job.options.overrides)),

@@ -92,7 +92,7 @@ double movie_fps(const MovieRequest& request) {
   return request.style.fps > 0 ? request.style.fps : request.fps;
 }
 
-/// yuv420p needs even sides; players take high definition for BT.709 and ignore the file.
+/// Players take high definition for BT.709 and ignore the file.
 std::vector<std::string> movie_arguments(const MovieRequest& request,
                                          const std::filesystem::path& target,
                                          const std::filesystem::path& palette) {
@@ -106,7 +106,7 @@ std::vector<std::string> movie_arguments(const MovieRequest& request,
     arguments.insert(arguments.end(),
                      {"-lavfi", "[0:v]" + over_plain(request) +
                                     "format=rgb24[x];[x][1:v]paletteuse=dither=sierra2_4a"});
-  else if (format != MovieFormat::webp)
+  else if (has_even_sides(format))
     arguments.insert(
         arguments.end(),
         {"-vf",

@@ -45,6 +45,11 @@ constexpr bool holds_time_code(MovieFormat format) {
   return format != MovieFormat::gif && format != MovieFormat::webp;
 }
 
+/// Whether pictures of odd sides get a line of black: yuv420p needs even ones.
+constexpr bool has_even_sides(MovieFormat format) {
+  return format != MovieFormat::gif && format != MovieFormat::webp;
+}
+
 /// How a movie is to be made.
 struct MovieStyle {
   MovieFormat format = MovieFormat::h264;

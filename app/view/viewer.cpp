@@ -48,12 +48,15 @@ void Viewer::run() {
     front_.hold_input(input_.waiting() >= max_waiting_input);
     take_events(front_.wait(is_busy ? (options_.has_own_clock ? 0 : 1.0 / 60) : idle_wait));
     if (is_closed_) break;
-    if (!front_.is_ready()) continue;
+    // A recording has every frame, seen or not: the simulation waits until each is drawn.
+    const bool is_seen = front_.is_ready();
+    if (!is_seen && !state_.is_recording) continue;
     const std::uint64_t before = state_.live ? state_.live->number : 0;
     take_live_frame();
     show_news();
-    const bool is_more = input_.feed();
     const bool is_new = state_.live->number != before;
+    if (!is_seen && !is_new) continue;
+    const bool is_more = input_.feed();
     if (!is_busy && !is_new && !has_input_ && !front_.is_picture_wanted()) continue;
     if (has_input_ || is_more) settle_ = 3;
     has_input_ = false;
@@ -188,7 +191,10 @@ void Viewer::draw() {
                       live.is_running);
   front_.set_typing(ImGui::GetIO().WantTextInput);
   front_.set_scrolling(panels::scroll_places());
-  front_.show(screen_);
+  if (front_.is_ready())
+    front_.show(screen_);
+  else
+    settle_ = 3;  // as soon as it is seen again
   state_.picture_ms = 1e3 * seconds_since(start);
   state_.frames_per_second = 0.9 * state_.frames_per_second + 0.1 / std::max(passed, 1e-3);
 }

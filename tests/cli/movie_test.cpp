@@ -34,6 +34,19 @@ TEST_F(MovieFlags, AFinishedRunGetsAnotherMovieWithoutARun) {
     EXPECT_FALSE(exists(movie)) << movie;
 }
 
+/// What is seen on a movie and not in its pictures is said before it is made.
+TEST_F(MovieFlags, ALineOfBlackBesideOddPicturesIsTold) {
+  const auto odd = neve(
+      {"render", "scene.toml", "--frames", "1", "--set", "output.size=[161, 90]", "--out", "a"});
+  ASSERT_EQ(odd.exit_code, 0) << odd.errors;
+  EXPECT_TRUE(contains(odd.errors,
+                       "--movie: h264 has even sides: the movie of particles gets a line of black "
+                       "and is 162x90; choose an even size, as 162x90, or --movie gif"))
+      << odd.errors;
+  const auto gif = neve({"render", "a", "--movie", "gif"});
+  EXPECT_FALSE(contains(gif.errors, "even sides")) << gif.errors;
+}
+
 TEST_F(MovieFlags, ALongerFilmIsLongerInAllOfItsFormats) {
   ASSERT_EQ(
       neve({"render", "scene.toml", "--out", "a", "--movie", "gif", "--movie-fps", "12"}).exit_code,

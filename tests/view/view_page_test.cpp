@@ -194,6 +194,36 @@ TEST_F(ViewPage, PageIsWorkedWithMouseAndKeys) {
   EXPECT_EQ(browser->exceptions, "");
 }
 
+/// Whoever records a long run looks at other pages meanwhile.
+TEST_F(ViewPage, ARecordingGoesOnWhileThePageIsHidden) {
+  open_page();
+  constexpr double save_x = 395, save_y = 18, record_x = 460, record_y = 52;
+  click_and_see(save_x, save_y, {398, 20, 700, 120}, 1000);
+  click_and_see(record_x, record_y, {398, 20, 700, 120}, 1000);
+  const auto recorded = [&] {
+    std::size_t count = 0;
+    std::error_code none;
+    for (const auto& file : std::filesystem::directory_iterator(folder / "saved/particles", none))
+      count += file.path().extension() == ".png";
+    return count;
+  };
+  const auto say_hidden = [&](const char* value) {
+    browser->evaluate(std::string("Object.defineProperty(document, 'hidden', {value: ") + value +
+                      ", configurable: true}); document.dispatchEvent(new Event("
+                      "'visibilitychange'))");
+  };
+  browser->click(run_x, run_y);
+  ASSERT_TRUE(wait_until([&] { return recorded() >= 2; }));
+  say_hidden("true");
+  // Some are on their way when it hides; without the page no more than these came.
+  const std::size_t before = recorded();
+  EXPECT_TRUE(wait_until([&] { return recorded() >= before + 20; }, 60))
+      << recorded() << " after " << before;
+  const render::Image old = browser->screenshot();
+  say_hidden("false");
+  EXPECT_TRUE(changes(old, status, 5)) << "the page does not show what was made meanwhile";
+}
+
 TEST_F(ViewPage, ObjectsAreAddedOnThePage) {
   open_page();
   const Region column{0, 64, 318, 790};
