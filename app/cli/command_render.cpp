@@ -317,10 +317,6 @@ void note_start(const run::RenderJob& job, const setup::Plan& plan, std::size_t 
                             scene::coarsened_words(job.scene, job.coarsening)));
 }
 
-std::string count_text(std::size_t count, const char* one) {
-  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
-}
-
 /// "21 frames in out/snowball", or what was added to those that it had.
 std::string frames_text(const run::RenderJob& job, const run::RenderRun& run,
                         const run::RenderResult& result) {
@@ -391,8 +387,9 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
     throw error;
   }
   if (is_interrupted) {
-    progress.say(fmt::format("interrupted; {} frames are in {}", run.record().frames.size(),
-                             job.folder.string()));
+    const std::size_t made = run.record().frames.size();
+    progress.say(fmt::format("interrupted; {} {} in {}", count_text(made, "frame"),
+                             made == 1 ? "is" : "are", job.folder.string()));
     if (result.has_checkpoint) progress.say("--resume continues from here");
     return code;
   }

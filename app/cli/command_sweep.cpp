@@ -109,9 +109,8 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
                           {"commands_file", options.emit},
                           {"commands", count}})
               << "\n";
-  progress.note(fmt::format("{} {} in {}; then: neve sweep collect {}", count,
-                            count == 1 ? "command" : "commands", options.emit,
-                            shell_path(folder.string())));
+  progress.note(fmt::format("{} in {}; then: neve sweep collect {}", count_text(count, "command"),
+                            options.emit, shell_path(folder.string())));
 }
 
 sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
@@ -163,7 +162,7 @@ void print_sweep_result(const sweep::plan::SweepOptions& options,
     json["foreseen_seconds"] = foreseen_seconds;
     std::cout << to_text(json) << "\n";
   }
-  progress.note(fmt::format("{} {} ok{}, in {}", result.ok, result.ok == 1 ? "run" : "runs",
+  progress.note(fmt::format("{} ok{}, in {}", count_text(result.ok, "run"),
                             result.failed > 0 ? fmt::format(", {} failed", result.failed) : "",
                             folder.string()));
 }
@@ -501,10 +500,9 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
         "not finished: {}{}; the same command completes the sweep later", result.elsewhere_text,
         result.elsewhere > 1 ? fmt::format(" and {} more", result.elsewhere - 1) : ""));
   else if (result.out_of_time > 0 && !is_interrupted())
-    progress.say(fmt::format(
-        "the budget of {} was too short for {} {}; the same command continues from here",
-        duration_text(options.budget), result.out_of_time,
-        result.out_of_time == 1 ? "run" : "runs"));
+    progress.say(
+        fmt::format("the budget of {} was too short for {}; the same command continues from here",
+                    duration_text(options.budget), count_text(result.out_of_time, "run")));
   else if (result.is_interrupted || is_interrupted())
     progress.say("interrupted; the same command continues from here");
   return is_interrupted() ? exit_resumable : exit_code_of(result);

@@ -112,8 +112,7 @@ std::string files_text(const std::vector<std::string>& views, const EarlierRun& 
   std::vector<std::string> parts;
   for (const std::string& view : views) {
     const int count = earlier.frames_of(view).count();
-    if (count > 0)
-      parts.push_back(fmt::format("{} {} of {}", count, count == 1 ? "picture" : "pictures", view));
+    if (count > 0) parts.push_back(fmt::format("{} of {}", count_text(count, "picture"), view));
     const auto passes = std::ranges::count_if(earlier.pictures.files, [&](const auto& file) {
       return file.first.starts_with(view + "/") && file.first.ends_with(".exr");
     });

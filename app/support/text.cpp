@@ -36,6 +36,10 @@ std::string about_count_text(double value) {
   return fixed_text(unit * std::round(value / unit), 0);
 }
 
+std::string count_text(std::size_t count, const char* one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
 std::string bytes_text(std::uint64_t bytes) {
   static const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
   auto value = static_cast<double>(bytes);

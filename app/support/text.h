@@ -23,6 +23,8 @@ std::string fixed_text(double value, int digits);
 std::string rough_text(double value);
 /// Three digits, written out: a count.
 std::string about_count_text(double value);
+/// "1 frame", "7 frames"
+std::string count_text(std::size_t count, const char* one);
 /// "1.2 GiB"
 std::string bytes_text(std::uint64_t bytes);
 /// "8GiB" or "1.5 MB" in bytes.

@@ -61,7 +61,7 @@ TEST_F(SlurmSites, RunsThatAreRefusedAreSubmittedLaterAndNoneTwice) {
   const auto done = sweep();
   EXPECT_EQ(done.exit_code, app::exit_runs_failed) << done.errors;
   EXPECT_TRUE(contains(done.errors, "QOSMaxSubmitJobPerUserLimit")) << done.errors;
-  EXPECT_TRUE(contains(done.errors, "queued are 3 runs as job 4711; 4 more follow")) << done.errors;
+  EXPECT_TRUE(contains(done.errors, "queued: 3 runs as job 4711; 4 more follow")) << done.errors;
   std::istringstream calls(read_text(folder / "calls"));
   std::vector<std::string> offsets;
   for (std::string line; std::getline(calls, line);)

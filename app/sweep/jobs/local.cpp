@@ -244,8 +244,7 @@ class LocalJobs {
     ++result_.failed_beginnings;
     progress_.warning(fmt::format(
         "{}; {}correct the scene, or fork earlier; --retry-failed tries it again", why,
-        failed > 0 ? fmt::format("{} that {} from it {} with it; ",
-                                 failed == 1 ? "1 run" : fmt::format("{} runs", failed),
+        failed > 0 ? fmt::format("{} that {} from it {} with it; ", count_text(failed, "run"),
                                  failed == 1 ? "forks" : "fork", failed == 1 ? "fails" : "fail")
                    : ""));
   }

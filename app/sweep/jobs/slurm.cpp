@@ -322,12 +322,13 @@ std::size_t queue_rest(Queue& queue, const std::vector<int>& missing, Progress& 
     const std::vector<int> left = queue.without_job(rest);
     if (queue.jobs().size() > before || before == 0 || left.empty())
       progress.warning(fmt::format(
-          "{}; queued are {} runs as job {}{}", error.what(), rest.size() - left.size(), names(),
+          "{}; queued: {} as job {}{}", error.what(), count_text(rest.size() - left.size(), "run"),
+          names(),
           left.empty() ? "; neve sweep collect makes the sheet if nobody waits here"
                        : fmt::format("; {} more follow when a job has ended", left.size())));
     return rest.size() - left.size();
   }
-  progress.note(fmt::format("submitted {} runs as job {}", rest.size(), names()));
+  progress.note(fmt::format("submitted {} as job {}", count_text(rest.size(), "run"), names()));
   return rest.size();
 }
 

@@ -203,8 +203,8 @@ void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int r
             ? fmt::format(" for each of the {} seeds", plan.beginnings.size())
             : "",
         duration_text(forecast.beginning.expected * forecast.seconds_per_work));
-  std::cout << fmt::format("\n{} {} of {}{}, {}, view {} in tiles of {}x{}\n", plan.runs.size(),
-                           plan.runs.size() == 1 ? "run" : "runs", plan.sweep.scene_file,
+  std::cout << fmt::format("\n{} of {}{}, {}, view {} in tiles of {}x{}\n",
+                           count_text(plan.runs.size(), "run"), plan.sweep.scene_file,
                            seeds_text(plan.sweep), frames_text(plan), plan.view,
                            plan.base.size.width, plan.base.size.height)
             << fmt::format(

@@ -334,10 +334,9 @@ std::string budget_text(const std::vector<std::size_t>& chosen, const StudyForec
 
 std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                           const StudyForecast& forecast, int cores, double budget) {
-  std::string text = fmt::format("forecast: {} {}{}, about {} on {} {}", chosen.size(),
-                                 chosen.size() == 1 ? "run" : "runs", seeds_text(plan.sweep),
-                                 duration_text(forecast.seconds_of_all(chosen, cores).expected),
-                                 cores, cores == 1 ? "core" : "cores");
+  std::string text = fmt::format(
+      "forecast: {}{}, about {} on {}", count_text(chosen.size(), "run"), seeds_text(plan.sweep),
+      duration_text(forecast.seconds_of_all(chosen, cores).expected), count_text(cores, "core"));
   if (forecast.own.size() < chosen.size())
     text += fmt::format(", from coarse copies of {} of them", forecast.own.size());
   text += budget_text(chosen, forecast, cores, budget);

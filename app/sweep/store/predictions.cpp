@@ -174,9 +174,9 @@ std::string prediction_line(const std::vector<predict::Prediction>& predictions)
       counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", predict::name(verdict), count);
     }
     if (points == 0) continue;
-    text += fmt::format("{}{} {} {}: {}", text.empty() ? "at full resolution, " : "; ",
-                        is_run ? "by runs of" : "by coarse copies of", points,
-                        points == 1 ? "point" : "points", counts);
+    text += fmt::format("{}{} {}: {}", text.empty() ? "at full resolution, " : "; ",
+                        is_run ? "by runs of" : "by coarse copies of", count_text(points, "point"),
+                        counts);
   }
   return text;
 }
