@@ -99,7 +99,8 @@ std::string shortened(std::string command) {
   const bool is_collected = command.starts_with("sweep collect");
   if (name == "sweep" && !is_tiny && !is_collected) add("--dry-run");
   if (name == "view") add("--replay", "wait.json");
-  const bool is_run = name == "view" || name == "dump" || name == "check" || name == "sweep";
+  const bool is_run =
+      name == "view" || name == "dump" || name == "check" || name == "sweep" || name == "strip";
   const bool has_cells = std::regex_search(command, std::regex("^[a-z]+ out/[a-z]+( |$)"));
   const bool has_own_cells = command.find("--live") != std::string::npos;
   if (is_run && !is_tiny && !is_collected && !has_cells && !has_own_cells) add("--coarsen", "3");
