@@ -89,6 +89,7 @@ std::string shortened(std::string command) {
   const std::string own = "--out drawn_" + std::to_string(std::hash<std::string>()(command));
   command = std::regex_replace(command, std::regex("--out [^ ]+"),
                                name == "dump"     ? "--out dumped"
+                               : name == "card"   ? "--out elsewhere.png"
                                : name == "render" ? own
                                                   : "--out elsewhere");
   const auto add = [&](const std::string& flag, const std::string& value = "") {
