@@ -360,7 +360,7 @@ std::string films_text(const run::RenderJob& job, const run::RenderRun& run,
   if (!result.is_addition || result.movies.empty()) return {};
   std::vector<std::string> names;
   bool are_longer = false;
-  for (const fs::path& movie : result.movies) {
+  for (const std::filesystem::path& movie : result.movies) {
     names.push_back(movie.string());
     are_longer |=
         record::frames_of(run.record(), movie.stem().string()).count() > job.frames.count();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/shapes/collider.h"
+#include "sim/shapes/mesh_surface.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::app::health {

@@ -11,6 +11,7 @@
 #include "app/record/picture_files.h"
 #include "app/run/resume.h"
 #include "app/scene/read.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 

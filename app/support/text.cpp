@@ -1,5 +1,7 @@
 #include "app/support/text.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,7 @@
 #include "app/sweep/sheet/review.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
