@@ -206,7 +206,7 @@ void check_passes(const run::RenderJob& job, std::vector<health::Finding>& findi
 
 /// Movies that get a line of black because their pictures have an odd side.
 void check_movie_sides(const run::RenderJob& job, std::vector<health::Finding>& findings) {
-  if (!job.has_movies() || !output::has_even_sides(job.options.movie.format)) return;
+  if (!job.has_movies() || !output::is_video(job.options.movie.format)) return;
   const auto check = [&](const std::string& view, const scene::PictureSize& size) {
     if (size.width % 2 == 0 && size.height % 2 == 0) return;
     const auto even = [](int side) { return side + side % 2; };
@@ -288,8 +288,8 @@ std::string text_of_laws(const sim::checks::Watch& laws) {
               std::to_string(record.first_step) + ", worst " + rough_text(record.worst) +
               (record.is_below ? " (at least " : " (at most ") + rough_text(record.threshold) + ")";
   }
-  return fmt::format("validation: {} checks at {} step{}, {}", laws.records().size(), laws.looks(),
-                     laws.looks() == 1 ? "" : "s", broken.empty() ? "all held" : broken);
+  return fmt::format("validation: {} checks at {}, {}", laws.records().size(),
+                     count_text(laws.looks(), "step"), broken.empty() ? "all held" : broken);
 }
 
 /// Errors become the one that the run ends with.
@@ -425,7 +425,7 @@ int run_render(const run::RenderOptions& options) {
   if (job.has_movies()) {
     output::MovieStyle& movie = job.options.movie;
     movie = output::available_movie(options.movie, job.scene.fps);
-    if (output::holds_time_code(movie.format)) scene::require_time_code(job.scene, movie.fps);
+    if (output::is_video(movie.format)) scene::require_time_code(job.scene, movie.fps);
   }
   catch_interrupts();
   std::optional<NothingToKeep> reading(std::in_place);

@@ -36,8 +36,8 @@ std::string many_threads(const options::Command& command) {
   const int threads = number_of<int>(option->given.front()).value_or(0), cores = core_count(0);
   if (threads <= worth_a_word * cores) return {};
   return fmt::format(
-      "--threads {}: this machine has {} {}; more threads take memory and time and gain nothing",
-      threads, cores, cores == 1 ? "core" : "cores");
+      "--threads {}: this machine has {}; more threads take memory and time and gain nothing",
+      threads, count_text(cores, "core"));
 }
 
 /// Sentences on variables that look like those of neve and are read by nothing.

@@ -153,11 +153,27 @@ std::vector<Withheld> withheld_by(const scene::Scene& coarse, const sim::Simulat
   return list;
 }
 
-/// Of the steps of a copy, in explicit ones.
-double work_of(const sim::AdvanceReport& report) {
+/// Counts the steps that a copy took in explicit ones of packed snow.
+double packed_work(const sim::AdvanceReport& report, const Spread& spread) {
   const auto steps = static_cast<double>(report.steps);
-  if (!report.solve || report.steps == 0) return steps;
-  return steps * explicit_steps(static_cast<double>(report.solve->all_iterations) / steps);
+  const double iterations =
+      report.solve ? static_cast<double>(report.solve->all_iterations) / std::max(1.0, steps) : 0;
+  return steps * explicit_steps(iterations) * cost_of_step(spread);
+}
+
+/// Advances a copy to a time, or as far as it may. The solves of one frame may take longer than all
+/// that the work allows, so its cost is looked at on the way.
+template <class IsLate, class IsDear>
+sim::AdvanceReport advance_while_cheap(sim::Simulation& copy, double time, std::size_t last_step,
+                                       const IsLate& is_late, const IsDear& is_dear) {
+  constexpr std::size_t steps_at_once = 32;
+  sim::AdvanceReport report;
+  do {
+    const std::size_t until = std::min(last_step, copy.steps() + steps_at_once);
+    report.append(copy.advance_to(time, is_late, until));
+  } while (copy.time() < time && copy.steps() < last_step && !copy.divergence() && !is_late() &&
+           !is_dear(report));
+  return report;
 }
 
 double mean_of(const std::vector<double>& values) {
@@ -211,26 +227,19 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
       const auto last_step =
           simulation.steps() + static_cast<std::size_t>(2 * budget.particle_steps / work_of_step);
       const double from = simulation.time(), to = frame / scene.fps;
-      // The solves of one frame may take longer than all that the work allows.
-      const bool is_watched = budget.work < ForecastBudget{}.work;
-      const std::size_t steps_at_once = is_watched ? 32 : last_step;
-      sim::AdvanceReport report;
-      bool is_dear = false;
-      do {
-        const std::size_t until = std::min(last_step, simulation.steps() + steps_at_once);
-        report.append(simulation.advance_to(to, is_late, until));
-        is_dear = is_watched && packed_steps + work_of(report) * cost_of_step(spread_of(
-                                                                     simulation, coarse->solver)) >
-                                    budget.work;
-      } while (simulation.time() < to && simulation.steps() < last_step && !is_dear &&
-               !simulation.divergence() && !is_late());
+      const auto is_dear = [&](const sim::AdvanceReport& so_far) {
+        return budget.work < ForecastBudget{}.work &&
+               packed_steps + packed_work(so_far, spread_of(simulation, coarse->solver)) >
+                   budget.work;
+      };
+      sim::AdvanceReport report = advance_while_cheap(simulation, to, last_step, is_late, is_dear);
       seconds += seconds_since(before_frame);
       result.peak_force = std::max(result.peak_force, report.max_force());
       run.work += static_cast<double>(report.steps) * work_of_step;
       run.particle_steps +=
           static_cast<double>(report.steps) * static_cast<double>(simulation.particle_count());
       if (simulation.divergence()) break;  // a broken state foretells nothing
-      is_over = simulation.steps() >= last_step || is_dear || is_late();
+      is_over = simulation.steps() >= last_step || is_dear(report) || is_late();
       if (is_over && simulation.time() > from)
         report.steps = static_cast<std::size_t>(
             std::min(max_steps_of_frame,

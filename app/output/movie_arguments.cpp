@@ -106,7 +106,7 @@ std::vector<std::string> movie_arguments(const MovieRequest& request,
     arguments.insert(arguments.end(),
                      {"-lavfi", "[0:v]" + over_plain(request) +
                                     "format=rgb24[x];[x][1:v]paletteuse=dither=sierra2_4a"});
-  else if (has_even_sides(format))
+  else if (is_video(format))
     arguments.insert(
         arguments.end(),
         {"-vf",
@@ -115,7 +115,7 @@ std::vector<std::string> movie_arguments(const MovieRequest& request,
              "scale=out_color_matrix=bt709:out_range=tv,"
              // Encoders take them from the pictures; -color_trc alone leaves a QuickTime without.
              "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"});
-  if (holds_time_code(format) && !request.time_code.empty())
+  if (is_video(format) && !request.time_code.empty())
     arguments.insert(arguments.end(), {"-timecode", request.time_code});
   arguments.insert(arguments.end(), {"-c:v", info_of(format).encoder});
   append_words(arguments, encoder_words(request));

@@ -40,13 +40,9 @@ inline std::optional<MovieFormat> movie_format_named(const std::string& word) {
   return std::nullopt;
 }
 
-/// Whether files of this format say the time code of their first picture.
-constexpr bool holds_time_code(MovieFormat format) {
-  return format != MovieFormat::gif && format != MovieFormat::webp;
-}
-
-/// Whether pictures of odd sides get a line of black: yuv420p needs even ones.
-constexpr bool has_even_sides(MovieFormat format) {
+/// True unless it is an animated picture. Files of a video say the time code of their first
+/// picture, and have even sides: pictures of odd ones get a line of black.
+constexpr bool is_video(MovieFormat format) {
   return format != MovieFormat::gif && format != MovieFormat::webp;
 }
 

@@ -173,12 +173,11 @@ TEST_F(Faults, ASweepThatOnlyPlansRemovesWhatAnotherHadNotFinished) {
 
 TEST_F(Faults, ARunThatCrashedIsRepeatedFromItsCheckpoint) {
   // Steps so short that it is killed long before its end.
-  const std::vector<std::string> sweep_of_one{
-      "sweep", "scene.toml", "-p", "solver.max_dt=4e-5", "--frames", "0-17", "--out", "s"};
+  std::vector<std::string> words{
+      "sweep", folder / "scene.toml", "-p", "solver.max_dt=4e-5", "--frames", "0-17",
+      "--out", folder / "s"};
   std::vector<std::string> command{NEVE_BINARY};
-  command.insert(command.end(), sweep_of_one.begin(), sweep_of_one.end());
-  command[2] = folder / "scene.toml";
-  command.back() = folder / "s";
+  command.insert(command.end(), words.begin(), words.end());
   const pid_t sweep_process = start_program(command);
   const std::filesystem::path run = folder / "s/runs/0000";
   ASSERT_TRUE(wait_for_file(run / "particles/0011.png"));
@@ -186,9 +185,8 @@ TEST_F(Faults, ARunThatCrashedIsRepeatedFromItsCheckpoint) {
   EXPECT_EQ(wait_for(sweep_process), 7);
   ASSERT_EQ(state("0000"), "crashed");
   const auto written = std::filesystem::last_write_time(run / "particles/0005.png");
-  std::vector<std::string> again = sweep_of_one;
-  again.emplace_back("--retry-failed=crashed");
-  const auto retried = neve(again);
+  words.emplace_back("--retry-failed=crashed");
+  const auto retried = neve(words);
   EXPECT_EQ(retried.exit_code, 0) << retried.errors;
   EXPECT_EQ(json_of("s/runs/0000/status.json")["attempts"], 2);
   EXPECT_EQ(std::filesystem::last_write_time(run / "particles/0005.png"), written)

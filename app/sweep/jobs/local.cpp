@@ -418,7 +418,7 @@ class LocalJobs {
       std::this_thread::sleep_for(poll_interval);
   }
 
-  /// What ended it leaves its last checkpoint whole: a signal, a limit, a node that went.
+  /// A signal, a limit or a machine that goes leaves the last checkpoint whole.
   static bool leaves_a_checkpoint(const store::RunStatus& status) {
     using enum store::RunState;
     if (status.state == running || status.state == interrupted) return true;

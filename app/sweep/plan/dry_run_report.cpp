@@ -208,9 +208,9 @@ void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int r
                            seeds_text(plan.sweep), frames_text(plan), plan.view,
                            plan.base.size.width, plan.base.size.height)
             << fmt::format(
-                   "about {} on {} {}, measured now on this machine; at most {} of memory "
+                   "about {} on {}, measured now on this machine; at most {} of memory "
                    "a run\n",
-                   duration_text(seconds.expected), cores, cores == 1 ? "core" : "cores",
+                   duration_text(seconds.expected), count_text(cores, "core"),
                    bytes_text(whole_bytes(totals.largest)))
             << rounds_text(plan, rounds, seconds.expected) << copies_text(plan, forecast, cores)
             << full_runs_text(plan, refinement, forecast, cores)

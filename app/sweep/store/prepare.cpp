@@ -113,12 +113,12 @@ struct RunFiles {
 /// is drawn again keeps the time that its simulation took.
 void write_run(const fs::path& folder, const RunFiles& files) {
   output::make_own_folder(folder);
-  const bool has_scene = has_text(folder / "scene.toml", files.text);
   const RunStatus before = read_status(folder);
-  if (has_scene && before.key == files.key) return;
-  output::remove_abandoned(folder);
+  const bool has_scene = has_text(folder / "scene.toml", files.text);
+  const bool has_status = before.key == files.key;
+  if (!has_scene || !has_status) output::remove_abandoned(folder);
   if (!has_scene) output::write_file(folder / "scene.toml", files.text);
-  if (before.key == files.key) return;
+  if (has_status) return;
   RunStatus status;
   status.key = files.key;
   status.simulation = files.simulation;
