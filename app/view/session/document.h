@@ -41,7 +41,6 @@ class Document {
   const std::string& file() const { return file_; }
   const std::string& text() const { return text_; }
   const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
-  const std::vector<scene::Override>& command_line() const { return overrides_; }
   double coarsening() const { return coarsening_; }
   /// What --coarsen sets in the scene beside lengths and times, as --set would.
   const std::vector<std::string>& set_by_coarsening() const { return set_by_coarsening_; }
