@@ -190,6 +190,10 @@ TEST_F(SweepFileTest, ScenesAreVariedFromTheCommandLine) {
       file, {{"body.ball.velocity=[0,-1,0],[0,-2,0]", "solver.transfer=flip,apic"}, {}}));
   ASSERT_EQ(list.size(), 4u);
   EXPECT_EQ(values(list[3]), (Strings{"[0,-2,0]", "apic"}));
+  const auto titled = app::sweep::plan::expand(
+      app::sweep::read::read_sweep(file, {{R"(title="a \"b, c\" d",'e\',plain)"}, {}}));
+  ASSERT_EQ(titled.size(), 3u);
+  EXPECT_EQ(values(titled[0]), (Strings{R"("a \"b, c\" d")"}));
   EXPECT_THROW(app::sweep::read::read_sweep(file, {}), app::UsageError);
   EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed"}, {}}), app::UsageError);
   EXPECT_THROW(app::sweep::read::read_sweep(file, {{"seed=1,,2"}, {}}), app::UsageError);
@@ -365,6 +369,9 @@ TEST(SweepLabels, LabelsHaveTheFewestWordsThatDiffer) {
   EXPECT_EQ(app::sweep::plan::value_text("140000"), "1.4e5");
   EXPECT_EQ(app::sweep::plan::value_text("-1000000"), "-1e6");
   EXPECT_EQ(app::sweep::plan::value_text("\"flip\""), "flip");
+  EXPECT_EQ(app::sweep::plan::value_text(R"("a \"b, c\" d")"), R"(a "b, c" d)");
+  EXPECT_EQ(app::sweep::plan::value_text("'it is'"), "it is");
+  EXPECT_EQ(app::sweep::plan::value_text("\"open"), "\"open");
   EXPECT_EQ(app::sweep::plan::value_text("[0, -5, 0]"), "[0, -5, 0]");
 }
 

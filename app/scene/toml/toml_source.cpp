@@ -164,4 +164,16 @@ Table parse_toml(std::string_view text, const std::string& file) {
   }
 }
 
+std::string unquoted(const std::string& value) {
+  if (value.size() < 2 || value.front() != value.back() ||
+      (value.front() != '"' && value.front() != '\''))
+    return value;
+  try {
+    const Table table = parse_toml("value = " + value, "");
+    if (const auto* text = std::get_if<std::string>(&table.entries.at(0).value.data)) return *text;
+  } catch (const SceneError&) {
+  }
+  return value;
+}
+
 }  // namespace neve::app::scene::toml

@@ -12,4 +12,7 @@ namespace neve::app::scene::toml {
 /// @throws SceneError
 Table parse_toml(std::string_view text, const std::string& file);
 
+/// The text that a value in quotes stands for, its escapes resolved; anything else as it is.
+std::string unquoted(const std::string& value);
+
 }  // namespace neve::app::scene::toml

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "app/scene/params.h"
+#include "app/scene/toml/toml_source.h"
 #include "app/scene/toml/value.h"
 #include "app/support/text.h"
 
@@ -40,10 +41,8 @@ std::vector<std::string> short_names(const std::vector<std::string>& addresses) 
 }
 
 std::string value_text(const std::string& value) {
-  if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
-    return value.substr(1, value.size() - 2);
   const std::optional<double> number = number_of(value);
-  if (!number) return value;
+  if (!number) return scene::toml::unquoted(value);
   const double x = *number;
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", x);

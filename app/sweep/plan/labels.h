@@ -11,7 +11,8 @@ namespace neve::app::sweep::plan {
 /// Last words of addresses, with as many before them as tell them apart.
 std::vector<std::string> short_names(const std::vector<std::string>& addresses);
 
-/// "1.4e5", "[0, -5, 0]", "flip": a value as it is given, numbers with at most six digits.
+/// 1.4e5, [0, -5, 0], flip: a value as it is given, texts without quotes, numbers with at most six
+/// digits.
 std::string value_text(const std::string& value);
 
 /// "spread (m)"; without a unit the title alone.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/advice/suggest.h"
+#include "app/scene/toml/toml_source.h"
 #include "app/support/text.h"
 
 namespace neve::app::sweep::read {
@@ -101,9 +102,8 @@ bool compare(const std::string& comparison, double a, double b) {
 Condition::Side Condition::read_side(const std::string& text, const Sweep& sweep) {
   if (text.empty()) throw std::invalid_argument(std::string("a side is empty; ") + form);
   if (const std::optional<double> number = number_of(text)) return {*number, {}, {}};
-  if (text.size() > 1 && text.front() == text.back() &&
-      (text.front() == '"' || text.front() == '\''))
-    return {1, {}, text.substr(1, text.size() - 2)};
+  if (const std::string inside = scene::toml::unquoted(text); inside != text)
+    return {1, {}, inside};
   const std::size_t star = text.find('*');
   if (star == std::string::npos) return {1, address_of(text, sweep), {}};
   const std::string first = trimmed(text.substr(0, star), blanks),
@@ -140,10 +140,7 @@ Condition::Condition(const std::string& text, const Sweep& sweep) {
 bool Condition::holds(
     const std::function<std::string(const std::string& address)>& value_of) const {
   const auto text_of = [&](const Side& side) {
-    return side.address.empty() ? side.text : value_of(side.address);
-  };
-  const auto plain = [](std::string text) {
-    return text.size() > 1 && text.front() == '"' ? text.substr(1, text.size() - 2) : text;
+    return side.address.empty() ? side.text : scene::toml::unquoted(value_of(side.address));
   };
   const auto number = [&](const Side& side) -> std::optional<double> {
     if (side.address.empty()) return side.text.empty() ? std::optional(side.factor) : std::nullopt;
@@ -152,7 +149,7 @@ bool Condition::holds(
   };
   const std::optional<double> a = number(left_), b = number(right_);
   if (a && b) return compare(comparison_, *a, *b);
-  return (plain(text_of(left_)) == plain(text_of(right_))) == (comparison_ == "==");
+  return (text_of(left_) == text_of(right_)) == (comparison_ == "==");
 }
 
 std::vector<Condition> conditions_of(const Sweep& sweep) {

@@ -150,9 +150,11 @@ std::vector<std::string> split_list(const std::string& text) {
   std::vector<std::string> pieces(1);
   int depth = 0;
   char quote = 0;
+  bool is_escaped = false;
   for (const char c : text) {
     if (quote) {
-      if (c == quote) quote = 0;
+      if (c == quote && !is_escaped) quote = 0;
+      is_escaped = quote == '"' && c == '\\' && !is_escaped;
     } else if (c == '"' || c == '\'') {
       quote = c;
     } else if (c == '[' || c == '{') {
