@@ -37,7 +37,27 @@ void StillGrid<Real>::rasterize() {
 
 template <class Real>
 void StillGrid<Real>::estimate_volumes() {
+  std::vector<kernels::Particle<Real>>& records = state_.particles.records;
+  const auto room_of_mass = [&](const kernels::Particle<Real>& p) {
+    const Material& material = state_.method.materials[static_cast<std::size_t>(p.material())];
+    return p.J_P / static_cast<Real>(material.density);
+  };
+  const Real first = room_of_mass(records.front());
+  const bool is_mixed =
+      std::any_of(records.begin(), records.end(),
+                  [&](const kernels::Particle<Real>& p) { return room_of_mass(p) != first; });
+  std::vector<Real> masses;
+  if (is_mixed) {
+    for (kernels::Particle<Real>& p : records) {
+      masses.push_back(p.m);
+      p.m *= room_of_mass(p) / first;
+    }
+    rasterize();
+  }
   state_.over_particle_blocks(state_.method.sweeps->volumes, a_);
+  if (!is_mixed) return;
+  for (std::size_t q = 0; q < records.size(); ++q) records[q].m = masses[q];
+  rasterize();
 }
 
 template <class Real>

@@ -18,7 +18,10 @@ class StillGrid {
 
   /// Steps 1 of the particles as they are now.
   void rasterize();
-  /// Step 2, of particles that have no volume yet.
+  /// Step 2, of particles that have no volume yet; after rasterize(). The paper divides a mass by
+  /// the density of the grid, which is that of a mixture where light snow lies on heavy: there each
+  /// mass counts by the room that it takes alone, so that its neighbours' density is beside the
+  /// point.
   void estimate_volumes();
   /// Per storage index, from the velocities of the nodes.
   const std::vector<kernels::Gathered<Real>>& gather();
