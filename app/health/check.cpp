@@ -53,7 +53,8 @@ bool squeezes_snow(const scene::Scene& scene) {
 }
 
 std::string crushing_text(const scene::Scene& scene, const Check& check) {
-  const double share = check.impact_speed / check.start.max_sound_speed;
+  const double sound = check.sound_at_hardest(),
+               share = sound > 0 ? check.hardest.speed / sound : 0;
   // Which particles an impact crushes is chance, and no copy tells it: a ball of dry snow that hits
   // a post at 0.39 takes 61 000 steps with one seed and 8000 with another.
   constexpr double crushing_speed = 0.3;
@@ -61,7 +62,7 @@ std::string crushing_text(const scene::Scene& scene, const Check& check) {
     return fmt::format(
         "the impact at {} m/s is {} of the speed of sound in the snow and may crush single "
         "particles; such a particle",
-        rough_text(check.impact_speed), rough_text(share));
+        rough_text(check.hardest.speed), rough_text(share));
   if (squeezes_snow(scene))
     return "snow that is squeezed between colliders may crush single particles; such a particle";
   return {};
@@ -75,7 +76,8 @@ void check_crushing(const scene::Scene& scene, Check& check) {
   if (text.empty()) return;
   const sim::Material* hardest = nullptr;
   double most = 1;
-  for (const sim::Material& m : scene.materials) {
+  const std::vector<sim::Material> materials = scene::materials_of_snow(scene);
+  for (const sim::Material& m : materials) {
     const double hardening = forecast::crushed_hardening(m);
     if (hardening <= most) continue;
     most = hardening;
@@ -135,6 +137,7 @@ Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, d
   check.coarsening = coarsening;
   check.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
   check.impact_speed = setup::impact_speed(scene);
+  check.hardest = setup::hardest_impact(scene);
   check.dust_steps = dust_steps(scene, check.impact_speed, plan.frames.last);
   int used_threads = 1;
   forecast::Spread spread;

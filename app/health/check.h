@@ -6,6 +6,7 @@
 
 #include "app/forecast/forecast.h"
 #include "app/health/finding.h"
+#include "app/setup/auto_ranges.h"
 #include "app/setup/plan.h"
 
 namespace neve::app::health {
@@ -14,8 +15,9 @@ struct Check {
   setup::Plan plan;
   double cells = 0;         ///< that the bodies fill
   double impact_speed = 0;  ///< m/s, see auto_ranges
-  sim::StepLimits start;    ///< of the initial state
-  double dt_start = 0;      ///< s, of the first step
+  setup::Impact hardest;
+  sim::StepLimits start;  ///< of the initial state
+  double dt_start = 0;    ///< s, of the first step
   sim::DtLimit limit_start = sim::DtLimit::max_dt;
   forecast::Forecast foreseen;  ///< by a coarse run
   double seconds_per_step = 0;  ///< measured on this machine; 0: not measured
@@ -25,6 +27,8 @@ struct Check {
   std::vector<Finding> findings;
 
   forecast::Cost seconds() const;  ///< of the simulation
+  /// m/s, in the snow of the hardest impact; 0: not known.
+  double sound_at_hardest() const { return start.max_sound_speed * hardest.share_of_sound; }
 };
 
 /// Seeds the scene, takes some steps, and runs coarse copies: about four seconds, at most twenty

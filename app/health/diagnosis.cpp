@@ -67,9 +67,10 @@ struct Case {
   }
   /// Of the law of energy, which knows no particle, any material may be the cause.
   template <class Badness>
-  const sim::Material& worst(const Badness& badness) const {
+  sim::Material worst(const Badness& badness) const {
     if (d.rule != "energy") return material;
-    return *std::ranges::max_element(scene.materials, {}, badness);
+    const std::vector<sim::Material> all = scene::materials_of_snow(scene);
+    return *std::ranges::max_element(all, {}, badness);
   }
   std::string at(const char* key) const { return "material." + material.name + "." + key; }
   /// Advice on the fixed step.
@@ -326,7 +327,7 @@ Hypothesis hardened_beyond_fixed_step(const Case& c) {
 }
 
 Hypothesis incompressible(const Case& c) {
-  const sim::Material& m =
+  const sim::Material m =
       c.worst([](const sim::Material& material) { return material.poisson_ratio; });
   const double nu = m.poisson_ratio;
   if (nu < cause(Law::poisson_ratio)) return std::nullopt;
@@ -429,8 +430,9 @@ Hypothesis doubts_of_the_law(const Case& c) {
 Hypothesis rounding(const Case& c) {
   if (c.scene.solver.precision != sim::Precision::single) return std::nullopt;
   constexpr double epsilon = 6e-8, notable = 0.1;
-  const sim::Material& m = *std::ranges::max_element(
-      c.scene.materials, {}, [](const sim::Material& a) { return a.youngs_modulus; });
+  const std::vector<sim::Material> all = scene::materials_of_snow(c.scene);
+  const sim::Material& m =
+      *std::ranges::max_element(all, {}, [](const sim::Material& a) { return a.youngs_modulus; });
   const double sound = sim::sound_speed(m), stress = epsilon * m.density * sound * sound;
   const double speed = c.speed_before_failure();
   if (!(stress > notable * m.density * speed * speed)) return std::nullopt;

@@ -11,6 +11,7 @@
 #include "app/health/softness.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/toml/value.h"
+#include "app/setup/auto_ranges.h"
 #include "app/setup/camera_path.h"
 #include "app/setup/seed_scene.h"
 #include "app/setup/snow_pieces.h"
@@ -417,7 +418,7 @@ double reachable_speed(const scene::Scene& scene) {
   for (const sim::seeding::Body& body : scene.bodies) start = std::max(start, body.velocity.norm());
   for (const auto& emitter : scene.emitters) start = std::max(start, emitter.velocity.norm());
   constexpr double rounding = 1.01;
-  return rounding * (start + scene.solver.gravity.norm() * scene::duration(scene));
+  return rounding * (start + setup::largest_gravity(scene) * scene::duration(scene));
 }
 
 void check_steps(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
@@ -427,13 +428,14 @@ void check_steps(const scene::Scene& scene, const Check& check, std::vector<Find
     check_adaptive_steps(scene.solver, check, findings);
   check_implicit_steps(scene.solver, check, findings);
   check_transfer(scene, check, findings);
-  const double c = check.start.max_sound_speed;
-  if (c > 0 && has_something_to_hit(scene) && check.impact_speed <= reachable_speed(scene) &&
-      check.impact_speed > line(Law::impact_mach) * c)
-    findings.push_back({Severity::warning, "",
+  const setup::Impact& impact = check.hardest;
+  const double c = check.sound_at_hardest();
+  if (c > 0 && has_something_to_hit(scene) && impact.speed <= reachable_speed(scene) &&
+      impact.speed > line(Law::impact_mach) * c)
+    findings.push_back({Severity::warning, impact.address,
                         fmt::format("snow hits something at {} m/s, faster than its sound of {} "
                                     "m/s: a shock will crush it",
-                                    rough_text(check.impact_speed), rough_text(c)),
+                                    rough_text(impact.speed), rough_text(c)),
                         "make it slower, or youngs_modulus larger"});
 }
 

@@ -75,7 +75,7 @@ void add_of_packed(const scene::Scene& scene, std::vector<Slow>& slow) {
 void add_of_sound(const scene::Scene& scene, std::vector<Slow>& slow) {
   const sim::Material usual;
   const double c0 = sim::sound_speed(usual);
-  for (const sim::Material& m : scene.materials) {
+  for (const sim::Material& m : scene::materials_of_snow(scene)) {
     const std::string table = "material." + m.name + ".";
     const auto add = [&](const char* key, double value, double common, double times) {
       slow.push_back(

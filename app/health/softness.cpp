@@ -101,7 +101,7 @@ std::string advice_text(const DenseBirth& birth) {
 double load_speed(const scene::Scene& scene) {
   double speed = setup::impact_speed(scene);
   for (const scene::Collider& collider : scene.colliders)
-    speed = std::max(speed, setup::collider_speed(scene, collider));
+    speed = std::max(speed, setup::collider_speed(scene, collider.name));
   return speed;
 }
 

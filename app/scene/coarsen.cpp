@@ -119,6 +119,13 @@ bool has_snow_of(const Scene& scene, const sim::Material& material) {
          std::any_of(scene.emitters.begin(), scene.emitters.end(), is_of);
 }
 
+std::vector<sim::Material> materials_of_snow(const Scene& scene) {
+  std::vector<sim::Material> materials;
+  for (const sim::Material& material : scene.materials)
+    if (has_snow_of(scene, material)) materials.push_back(material);
+  return materials.empty() ? scene.materials : materials;
+}
+
 const sim::Material* dusty_material(const Scene& scene) {
   for (const sim::Material& material : scene.materials)
     if (material.dust > 0 && has_snow_of(scene, material)) return &material;

@@ -24,6 +24,8 @@ std::vector<std::string> coarsen(Scene& scene, double factor);
 Scene without_dust(Scene scene);
 /// Whether a body or an emitter is of this material of the scene.
 bool has_snow_of(const Scene& scene, const sim::Material& material);
+/// Those of bodies and emitters; of a scene without any, all.
+std::vector<sim::Material> materials_of_snow(const Scene& scene);
 /// A material of bodies or emitters that sheds dust; null: none does.
 const sim::Material* dusty_material(const Scene& scene);
 

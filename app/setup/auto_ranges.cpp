@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "app/scene/coarsen.h"
 #include "app/setup/curves.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/round_number.h"
@@ -101,12 +102,34 @@ double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   return std::sqrt(start * start + 2 * g * fall);
 }
 
-/// Over all materials, as they are in the cells of the scene.
-double largest(const scene::Scene& scene, double (*of)(const sim::Material&)) {
+/// act(the scene at each moment that shows how far its curves go, without them)
+template <class Act>
+void at_each_moment(const scene::Scene& scene, const Act& act) {
+  if (scene.curves.empty()) return act(scene);
+  for (const int frame : telling_frames(scene)) {
+    scene::Scene then = with_curves(scene, frame);
+    then.curves.clear();
+    act(std::as_const(then));
+  }
+}
+
+/// The largest value at any of them.
+template <class Of>
+double largest_at_moments(const scene::Scene& scene, const Of& of) {
   double value = 0;
-  for (const sim::Material& material : sim::laws::in_cells(scene.materials, scene.solver))
-    value = std::max(value, of(material));
+  at_each_moment(scene, [&](const scene::Scene& then) { value = std::max(value, of(then)); });
   return value;
+}
+
+/// Over the materials of its snow, as they are in the cells of the scene, at all moments.
+double largest(const scene::Scene& given, double (*of)(const sim::Material&)) {
+  return largest_at_moments(given, [&](const scene::Scene& scene) {
+    double value = 0;
+    for (const sim::Material& material :
+         sim::laws::in_cells(scene::materials_of_snow(scene), scene.solver))
+      value = std::max(value, of(material));
+    return value;
+  });
 }
 
 /// What undeformed material bears, of all laws.
@@ -127,21 +150,23 @@ double stagnation_pressure(const scene::Scene& scene) {
   return speed > 0 ? density * speed * speed : std::numeric_limits<double>::infinity();
 }
 
-scene::Range density_range(const scene::Scene& scene) {
+scene::Range density_range(const scene::Scene& given) {
   double low = 1e300, high = 0;
-  for (const sim::Material& m : scene.materials) {
-    low = std::min(low, m.density);
-    high = std::max(high, m.density);
-  }
+  at_each_moment(given, [&](const scene::Scene& scene) {
+    for (const sim::Material& m : scene::materials_of_snow(scene)) {
+      low = std::min(low, m.density);
+      high = std::max(high, m.density);
+    }
+  });
   return {round_down(0.5 * low), round_up(1.5 * high)};
 }
 
 /// Longest step that the limits allow snow at rest.
-double step_at_rest(const sim::SolverSettings& solver,
-                    const std::vector<sim::Material>& materials) {
+double step_at_rest(const scene::Scene& scene) {
+  const sim::SolverSettings& solver = scene.solver;
   if (solver.time_step == sim::TimeStep::fixed) return solver.dt;
   double step = solver.max_dt;
-  for (const sim::Material& material : materials)
+  for (const sim::Material& material : scene::materials_of_snow(scene))
     step = std::min(step, sim::acoustic_stretch(solver) * solver.acoustic_cfl * solver.cell_size /
                               sim::sound_speed(material));
   return step;
@@ -228,7 +253,7 @@ struct Drive {
 Drive drive_of(const scene::Scene& scene) {
   Drive drive{sliding_speed(scene), 0};
   for (const sim::shapes::Collider& collider : scene.colliders)
-    drive.pushing = std::max(drive.pushing, setup::collider_speed(scene, collider));
+    drive.pushing = std::max(drive.pushing, setup::collider_speed(scene, collider.name));
   return drive;
 }
 
@@ -247,31 +272,10 @@ double speed_of_top(const scene::Scene& scene, const SnowPiece& piece) {
   return std::sqrt(impact * impact + 2 * above);
 }
 
-/// act(the scene under each gravity that it has): several where gravity follows a curve.
-template <class Act>
-void under_each_gravity(const scene::Scene& scene, const Act& act) {
-  const std::vector<Vec3d> gravities = vectors_along(scene, "solver.gravity");
-  if (gravities.empty()) return act(scene);
-  scene::Scene under = scene;
-  under.curves.clear();
-  for (const Vec3d& gravity : gravities) {
-    under.solver.gravity = gravity;
-    act(std::as_const(under));
-  }
-}
-
-/// The largest value under any of them.
-template <class Of>
-double largest_under_gravity(const scene::Scene& scene, const Of& of) {
-  double value = 0;
-  under_each_gravity(scene, [&](const scene::Scene& each) { value = std::max(value, of(each)); });
-  return value;
-}
-
 }  // namespace
 
 double impact_speed(const scene::Scene& given) {
-  return largest_under_gravity(given, [](const scene::Scene& scene) {
+  return largest_at_moments(given, [](const scene::Scene& scene) {
     double speed = 0;
     for (const SnowPiece& piece : snow_places(scene))
       speed = std::max(speed, impact_speed(scene, piece));
@@ -279,16 +283,40 @@ double impact_speed(const scene::Scene& given) {
   });
 }
 
-double collider_speed(const scene::Scene& given, const sim::shapes::Collider& collider) {
-  const double speed = sim::shapes::largest_speed(collider);
-  if (!collider.body.moves()) return speed;
-  return std::max(speed, largest_under_gravity(given, [&](const scene::Scene& scene) {
-                    return body_speed(scene, collider);
-                  }));
+Impact hardest_impact(const scene::Scene& given) {
+  Impact hardest;
+  double worst = 0, fastest_sound = 0;
+  at_each_moment(given, [&](const scene::Scene& scene) {
+    for (const SnowPiece& piece : snow_places(scene)) {
+      const double speed = impact_speed(scene, piece);
+      const double sound = sim::health::wave_speed(*piece.material, sim::Mat3d::Identity(),
+                                                   piece.J_P, piece.material->density);
+      fastest_sound = std::max(fastest_sound, sound);
+      if (speed <= worst * sound) continue;
+      worst = speed / sound;
+      hardest = {piece.address, speed, sound};
+    }
+  });
+  if (fastest_sound > 0) hardest.share_of_sound /= fastest_sound;
+  return hardest;
+}
+
+double largest_gravity(const scene::Scene& given) {
+  return largest_at_moments(given,
+                            [](const scene::Scene& scene) { return scene.solver.gravity.norm(); });
+}
+
+double collider_speed(const scene::Scene& given, const std::string& name) {
+  return largest_at_moments(given, [&](const scene::Scene& scene) {
+    const scene::Collider& collider =
+        *std::ranges::find(scene.colliders, name, &scene::Collider::name);
+    const double speed = sim::shapes::largest_speed(collider);
+    return collider.body.moves() ? std::max(speed, body_speed(scene, collider)) : speed;
+  });
 }
 
 double largest_speed(const scene::Scene& given) {
-  return largest_under_gravity(given, [](const scene::Scene& scene) {
+  return largest_at_moments(given, [](const scene::Scene& scene) {
     const Drive drive = drive_of(scene);
     double speed = drive.pushing;
     for (const SnowPiece& piece : snow_places(scene))
@@ -298,7 +326,7 @@ double largest_speed(const scene::Scene& given) {
 }
 
 double energy_of_impact(const scene::Scene& given) {
-  return largest_under_gravity(given, [](const scene::Scene& scene) {
+  return largest_at_moments(given, [](const scene::Scene& scene) {
     const Drive drive = drive_of(scene);
     double energy = 0;
     for (const SnowPiece& piece : snow_pieces(scene)) {
@@ -310,7 +338,7 @@ double energy_of_impact(const scene::Scene& given) {
 }
 
 double force_of_impact(const scene::Scene& given) {
-  return largest_under_gravity(given, [](const scene::Scene& scene) {
+  return largest_at_moments(given, [](const scene::Scene& scene) {
     const Drive drive = drive_of(scene);
     double force = 0;
     for (const SnowPiece& piece : snow_pieces(scene))
@@ -412,15 +440,15 @@ void resolve_plot_ranges(const scene::Scene& scene, scene::PlotRanges& ranges) {
   if (!ranges.speed) ranges.speed = automatic_range(scene, scene::ColorBy::speed, 0);
   if (!ranges.force) ranges.force = from_zero(force_of_impact(scene));
   if (scene::has_moving_bodies(scene)) {
-    BodyHeights heights = body_heights(scene);
-    under_each_gravity(scene, [&](const scene::Scene& each) {
+    BodyHeights heights;
+    at_each_moment(scene, [&](const scene::Scene& each) {
       const BodyHeights more = body_heights(each);
       heights = {std::min(heights.low, more.low), std::max(heights.high, more.high)};
     });
     if (!ranges.body_height) ranges.body_height = rounded_range(heights.low, heights.high);
     if (!ranges.body_speed) ranges.body_speed = from_zero(largest_speed(scene));
   }
-  if (!ranges.dt) ranges.dt = from_zero(1.05 * step_at_rest(scene.solver, scene.materials));
+  if (!ranges.dt) ranges.dt = from_zero(1.05 * largest_at_moments(scene, step_at_rest));
 }
 
 }  // namespace neve::app::setup

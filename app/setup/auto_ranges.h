@@ -1,6 +1,9 @@
 #pragma once
 /// Colour ranges from constants of the scene, so that they mean the same in every frame.
 
+#include <cstddef>
+#include <string>
+
 #include "app/scene/scene.h"
 
 namespace neve::app::setup {
@@ -13,9 +16,22 @@ scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
 /// m/s: speed of the quickest body when it meets the surface below it, or at the end of the scene.
 double impact_speed(const scene::Scene& scene);
 
+/// An impact that is hard for its snow: fast for the speed of sound there.
+struct Impact {
+  std::string address;        ///< "body.ball"; "" without snow
+  double speed = 0;           ///< m/s
+  double share_of_sound = 1;  ///< of the sound in the stiffest snow of the scene at its start
+};
+/// The hardest of all bodies and emitters.
+Impact hardest_impact(const scene::Scene& scene);
+
+/// m/s2, while the scene lasts.
+double largest_gravity(const scene::Scene& scene);
+
 /// m/s, of the fastest point of a collider. One that moves by itself falls until something is
 /// below; snow that hits it makes it at most about as fast as itself.
-double collider_speed(const scene::Scene& scene, const sim::shapes::Collider& collider);
+/// @param name  of a collider of the scene
+double collider_speed(const scene::Scene& scene, const std::string& name);
 
 /// m/s, that snow may have: its own at impact, or that of a body that hits it.
 double largest_speed(const scene::Scene& scene);

@@ -1,6 +1,9 @@
 #include "app/setup/curves.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
 #include <variant>
 
 #include "app/scene/override.h"
@@ -53,6 +56,7 @@ class CurveValues {
       numbers.push_back(value_at(curve_, times_, x, place));
     return numbers;
   }
+  std::size_t size() const { return coordinates_.size(); }
 
  private:
   const scene::Curve& curve_;
@@ -64,17 +68,31 @@ std::vector<double> numbers_at(const scene::Curve& curve, double time) {
   return CurveValues(curve).at(time);
 }
 
-/// Of very many, the ends along each axis, the longest, and some of the others.
-std::vector<sim::Vec3d> few_of(const std::vector<sim::Vec3d>& all) {
+double time_of(const scene::Scene& scene, int frame) {
+  return std::max(0.0, frame - 0.5) / scene.fps;
+}
+
+/// Of very many, some, and those where a coordinate of a curve, or all of them, are at an end.
+std::vector<int> few_of(const scene::Scene& scene, const std::vector<int>& all) {
   constexpr std::size_t most = 64;
   if (all.size() <= most) return all;
-  std::vector<sim::Vec3d> few;
-  for (std::size_t k = 0; k < most; ++k) few.push_back(all[k * all.size() / most]);
-  const auto add = [&](const auto& of) { few.push_back(*std::ranges::max_element(all, {}, of)); };
-  add([](const sim::Vec3d& v) { return v.squaredNorm(); });
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {-1.0, 1.0}) add([&](const sim::Vec3d& v) { return sign * v[axis]; });
-  return few;
+  std::set<int> few;
+  for (std::size_t k = 0; k < most; ++k) few.insert(all[k * all.size() / most]);
+  for (const scene::Curve& curve : scene.curves) {
+    if (curve.keyframes.empty()) continue;
+    const CurveValues values(curve);
+    const auto add = [&](const auto& size_of) {
+      few.insert(*std::ranges::max_element(
+          all, {}, [&](int frame) { return size_of(values.at(time_of(scene, frame))); }));
+    };
+    add([](const std::vector<double>& x) {
+      return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
+    });
+    for (std::size_t c = 0; c < values.size(); ++c)
+      for (const double sign : {-1.0, 1.0})
+        add([&](const std::vector<double>& x) { return sign * x[c]; });
+  }
+  return {few.begin(), few.end()};
 }
 
 /// True for a change of the address, and of a table around it that has a value there.
@@ -84,10 +102,6 @@ bool sets(const scene::Override& change, const std::string& address) {
   const scene::toml::Value table = scene::value_of(change, "table");
   const auto* members = std::get_if<scene::toml::Table>(&table.data);
   return members && scene::value_at(*members, address.substr(change.address.size() + 1));
-}
-
-double time_of(const scene::Scene& scene, int frame) {
-  return std::max(0.0, frame - 0.5) / scene.fps;
 }
 
 }  // namespace
@@ -117,25 +131,24 @@ const scene::Curve* curve_of(const scene::Scene& scene, const std::string& addre
   return found == scene.curves.end() ? nullptr : &*found;
 }
 
-std::vector<sim::Vec3d> vectors_along(const scene::Scene& scene, const std::string& address) {
+std::vector<int> telling_frames(const scene::Scene& scene) {
   constexpr int parts = 4;
-  const scene::Curve* curve = curve_of(scene, address);
-  if (!curve || curve->keyframes.empty() || !curve->keyframes.front().vector) return {};
-  const double end = scene::duration(scene);
-  std::vector<double> times{0, end};
-  for (std::size_t k = 0; k < curve->keyframes.size(); ++k) {
-    const double time = curve->keyframes[k].time;
-    const double next = k + 1 < curve->keyframes.size() ? curve->keyframes[k + 1].time : time;
-    for (int part = 0; part < parts; ++part) times.push_back(time + (next - time) * part / parts);
+  const int last = scene::last_frame(scene);
+  std::set<int> frames{0};
+  for (const scene::Curve& curve : scene.curves) {
+    frames.insert(last);
+    for (std::size_t k = 0; k < curve.keyframes.size(); ++k) {
+      const double time = curve.keyframes[k].time;
+      const double next = k + 1 < curve.keyframes.size() ? curve.keyframes[k + 1].time : time;
+      for (int part = 0; part < parts; ++part) {
+        // The values of a frame are those of its middle.
+        const double frame = (time + (next - time) * part / parts) * scene.fps;
+        for (const double near : {std::floor(frame), std::floor(frame) + 1})
+          frames.insert(static_cast<int>(std::clamp(near, 0.0, double(last))));
+      }
+    }
   }
-  const CurveValues values(*curve);
-  std::vector<sim::Vec3d> vectors;
-  for (const double time : times) {
-    if (time > end) continue;
-    const std::vector<double> x = values.at(time);
-    vectors.emplace_back(x[0], x[1], x[2]);
-  }
-  return few_of(vectors);
+  return few_of(scene, {frames.begin(), frames.end()});
 }
 
 void refuse_followers(const scene::Scene& scene, const std::vector<scene::Override>& changes) {

@@ -20,9 +20,10 @@ scene::Scene with_curves(const scene::Scene& scene, int frame);
 /// The curve that a parameter follows; null: none.
 const scene::Curve* curve_of(const scene::Scene& scene, const std::string& address);
 
-/// Vectors that a curve gives to a parameter while the scene lasts: those of its keyframes, and
-/// some between. None without a curve.
-std::vector<sim::Vec3d> vectors_along(const scene::Scene& scene, const std::string& address);
+/// Frames whose values show how far the curves go while the scene lasts: the first, the last, those
+/// at keyframes and some between; of very many those with the smallest and the largest value of
+/// each curve, and some of the others. The first alone without curves.
+std::vector<int> telling_frames(const scene::Scene& scene);
 
 /// A curve has the last word: a change of its parameter would do nothing.
 /// @throws UsageError or SceneError that names the flag or the place of the change

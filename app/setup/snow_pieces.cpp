@@ -24,11 +24,11 @@ std::vector<SnowPiece> snow_places(const scene::Scene& scene) {
   std::vector<SnowPiece> pieces;
   for (const sim::seeding::Body& body : scene.bodies)
     pieces.push_back({"body." + body.name, &body.shape, &material_of(scene, body.material),
-                      body.velocity, body.angular_velocity});
+                      body.velocity, body.angular_velocity, body.J_P});
   for (const sim::seeding::Emitter& emitter : scene.emitters)
     pieces.push_back({"emitter." + emitter.name, &emitter.shape,
                       &material_of(scene, emitter.material), emitter.velocity,
-                      emitter.angular_velocity});
+                      emitter.angular_velocity, emitter.J_P});
   return pieces;
 }
 

@@ -13,6 +13,7 @@ struct SnowPiece {
   const sim::shapes::Shape* shape;
   const sim::Material* material;
   sim::Vec3d velocity, angular_velocity;
+  double J_P = 1;        ///< at the start
   double volume = 0;     ///< m3; of an emitter all that it emits
   double particles = 0;  ///< roughly
   double mass = 0;       ///< kg, of all

@@ -250,7 +250,11 @@ TEST(Diagnosis, DiagnosisNamesFaultsBeforeTheFirstStep) {
 /// The law of energy knows no particle, so no material either.
 TEST(Diagnosis, AnyMaterialMayMakeEnergy) {
   const app::scene::Scene scene = app::scene::read_scene_text(
-      std::string(base) + "[material.snow]\n[material.gel]\npoisson_ratio = 0.4999995\n",
+      std::string(base) +
+          "[material.gel]\npoisson_ratio = 0.4999995\n[material.unused]\npoisson_ratio = "
+          "0.4999999\n"
+          "[[body]]\nmaterial = \"gel\"\nshape = { box = { center = [3, 1, 0], size = [0.2, 0.2, "
+          "0.2] } }\n",
       "two.toml");
   sim::Divergence d;
   d.rule = "energy";

@@ -223,6 +223,73 @@ TEST(AutomaticRange, AutomaticRangesKnowTheGravityOfACurve) {
   EXPECT_GT(strong.energy->max, 5 * still.energy->max);
 }
 
+/// A value beside a curve is not used, so a scene whose curve stays at another value has the ranges
+/// of a scene with that value.
+TEST(AutomaticRange, AutomaticRangesKnowCurvesOfMaterialsAndColliders) {
+  const auto scene_with = [](const std::string& velocity, const std::string& pressure,
+                             const std::string& more) {
+    return app::scene::read_scene_text(
+        std::string(drop) + "[material.snow]\nmodel = \"cam_clay\"\nconsolidation_pressure = " +
+            pressure + "\n[[collider]]\nname = \"ram\"\nvelocity = " + velocity +
+            "\nshape = { box = { center = [-3, 0.5, 0], size = [0.5, 0.5, 0.5] } }\n" + more,
+        "ram.toml");
+  };
+  const std::string curves =
+      "[[curve]]\nparameter = \"material.snow.consolidation_pressure\"\n"
+      "keyframes = [{ time = 0, value = 5000 }, { time = 0.25, value = 20000 }]\n"
+      "[[curve]]\nparameter = \"collider.ram.velocity\"\n"
+      "keyframes = [{ time = 0, vector = [1, 0, 0] }, { time = 0.25, vector = [9, 0, 0] }]\n";
+  const scene::Scene plain = scene_with("[9, 0, 0]", "2e4", ""),
+                     curved = scene_with("[0, 0, 0]", "1000", curves);
+  using C = scene::ColorBy;
+  for (const C color_by : {C::speed, C::density, C::J_E, C::pressure, C::von_mises, C::p0}) {
+    const scene::Range expected = app::setup::automatic_range(plain, color_by, 10),
+                       range = app::setup::automatic_range(curved, color_by, 10);
+    EXPECT_EQ(range.min, expected.min) << int(color_by);
+    EXPECT_EQ(range.max, expected.max) << int(color_by);
+  }
+  EXPECT_GE(app::setup::automatic_range(curved, C::speed, 10).max, 9);
+  EXPECT_EQ(app::setup::automatic_range(curved, C::p0, 10).max, 40000);
+  EXPECT_EQ(app::setup::collider_speed(curved, "ram"), 9);
+}
+
+TEST(AutomaticRange, MaterialsWithoutSnowDoNotCount) {
+  const auto scene_of = [](const std::string& name) {
+    return app::scene::read_scene_text(
+        "[material." + name + "]\nmodel = \"cam_clay\"\ndensity = 200\n[[body]]\nmaterial = \"" +
+            name + "\"\nshape = { sphere = { center = [0, 1, 0], radius = 0.2 } }\n",
+        "clay.toml");
+  };
+  // A scene has a material called snow, whether or not anything is of it.
+  const scene::Scene snow = scene_of("snow"), clay = scene_of("clay");
+  ASSERT_GT(clay.materials.size(), snow.materials.size());
+  using C = scene::ColorBy;
+  for (const C color_by : {C::density, C::J_E, C::pressure, C::von_mises, C::p0})
+    EXPECT_EQ(app::setup::automatic_range(clay, color_by, 10).max,
+              app::setup::automatic_range(snow, color_by, 10).max)
+        << int(color_by);
+  scene::PlotRanges of_snow, of_clay;
+  app::setup::resolve_plot_ranges(snow, of_snow);
+  app::setup::resolve_plot_ranges(clay, of_clay);
+  EXPECT_EQ(of_clay.dt->max, of_snow.dt->max);
+}
+
+/// Rubber that falls as fast as snow beside it is hit harder where its sound is slower.
+TEST(AutomaticRange, TheHardestImpactIsInTheSnowOfTheSlowestSound) {
+  const auto scene = app::scene::read_scene_text(
+      "[material.stiff]\nyoungs_modulus = 1e6\n[material.soft]\nyoungs_modulus = 1e4\n"
+      "[[body]]\nname = \"a\"\nmaterial = \"stiff\"\nvelocity = [0, -1.5, 0]\n"
+      "shape = { sphere = { center = [0, 1, 0], radius = 0.2 } }\n"
+      "[[body]]\nname = \"b\"\nmaterial = \"soft\"\nvelocity = [0, -1, 0]\n"
+      "shape = { sphere = { center = [3, 1, 0], radius = 0.2 } }\n"
+      "[[collider]]\nshape = { plane = {} }\n",
+      "two.toml");
+  const app::setup::Impact impact = app::setup::hardest_impact(scene);
+  EXPECT_EQ(impact.address, "body.b");
+  EXPECT_LT(impact.speed, app::setup::impact_speed(scene));
+  EXPECT_NEAR(impact.share_of_sound, 0.1, 1e-12);  // sound goes with the root of the modulus
+}
+
 TEST(AutomaticRange, WideFlatSnowSlumpsByItsHeight) {
   const app::scene::Scene scene = app::scene::read_scene_text(R"(
 [[body]]
