@@ -124,7 +124,8 @@ Json go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress
                  {"state_hash", record::hash_text(simulation.state_hash())}};
   const scene::Scene& before = *timeline.here().scene;
   scene::Scene next = scene::apply(before, job.fork->changes, job.scene_file);
-  setup::resolve_ranges(next, simulation.particle_count());
+  setup::reopen(next, job.fork->changes);
+  setup::resolve(next, simulation.particle_count());
   timeline::require_live(before, next, "--from");
   timeline.change(next);
   job.changes = timeline.changes();

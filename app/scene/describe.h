@@ -588,6 +588,9 @@ void describe(V& visit, CameraSettings& c) {
         "Name of a body or collider that the camera moves along with: eye and target are relative "
         "to its centre of mass.");
   visit.sequence("keyframes", c.keyframes, "Path of eye, target and fov.");
+  visit("found", c.found, unit::none, anything, live,
+        "What neve found of the camera, in the scenes of runs and pictures: --set of what that "
+        "follows from has it found anew.");
 }
 
 template <class V>

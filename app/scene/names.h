@@ -92,6 +92,9 @@ constexpr auto names(sim::shapes::Coordinates) {
 constexpr auto names(sim::shapes::Contact) {
   return in_order<sim::shapes::Contact::sticky>("separate", "slip", "sticky");
 }
+constexpr auto names(FoundCamera) {
+  return in_order<FoundCamera::camera>("nothing", "place", "camera");
+}
 constexpr auto names(RangeFrom) {
   return in_order<RangeFrom::frame>("scene", "frame");
 }

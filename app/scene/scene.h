@@ -98,6 +98,9 @@ struct CameraKeyframe {
   std::optional<double> fov;  ///< vertical, degrees
 };
 
+/// What of a camera neve found: eye and target, or all of it, for a view without one of its own.
+enum class FoundCamera { nothing, place, camera };
+
 struct CameraSettings {
   std::optional<sim::Vec3d> eye, target;  ///< both or neither; automatic when absent
   sim::Vec3d up{0, 1, 0};
@@ -106,7 +109,8 @@ struct CameraSettings {
   std::optional<double> turntable;  ///< s of a full turn
   bool push_in = false;             ///< comes nearer to the settled snow; only where automatic
   std::string follow;               ///< body or collider that moves eye and target along; "": none
-  std::vector<CameraKeyframe> keyframes;  ///< times increase
+  std::vector<CameraKeyframe> keyframes;     ///< times increase
+  FoundCamera found = FoundCamera::nothing;  ///< only in records, see setup::reopen
 };
 
 struct LightSettings {

@@ -200,6 +200,7 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
   if (settings.push_in && !normal)
     add_push_in(scene, moments, {framing, towards_eye}, lens, camera);
   camera.push_in = false;
+  camera.found = scene::FoundCamera::place;
   return camera;
 }
 

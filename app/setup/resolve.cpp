@@ -1,5 +1,7 @@
 #include "app/setup/resolve.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,6 +45,25 @@ bool faces_its_plane(const scene::View& view) {
          !scene::has_layer(view, scene::Layer::smoke);
 }
 
+/// A camera whose place neve found, before that. Keyframes that have places are those of push_in.
+scene::CameraSettings without_place(scene::CameraSettings camera) {
+  camera.eye.reset();
+  camera.target.reset();
+  if (has_place(camera)) {
+    camera.keyframes.clear();
+    camera.push_in = true;
+  }
+  camera.found = scene::FoundCamera::nothing;
+  return camera;
+}
+
+/// True for a view that the scene's camera, which neve found, was not found for.
+bool needs_own_camera(const scene::Scene& scene, const scene::View& view) {
+  return !view.camera && scene.camera && scene.camera->found != scene::FoundCamera::nothing &&
+         (scene::shows_slice(view) ||
+          !is_of_shape(aspect_of(size_of(scene, view)), aspect_of(scene.size)));
+}
+
 /// True if the scene's own camera is used and has no place.
 bool needs_shared_camera(const scene::Scene& scene) {
   const bool is_used =
@@ -64,29 +85,63 @@ void resolve_slice(const scene::Scene& scene, scene::SliceStyle& slice) {
   if (!slice.scalar_range) slice.scalar_range = automatic_range(scene, slice.scalar);
 }
 
+/// Whether a change is of this address, or of what is in it.
+bool is_in(const scene::Override& change, const std::string& address) {
+  return change.address == address || change.address.starts_with(address + ".");
+}
+
+/// What changes of one camera leave of what was found.
+void reopen(scene::CameraSettings& camera, const std::string& address,
+            const std::vector<scene::Override>& changes) {
+  if (camera.found == scene::FoundCamera::nothing) return;
+  bool is_changed = false;
+  for (const scene::Override& change : changes) {
+    if (!is_in(change, address)) continue;
+    is_changed = true;
+    for (const char* key : {".eye", ".target", ".keyframes"})
+      if (is_in(change, address + key)) camera.found = scene::FoundCamera::nothing;
+  }
+  if (is_changed && camera.found != scene::FoundCamera::nothing) camera = without_place(camera);
+}
+
+/// A range is of its quantity, and a point of what it follows.
+void reopen_values(scene::View& view, const auto& is_set) {
+  if (is_set("particles.color_by") && !is_set("particles.range")) view.particles.range.reset();
+  if (is_set("smoke.field") && !is_set("smoke.range")) view.smoke.range.reset();
+  if (is_set("slice.field") && !is_set("slice.range")) view.slice.range.reset();
+  if (is_set("slice.scalar") && !is_set("slice.scalar_range")) view.slice.scalar_range.reset();
+  if (is_set("slice.follow") && !is_set("slice.point")) view.slice.point.reset();
+}
+
 }  // namespace
 
 bool needs_framing(const scene::Scene& scene) {
   return needs_shared_camera(scene) ||
-         std::any_of(scene.views.begin(), scene.views.end(), [](const scene::View& view) {
-           return faces_its_plane(view) || (view.camera && !has_place(*view.camera));
+         std::any_of(scene.views.begin(), scene.views.end(), [&](const scene::View& view) {
+           return faces_its_plane(view) || needs_own_camera(scene, view) ||
+                  (view.camera && !has_place(*view.camera));
          });
 }
 
 void resolve_cameras(scene::Scene& scene, const std::vector<CoarseMoment>& moments, Shown shown) {
-  const bool is_shared = needs_shared_camera(scene);
-  const scene::CameraSettings lens = scene.camera.value_or(scene::CameraSettings{});
+  scene::CameraSettings lens = scene.camera.value_or(scene::CameraSettings{});
+  if (lens.found != scene::FoundCamera::nothing) lens = without_place(lens);
   const double shared = aspect_of(scene.size);
-  if (is_shared) scene.camera = automatic_camera(scene, moments, lens, shared, {}, shown);
+  if (needs_shared_camera(scene))
+    scene.camera = automatic_camera(scene, moments, lens, shared, {}, shown);
   for (scene::View& view : scene.views) {
     const double aspect = aspect_of(size_of(scene, view));
-    if (view.camera && !has_place(*view.camera))
-      view.camera = automatic_camera(scene, moments, *view.camera, aspect, {}, shown);
-    else if (faces_its_plane(view) || (!view.camera && is_shared && scene::shows_slice(view)))
+    if (view.camera) {
+      if (!has_place(*view.camera))
+        view.camera = automatic_camera(scene, moments, *view.camera, aspect, {}, shown);
+      continue;
+    }
+    if (faces_its_plane(view) || (needs_own_camera(scene, view) && scene::shows_slice(view)))
       view.camera =
           automatic_camera(scene, moments, lens_of(lens), aspect, view.slice.normal, shown);
-    else if (!view.camera && is_shared && !is_of_shape(aspect, shared))
+    else if (needs_own_camera(scene, view))
       view.camera = automatic_camera(scene, moments, lens, aspect, {}, shown);
+    if (view.camera) view.camera->found = scene::FoundCamera::camera;
   }
 }
 
@@ -99,6 +154,34 @@ void resolve_ranges(scene::Scene& scene, std::size_t particle_count) {
       view.smoke.range = automatic_range(scene, view.smoke.field);
     if (scene::shows_slice(view)) resolve_slice(scene, view.slice);
     if (scene::has_layer(view, scene::Layer::plots)) resolve_plot_ranges(scene, view.plots);
+  }
+}
+
+void reopen(scene::Scene& scene, const std::vector<scene::Override>& changes) {
+  const auto any = [&](const std::string& address) {
+    return std::any_of(changes.begin(), changes.end(),
+                       [&](const scene::Override& change) { return is_in(change, address); });
+  };
+  if (scene.camera) {
+    reopen(*scene.camera, "camera", changes);
+    if (scene.camera->found != scene::FoundCamera::nothing && any("output.size"))
+      scene.camera = without_place(*scene.camera);
+  }
+  for (std::size_t k = 0; k < scene.views.size(); ++k) {
+    scene::View& view = scene.views[k];
+    const std::string name = "view." + view.name + ".", number = fmt::format("view.{}.", k + 1);
+    const auto is_set = [&](const std::string& key) {
+      return any(name + key) || any(number + key);
+    };
+    reopen_values(view, is_set);
+    if (!view.camera) continue;
+    for (const std::string& at : {name, number}) reopen(*view.camera, at + "camera", changes);
+    if (view.camera->found == scene::FoundCamera::nothing) continue;
+    const bool is_turned = is_set("size") || is_set("slice") || any("output.size");
+    if (view.camera->found == scene::FoundCamera::camera && (is_turned || any("camera")))
+      view.camera.reset();
+    else if (is_turned)
+      view.camera = without_place(*view.camera);
   }
 }
 

@@ -1,6 +1,10 @@
 #pragma once
 /// Fills in the automatic values of a scene, so that the scene alone makes the picture again.
 
+#include <cstddef>
+#include <vector>
+
+#include "app/scene/override.h"
 #include "app/scene/scene.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/plan.h"
@@ -11,6 +15,11 @@ namespace neve::app::setup {
 /// Cameras without a place and ranges that are "auto". They depend on the scene alone.
 /// @param particle_count of the whole scene
 void resolve(scene::Scene& scene, std::size_t particle_count);
+
+/// Of the scene of a run or a picture, which is resolved: leaves open again what neve found of
+/// cameras, ranges and points where changes are of what it followed from, and does not say it.
+/// @param changes  that the scene has already
+void reopen(scene::Scene& scene, const std::vector<scene::Override>& changes);
 
 /// True if a camera of the scene has no place yet.
 bool needs_framing(const scene::Scene& scene);

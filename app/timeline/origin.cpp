@@ -16,6 +16,7 @@
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/setup/curves.h"
+#include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
@@ -102,8 +103,10 @@ void read_picture(const Edits& edits, Origin& origin) {
   read_scene(
       edits,
       [&](const std::vector<scene::Override>& changes) {
-        return scene::read_scene_text(record.scene, origin.scene_file + " (its scene)", {},
-                                      changes);
+        scene::Scene again =
+            scene::read_scene_text(record.scene, origin.scene_file + " (its scene)", {}, changes);
+        setup::reopen(again, changes);
+        return again;
       },
       origin);
   const int last = edits.is_start_only ? 0
@@ -187,6 +190,7 @@ void read_run(const Edits& edits, Origin& origin) {
     const std::string place = file.string() + " (its scene)";
     const auto undrawn = run.value("undrawn", std::string());
     origin.scene = scene::read_with_undrawn(text, undrawn, place, changes);
+    setup::reopen(origin.scene, changes);
     origin.changes = changes_of_run(run, file);
     origin.overrides = run.value("overrides", std::vector<std::string>{});
     origin.overrides.insert(origin.overrides.end(), edits.overrides.begin(), edits.overrides.end());

@@ -171,6 +171,63 @@ keyframes = [{ time = 0 }, { time = 0.2, rotation = [0, 0, 40] }]
   }
 }
 
+/// A scene that was resolved says what neve found, so that changes of it reach as far as changes of
+/// the scene that was written.
+TEST(Reopened, ChangesOfAResolvedSceneGiveWhatTheyGiveTheSceneItself) {
+  const std::string text = std::string(drop) + R"(
+name = "floor"
+[[body]]
+name = "other"
+shape = { sphere = { center = [1.5, 0.5, 0], radius = 0.1 } }
+[[view]]
+name = "wide"
+layers = ["particles"]
+particles = { color_by = "pressure" }
+[[view]]
+name = "square"
+size = [300, 300]
+layers = ["particles", "smoke"]
+smoke = { field = "density" }
+[[view]]
+name = "plane"
+layers = ["arrows", "heatmap"]
+[[view]]
+name = "lens"
+camera = { fov = 50 }
+layers = ["particles"]
+)";
+  const auto resolved = [](const std::string& from, const std::vector<std::string>& flags) {
+    const std::vector<scene::Override> changes = scene::parse_overrides(flags);
+    scene::Scene scene = scene::read_scene_text(from, "drop.toml", {}, changes);
+    setup::reopen(scene, changes);
+    setup::resolve(scene, 1000);
+    return scene::write_scene(scene);
+  };
+  const std::string plain = resolved(text, {});
+  const std::vector<std::vector<std::string>> all = {
+      {},
+      {"camera.fov=60"},
+      {"camera.follow=other"},
+      {"camera.orbit=90"},
+      {"camera.push_in=true"},
+      {"view.wide.particles.color_by=speed"},
+      {"view.wide.particles.color_by=speed", "view.wide.particles.range=[0, 7]"},
+      {"view.1.particles.color_by=J_P"},
+      {"view.square.smoke.field=speed", "view.square.size=[200, 400]"},
+      {"view.wide.size=[200, 400]"},
+      {"output.size=[400, 400]"},
+      {"view.plane.slice.scalar=pressure", "view.plane.slice.field=force"},
+      {"view.plane.slice.normal=[1, 0, 0]"},
+      {"view.plane.slice.follow=other"},
+      {"view.lens.camera.fov=20"},
+      {"camera.eye=[0, 1, 3]", "camera.target=[0, 0, 0]"},
+      {"view.square.camera.eye=[0, 1, 3]", "view.square.camera.target=[0, 0, 0]"},
+  };
+  for (const std::vector<std::string>& flags : all)
+    EXPECT_EQ(resolved(plain, flags), resolved(text, flags))
+        << (flags.empty() ? "no change" : flags[0]);
+}
+
 TEST(DryRun, DryRunCoversTheWholeScene) {
   const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
   const std::vector<app::setup::CoarseMoment> moments = app::setup::coarse_run(scene);

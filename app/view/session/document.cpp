@@ -129,6 +129,7 @@ std::shared_ptr<const scene::Scene> Document::read(
   std::vector<std::string> set = scene::coarsen(scene, std::max(1.0, coarsening_));
   if (set_by_coarsening) *set_by_coarsening = std::move(set);
   add_built_in_views(scene);
+  setup::reopen(scene, with(edits));
   if (camera_) {
     if (!scene.camera) scene.camera = camera_;
     place(*camera_, *scene.camera);
