@@ -161,11 +161,11 @@ TEST_F(CardSubjects, AreNotMoreThanAPictureHolds) {
 TEST(Cards, AnExperimentThatDivergesSaysSo) {
   Subject subject = subject_of(preset_snow(Preset::paper));
   subject.solver.acoustic_cfl = 3;
-  const Experiment pressed = press(subject);
+  const Experiment pressed = press(subject), torn = tear(subject), sheared = shear(subject);
   EXPECT_NE(pressed.failure.find("diverged"), std::string::npos) << pressed.failure;
   EXPECT_FALSE(pressed.shown.particles.x.empty()) << "it has a picture all the same";
   // What did not end is no verdict.
-  for (const Experiment& stopped : {drop(subject), column(subject)}) {
+  for (const Experiment& stopped : {drop(subject), column(subject), pressed, torn, sheared}) {
     ASSERT_NE(stopped.failure, "");
     EXPECT_TRUE(stopped.words.empty()) << stopped.words.front();
     EXPECT_FALSE(stopped.measures.empty());
