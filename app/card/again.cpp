@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <stdexcept>
 
 #include "app/output/atomic_file.h"
 #include "app/output/sequence.h"
@@ -10,6 +11,7 @@
 #include "app/record/picture_record.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
+#include "app/setup/curves.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
@@ -32,16 +34,12 @@ Source source_of(const Json& json, const timeline::Origin& origin,
   source.origin.scene =
       scene::read_scene_text(json.at("scene").get<std::string>(), file + " (its scene)", {},
                              scene::parse_overrides(overrides));
+  setup::refuse_followers(source.origin.scene, scene::parse_overrides(overrides));
   record::require_listed(*origin.picture, source.origin.scene, file);
   source.name = json.at("name").get<std::string>();
   if (!output::is_plain_name(source.name)) throw std::runtime_error("it has no plain name");
-  const auto name = json.at("material").get<std::string>();
-  const scene::Scene& scene = source.origin.scene;
-  const auto material = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                     [&](const sim::Material& m) { return m.name == name; });
-  if (material == scene.materials.end()) throw std::runtime_error("its scene has no " + name);
-  source.subject = {line_text(json.at("title").get<std::string>()), *material, scene.solver,
-                    scene.seed};
+  source.subject = subject_at_start(source.origin.scene, json.at("material").get<std::string>(),
+                                    line_text(json.at("title").get<std::string>()));
   return source;
 }
 

@@ -18,8 +18,10 @@ struct Slope {
   std::vector<double> strain, stress;
 
   void add(double e, double s) { strain.push_back(e), stress.push_back(s); }
-  /// Stress per strain over the strains up to the largest, by least squares through the origin.
+  /// Stress per strain over the strains up to the largest, by least squares through the origin; no
+  /// number of snow that was not strained so far.
   double value(double largest) const {
+    if (strain.empty() || !(*std::ranges::max_element(strain) >= largest)) return NAN;
     double product = 0, square = 0;
     for (std::size_t k = 0; k < strain.size() && strain[k] <= largest; ++k)
       if (strain[k] > 0.1 * largest) {
@@ -118,8 +120,9 @@ Experiment press(const Subject& subject) {
     e.words.push_back("bears " + pressure_text(*stress) + " at 20 %");
   else if (!e.y.empty())
     e.words.push_back("bears " + pressure_text(e.y.back()) + " at " + percent_text(e.x.back()));
-  e.words.push_back(modulus_words(e.measures.front()));
+  if (std::isfinite(e.measures.front().value)) e.words.push_back(modulus_words(e.measures.front()));
   if (e.value("yield_strain")) e.words.push_back("yields at " + percent_text(yields_at));
+  if (plates.has_diverged()) withdraw(e);
   return e;
 }
 
@@ -152,18 +155,20 @@ Experiment tear(const Subject& subject) {
   if (!has_strength) strength = strain_there = work = 0;
   const bool tears = !e.y.empty() && e.y.back() < 0.5 * strength;
   // What does not tear bears more than was pulled: its strength and work are not known.
-  const bool is_known = tears || !has_strength;
+  const bool has_ended = e.failure.empty(), is_known = tears || (!has_strength && has_ended);
   e.measures = {{"strength", is_known ? strength : NAN,
                  formula(elastic_stress(m, stretched(yield.value_or(0)))(1, 1))},
                 {"stretch_at_strength", is_known ? strain_there : NAN, yield},
                 {"work", is_known ? work : NAN}};
-  e.words.push_back(!has_strength
-                        ? "bears no tension"
-                        : (tears ? "tears at " : "bears at least ") + pressure_text(strength));
+  if (has_strength)
+    e.words.push_back((tears ? "tears at " : "bears at least ") + pressure_text(strength));
+  else if (has_ended)
+    e.words.push_back("bears no tension");
   if (has_strength && tears) {
     e.words.push_back("stretched by " + percent_text(strain_there));
     e.words.push_back("work " + rough_text(work) + " J/m\u00b2");
   }
+  if (plates.has_diverged()) withdraw(e);
   return e;
 }
 
@@ -204,14 +209,21 @@ Experiment shear(const Subject& subject) {
     normal_sum -= sample.stress.y();
   }
   plates.show();
-  e.measures = {{"strength", strength}, {"pressure", pressure}};
+  // What never yields bears more the further it is sheared: the stress at the end is no strength,
+  // and no friction.
+  const bool is_known = yield && e.failure.empty(), is_pressed = !e.x.empty();
+  e.measures = {{"strength", is_known ? strength : NAN}, {"pressure", is_pressed ? pressure : NAN}};
   if (!yield || *yield > no_elasticity)
     e.measures.push_back({"modulus", slope.value(linear_up_to(yield)), lame.mu});
-  if (shear_sum > 0 && normal_sum > 0) e.measures.push_back({"friction", shear_sum / normal_sum});
-  e.words.push_back("bears " + pressure_text(strength));
-  if (e.value("modulus")) e.words.push_back(modulus_words(e.measures[2]));
-  if (const auto friction = e.value("friction"))
-    e.words.push_back("friction " + rough_text(*friction) + " at last");
+  if (!is_known || (shear_sum > 0 && normal_sum > 0))
+    e.measures.push_back({"friction", is_known ? shear_sum / normal_sum : NAN});
+  if (is_known || strength > 0)
+    e.words.push_back((is_known ? "bears " : "bears at least ") + pressure_text(strength));
+  if (std::isfinite(e.value("modulus").value_or(NAN)))
+    e.words.push_back(modulus_words(e.measures[2]));
+  if (const double friction = e.value("friction").value_or(NAN); std::isfinite(friction))
+    e.words.push_back("friction " + rough_text(friction) + " at last");
+  if (plates.has_diverged()) withdraw(e);
   return e;
 }
 

@@ -40,6 +40,8 @@ class Plates {
   bool next(PlateSample& sample);
   /// Keeps the present state for the picture.
   void show();
+  /// What was measured before is no verdict then: snow bursts before the watch says so.
+  bool has_diverged() const { return simulation_->divergence().has_value(); }
 
  private:
   void add_motions(const std::vector<PlateMotion>& motions, const sim::Vec3d& from);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "app/advice/suggest.h"
 #include "app/card/again.h"
@@ -44,10 +47,9 @@ void add_sources(const timeline::Origin& origin, const std::string& title,
     };
     if (!is_in(options.materials.empty() ? used : options.materials)) continue;
     const bool is_alone = used.size() == 1 && options.materials.empty();
-    sources.push_back({{is_alone ? title : title + ": " + material.name, material,
-                        origin.scene.solver, origin.scene.seed},
-                       title,
-                       origin});
+    sources.push_back({subject_at_start(origin.scene, material.name,
+                                        is_alone ? title : title + ": " + material.name),
+                       title, origin});
   }
 }
 
@@ -87,6 +89,14 @@ void check_names(const CardOptions& options, const std::vector<timeline::Origin>
 
 }  // namespace
 
+Subject subject_at_start(const scene::Scene& scene, const std::string& material,
+                         const std::string& title) {
+  const scene::Scene start = setup::with_curves(scene, 0);
+  const auto found = std::ranges::find(start.materials, material, &sim::Material::name);
+  if (found == start.materials.end()) throw std::runtime_error("its scene has no " + material);
+  return {title, *found, start.solver, start.seed};
+}
+
 std::vector<Source> sources_of(const CardOptions& options) {
   timeline::Edits edits{options.overrides};
   edits.agreement = options.is_agreed ? timeline::Agreement::given : timeline::Agreement::asked;
@@ -104,8 +114,7 @@ std::vector<Source> sources_of(const CardOptions& options) {
     if (!cards.empty()) continue;
     origins.push_back(origin);
     scene::Scene& scene = origins.back().scene;
-    scene = setup::with_curves(
-        timeline::with_changes(scene, timeline::changes_of(scene, origin.changes)), 0);
+    scene = timeline::with_changes(scene, timeline::changes_of(scene, origin.changes));
     titles.push_back(origins.back().name());
   }
   for (const scene::Preset preset : options.presets) {

@@ -115,7 +115,7 @@ void check_copy(const scene::Scene& scene, const forecast::Forecast& foreseen,
 }
 
 double dust_steps(const scene::Scene& scene, double speed, int frames) {
-  if (!scene::dusty_material(scene)) return 0;
+  if (!scene::dusty_material(scene) && !scene::has_spray_drag(scene)) return 0;
   return frames *
          sim::dust_steps_of_frame(scene.solver.dust, scene.solver.cell_size, speed, 1 / scene.fps);
 }

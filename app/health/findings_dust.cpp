@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
+#include "app/setup/curves.h"
 #include "app/support/text.h"
 
 namespace neve::app::health {
@@ -27,7 +30,7 @@ void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& f
   const sim::Material* dusty = scene::dusty_material(scene);
   if (!dusty) {
     const std::string hint = "material." + scene.materials.front().name + ".dust = 0.02";
-    if (d != sim::DustSettings{} && d.spray_drag == 0)
+    if (d != sim::DustSettings{} && !scene::has_spray_drag(scene))
       findings.push_back(
           {Severity::warning, "dust", "it has no effect: no snow of the scene sheds dust", hint});
     for (const scene::Export& e : scene.exports)
@@ -37,6 +40,7 @@ void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& f
     return;
   }
   const std::string address = "material." + dusty->name + ".dust";
+  const scene::Curve* curve = setup::curve_of(scene, address);
   if (speed + d.wind.norm() <= d.speed)
     findings.push_back(
         {Severity::warning, "dust.speed",
@@ -57,9 +61,9 @@ void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& f
       {Severity::note, address,
        fmt::format("up to {} particles of dust, and the air around them, take time beside the snow",
                    about_count_text(d.particles)),
-       "material." + dusty->name +
-           (d.spray_drag > 0 ? ".dust = 0 and dust.spray_drag = 0 are snow without air"
-                             : ".dust = 0 is the same snow without it")});
+       (curve ? "curve." + curve->name + ".keyframes of 0" : address + " = 0") +
+           (scene::has_spray_drag(scene) ? " and dust.spray_drag = 0 are snow without air"
+                                         : " is the same snow without it")});
 }
 
 }  // namespace neve::app::health

@@ -3,9 +3,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/health/findings.h"
 #include "app/scene/toml/value.h"
@@ -74,6 +77,22 @@ void check_thresholds(const sim::Material& m, std::vector<Finding>& findings) {
     add("critical_compression", m.critical_compression, "snow never packs");
 }
 
+/// Snow may begin packed; grains may not, and their first step takes a J_P below 1 for 1.
+template <class Thing>
+void check_packing_of_grains(const scene::Scene& scene, const std::string& address,
+                             const Thing& thing, std::vector<Finding>& findings) {
+  const auto material = std::ranges::find(scene.materials, thing.material, &sim::Material::name);
+  if (!(thing.J_P < 1) || material == scene.materials.end() ||
+      !sim::laws::of(*material).is_granular)
+    return;
+  findings.push_back(
+      {Severity::warning, address + ".J_P",
+       fmt::format("{} is never packed: {} puts {} times its mass into the same space, and counts "
+                   "as 1 from the first step on",
+                   material->name, number_text(thing.J_P), rough_text(1 / thing.J_P)),
+       fmt::format("{}.J_P = 1; material.{}.density makes it denser", address, material->name)});
+}
+
 void check_camera_angles(const std::string& address, const scene::CameraSettings& camera,
                          double duration, std::vector<Finding>& findings) {
   if (camera.turntable && *camera.turntable >= 90 && std::fmod(*camera.turntable, 90) == 0 &&
@@ -117,6 +136,10 @@ void check_senses(const scene::Scene& scene, std::vector<Finding>& findings) {
   check_things(scene.bodies, "body");
   check_things(scene.emitters, "emitter");
   check_things(scene.colliders, "collider");
+  for (const sim::seeding::Body& body : scene.bodies)
+    check_packing_of_grains(scene, "body." + body.name, body, findings);
+  for (const sim::seeding::Emitter& emitter : scene.emitters)
+    check_packing_of_grains(scene, "emitter." + emitter.name, emitter, findings);
   const double duration = scene::duration(scene);
   if (scene.camera) check_camera_angles("camera", *scene.camera, duration, findings);
   for (const scene::View& view : scene.views)

@@ -213,12 +213,14 @@ std::optional<Idle> idle_in_collider(const scene::Collider& collider, const std:
   return std::nullopt;
 }
 
-/// Snow that a curve makes dusty is dusty.
-bool sheds_dust(const scene::Scene& scene) {
-  return scene::dusty_material(scene) ||
-         std::ranges::any_of(scene.curves, [](const scene::Curve& curve) {
-           return curve.parameter.starts_with("material.") && curve.parameter.ends_with(".dust");
-         });
+/// Of the dust, where no snow sheds any: drag of spray acts, and so does what moves its air.
+std::optional<Idle> idle_in_dust(const scene::Scene& scene, const std::string& key) {
+  const bool is_of_air = key == "wind" || key == "air_cell" || key == "speed";
+  if (key == "spray_drag" || scene::dusty_material(scene) ||
+      (is_of_air && scene::has_spray_drag(scene)))
+    return std::nullopt;
+  return Idle{"no snow of the scene sheds dust",
+              "material." + scene.materials.front().name + ".dust = 0.02"};
 }
 
 std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& address) {
@@ -233,9 +235,7 @@ std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& addres
   for (const scene::Collider& collider : scene.colliders)
     if (const std::string key = key_in("collider." + collider.name + "."); !key.empty())
       return idle_in_collider(collider, key);
-  if (address.starts_with("dust.") && !sheds_dust(scene))
-    return Idle{"no snow of the scene sheds dust",
-                "material." + scene.materials.front().name + ".dust = 0.02"};
+  if (const std::string key = key_in("dust."); !key.empty()) return idle_in_dust(scene, key);
   return std::nullopt;
 }
 
@@ -266,7 +266,8 @@ void check_switched_off(const scene::Scene& scene, double coarsening,
                         std::vector<Finding>& findings) {
   for (const scene::FlatParam& param : scene::flatten(scene)) {
     if (is_usual(scene, param, coarsening) || setup::curve_of(scene, param.address)) continue;
-    if (param.address.starts_with("dust.")) continue;  // told with the dust
+    if (param.address.starts_with("dust.") && !scene::has_spray_drag(scene))
+      continue;  // check_dust() tells all of it at once
     if (is_set_by_preset(scene, param.address)) continue;
     if (const std::optional<Idle> idle = idle_at(scene, param.address))
       findings.push_back(

@@ -16,6 +16,7 @@
 #include "app/record/run_json.h"
 #include "app/run/identity.h"
 #include "app/scene/check.h"
+#include "app/scene/coarsen.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
@@ -223,10 +224,9 @@ void warn_of_other_states(const Json& exports, const Kept& kept, Progress& progr
 
 /// Files of dust that nothing raises are empty, whatever their header says.
 void warn_of_no_dust(const scene::Scene& scene, Progress& progress) {
-  if (std::ranges::any_of(scene.exports, &scene::Export::dust) &&
-      std::ranges::none_of(scene.materials, [](const sim::Material& m) { return m.dust > 0; }))
+  if (std::ranges::any_of(scene.exports, &scene::Export::dust) && !scene::dusty_material(scene))
     progress.warning(
-        "--dust: no material of the scene gives off dust, and the files hold none; set "
+        "--dust: no snow of the scene sheds dust, and the files hold none; set "
         "material.NAME.dust, as in --set material." +
         scene.materials.front().name + ".dust=0.01");
 }

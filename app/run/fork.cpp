@@ -2,6 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/scene/flat.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
@@ -24,24 +29,26 @@ scene::Scene with_all_changes(const RenderJob& job) {
   return timeline::with_changes(job.scene, timeline::changes_of(job.scene, job.changes));
 }
 
-/// The numbers that a preset sets and that can change while a run runs; others stay, with a note.
+/// The numbers that presets set and that can change while a run runs; others stay, with a note.
+/// They come first, as where a scene is read: wherever a single number is set beside a preset, the
+/// number counts, and a curve has the word over both.
 void take_live_numbers(const scene::Scene& before, Fork& fork) {
+  const auto beside = std::ranges::stable_partition(
+      fork.changes, [](const scene::Override& o) { return scene::is_preset_address(o.address); });
+  const std::vector<scene::Override> presets(fork.changes.begin(), beside.begin());
   std::vector<scene::Override> changes;
-  for (const scene::Override& change : fork.changes) {
-    if (!scene::is_preset_address(change.address)) {
-      changes.push_back(change);
-      continue;
-    }
-    for (const scene::Difference& number :
-         scene::differences(before, scene::apply(before, {change}, "the scene"))) {
-      if (number.is_live)
-        changes.push_back({number.address, scene::toml::toml_literal(*number.after)});
-      else
-        fork.notes.push_back(fmt::format("{} stays {}: it cannot change while a simulation runs",
-                                         number.address,
-                                         scene::toml::toml_literal(*number.before)));
-    }
+  for (const scene::Difference& number :
+       scene::differences(before, scene::apply(before, presets, "the scene"))) {
+    if (const scene::Curve* curve = setup::curve_of(before, number.address))
+      fork.notes.push_back(fmt::format("{} is not of the preset: it follows its curve {}",
+                                       number.address, curve->name));
+    else if (number.is_live)
+      changes.push_back({number.address, scene::toml::toml_literal(*number.after)});
+    else
+      fork.notes.push_back(fmt::format("{} stays {}: it cannot change while a simulation runs",
+                                       number.address, scene::toml::toml_literal(*number.before)));
   }
+  changes.insert(changes.end(), beside.begin(), beside.end());
   fork.changes = std::move(changes);
 }
 

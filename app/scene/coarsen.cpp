@@ -89,6 +89,14 @@ bool has_thresholds(const Scene& scene) {
                      [](const sim::Material& m) { return sim::laws::of(m).is_snow; });
 }
 
+/// A number that may be 0, and follows its curve where it has one, whatever the scene sets it to.
+bool is_ever_positive(const Scene& scene, const std::string& address, double value) {
+  const auto curve = std::ranges::find(scene.curves, address, &Curve::parameter);
+  if (curve == scene.curves.end() || curve->keyframes.empty()) return value > 0;
+  return std::ranges::any_of(curve->keyframes,
+                             [](const CurveKeyframe& key) { return key.value.value_or(0) > 0; });
+}
+
 }  // namespace
 
 std::vector<std::string> coarsen(Scene& scene, double factor) {
@@ -109,7 +117,12 @@ std::vector<std::string> coarsen(Scene& scene, double factor) {
 }
 
 Scene without_dust(Scene scene) {
-  for (sim::Material& material : scene.materials) material.dust = 0;
+  for (sim::Material& material : scene.materials) {
+    material.dust = 0;
+    std::erase_if(scene.curves, [&](const Curve& curve) {
+      return curve.parameter == "material." + material.name + ".dust";
+    });
+  }
   return scene;
 }
 
@@ -128,8 +141,14 @@ std::vector<sim::Material> materials_of_snow(const Scene& scene) {
 
 const sim::Material* dusty_material(const Scene& scene) {
   for (const sim::Material& material : scene.materials)
-    if (material.dust > 0 && has_snow_of(scene, material)) return &material;
+    if (is_ever_positive(scene, "material." + material.name + ".dust", material.dust) &&
+        has_snow_of(scene, material))
+      return &material;
   return nullptr;
+}
+
+bool has_spray_drag(const Scene& scene) {
+  return is_ever_positive(scene, "dust.spray_drag", scene.solver.dust.spray_drag);
 }
 
 void refine_settings(Scene& scene, double factor) {

@@ -26,8 +26,11 @@ Scene without_dust(Scene scene);
 bool has_snow_of(const Scene& scene, const sim::Material& material);
 /// Those of bodies and emitters; of a scene without any, all.
 std::vector<sim::Material> materials_of_snow(const Scene& scene);
-/// A material of bodies or emitters that sheds dust; null: none does.
+/// A material of bodies or emitters that sheds dust, or that a curve makes shed it; null: none
+/// does. Check: DustScene.CurvesMakeAndEndIt
 const sim::Material* dusty_material(const Scene& scene);
+/// Whether air brakes loose snow at some time, which it does in runs without dust too.
+bool has_spray_drag(const Scene& scene);
 
 /// The scene with the numbers that its file and --set take, for panels and messages: coarsen with
 /// the same factor gives it back, within rounding.

@@ -218,9 +218,14 @@ double collider_memory(const scene::Scene& scene) {
   return bytes;
 }
 
-/// Where snow of the scene sheds dust.
+/// Of dust and the air around it; spray that feels the air has air alone.
 double dust_memory(const scene::Scene& scene) {
-  return scene::dusty_material(scene) ? sim::max_dust_memory(scene.solver.dust) : 0;
+  sim::DustSettings dust = scene.solver.dust;
+  if (!scene::dusty_material(scene)) {
+    if (!scene::has_spray_drag(scene)) return 0;
+    dust.particles = 0;
+  }
+  return sim::max_dust_memory(dust);
 }
 
 }  // namespace

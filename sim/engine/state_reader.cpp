@@ -161,12 +161,13 @@ std::uint64_t StateReader<Real>::state_hash() const {
 }
 
 template <class Real>
-Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
+typename StateReader<Real>::Sums StateReader<Real>::sum_of(std::size_t begin,
+                                                           std::size_t end) const {
   const Method<Real>& method = state_.method;
   const bool has_C = method.settings.has_affine_velocity();
   const double inertia = method.affine_inertia();
   const std::vector<kernels::Particle<Real>>& records = state_.particles.records;
-  Summary s;
+  Sums s;
   std::array<double, 4> elastic_energy{};
   for (std::size_t q = begin; q < end; ++q) {
     const kernels::Particle<Real>& p = records[q];
@@ -192,10 +193,13 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
     s.max_speed = std::max(s.max_speed, v.norm());
     s.min_J_P = q == begin ? J_P : std::min(s.min_J_P, J_P);
     s.max_J_P = q == begin ? J_P : std::max(s.max_J_P, J_P);
-    if (J_P <= health::packed_J_P) s.packed += m;
     const Material& material = method.materials[static_cast<std::size_t>(p.material())];
-    const bool packs = laws::of(material).is_snow && laws::counts_volume(material);
-    if (packs && m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
+    if (laws::of(material).is_snow) {
+      s.snow_mass += m;
+      if (J_P <= health::packed_J_P) s.packed += m;
+      const bool is_packing = laws::counts_volume(material);
+      if (is_packing && m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
+    }
   }
   return s;
 }
@@ -203,15 +207,17 @@ Summary StateReader<Real>::sum_of(std::size_t begin, std::size_t end) const {
 template <class Real>
 Summary StateReader<Real>::summary() const {
   const std::size_t count = state_.particles.size();
-  std::vector<Summary> parts(chunks_of(count));
+  std::vector<Sums> parts(chunks_of(count));
   state_.pool->ranges(parts.size(), state_.active_threads(),
                       [&](std::size_t begin, std::size_t end) {
                         for (std::size_t c = begin; c < end; ++c)
                           parts[c] = sum_of(c * chunk, std::min(count, (c + 1) * chunk));
                       });
   Summary all;
+  double snow_mass = 0;
   for (std::size_t c = 0; c < parts.size(); ++c) {
-    const Summary& s = parts[c];
+    const Sums& s = parts[c];
+    snow_mass += s.snow_mass;
     all.mass += s.mass;
     all.kinetic_energy += s.kinetic_energy;
     all.affine_energy += s.affine_energy;
@@ -234,10 +240,10 @@ Summary StateReader<Real>::summary() const {
   all.emitted = state_.progress.flow.emitted;
   all.removed = state_.progress.flow.removed;
   all.withheld = state_.progress.flow.withheld;
-  if (all.mass > 0) {
-    all.centre_of_mass /= all.mass;
-    all.packed /= all.mass;
-    all.denser_than_ice /= all.mass;
+  if (all.mass > 0) all.centre_of_mass /= all.mass;
+  if (snow_mass > 0) {
+    all.packed /= snow_mass;
+    all.denser_than_ice /= snow_mass;
   }
   return all;
 }

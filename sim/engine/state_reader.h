@@ -53,7 +53,10 @@ class StateReader {
 
  private:
   Ranks ranks_among_few() const;
-  Summary sum_of(std::size_t begin, std::size_t end) const;
+  struct Sums : Summary {
+    double snow_mass = 0;  ///< kg
+  };
+  Sums sum_of(std::size_t begin, std::size_t end) const;
   /// Snow at the surfaces of colliders.
   struct AtSurfaces {
     double max_depth = 0;              ///< m, of the deepest particle; 0 where all are outside

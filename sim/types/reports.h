@@ -47,8 +47,8 @@ struct Summary {
   Vec3d momentum{0, 0, 0}, centre_of_mass{0, 0, 0};
   Vec3d angular_momentum{0, 0, 0};  ///< about the lattice origin
   double max_speed = 0, min_J_P = 1, max_J_P = 1;
-  double packed = 0;  ///< share of the mass that is packed as far as health::Law::packed allows
-  double denser_than_ice = 0;  ///< share of the mass, by its density without elastic strain
+  double packed = 0;  ///< share of the mass of snow that is packed as far as Law::packed allows
+  double denser_than_ice = 0;  ///< the same share, by its density without elastic strain
   double max_depth = 0;        ///< m, of the particle that is deepest in a collider
   /// Pa, per collider: the most that snow within a cell of its surface presses on it, -n sigma n
   /// with the Cauchy stress sigma of a particle; 0 where it only pulls.

@@ -1,9 +1,12 @@
 /// Dust in scenes, pictures, exports and run.json.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/exports/columns.h"
 #include "app/exports/encode.h"
@@ -11,6 +14,7 @@
 #include "app/health/findings.h"
 #include "app/picture/frame_builder.h"
 #include "app/record/run_json.h"
+#include "app/scene/coarsen.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/plan.h"
@@ -123,6 +127,53 @@ TEST(DustScene, FindingsSayWhatNobodyWillSee) {
   none.exports.clear();
   none.solver.dust.life = 3;
   EXPECT_NE(findings(none, 6).find("it has no effect"), std::string::npos);
+}
+
+/// Keyframes of the dust of snow, for scenes of the tests.
+std::string curve_of_dust(double from, double to) {
+  return fmt::format(
+      "[[curve]]\nparameter = \"material.snow.dust\"\n"
+      "keyframes = [{{ time = 0, value = {} }}, {{ time = 0.1, value = {} }}]\n",
+      from, to);
+}
+
+TEST(DustScene, CurvesMakeAndEndIt) {
+  const scene::Override none{"material.snow.dust", "0"};
+  const scene::Scene risen = read_dusty(curve_of_dust(0, 0.05), {none}),
+                     ended = read_dusty(curve_of_dust(0, 0));
+  ASSERT_NE(scene::dusty_material(risen), nullptr);
+  EXPECT_EQ(scene::dusty_material(risen)->name, "snow");
+  EXPECT_EQ(scene::dusty_material(ended), nullptr) << "what the scene sets is not used";
+  EXPECT_EQ(scene::dusty_material(scene::without_dust(risen)), nullptr);
+  const auto memory_of = [](const scene::Scene& scene) {
+    return setup::make_plan(scene, {0, 12}, setup::Quality::preview, 1).memory;
+  };
+  EXPECT_EQ(memory_of(risen), memory_of(read_dusty("")));
+  EXPECT_EQ(memory_of(ended), memory_of(read_dusty("", {none})));
+}
+
+TEST(DustScene, DragOfSprayActsWithoutDust) {
+  const std::vector<scene::Override> none{{"material.snow.dust", "0"},
+                                          {"solver.cell_size", "0.05"}};
+  const scene::Scene dragged =
+      read_dusty("[dust]\nspray_drag = 0.15\nwind = [1, 0, 0]\nlife = 3\n", none);
+  for (const char* const acts : {"dust.spray_drag", "dust.wind", "dust.air_cell", "dust.speed"})
+    EXPECT_EQ(health::why_idle(dragged, acts), "") << acts;
+  for (const char* const idle : {"dust.life", "dust.buoyancy", "dust.particles"})
+    EXPECT_NE(health::why_idle(dragged, idle), "") << idle;
+  const scene::Scene still = read_dusty("", none);
+  EXPECT_NE(health::why_idle(still, "dust.wind"), "");
+  EXPECT_EQ(health::why_idle(still, "dust.spray_drag"), "") << "above 0 it acts";
+  const setup::Plan plan = setup::make_plan(dragged, {0, 12}, setup::Quality::preview, 1),
+                    plain = setup::make_plan(still, {0, 12}, setup::Quality::preview, 1);
+  EXPECT_GT(plan.memory, plain.memory) << "of the air";
+  const health::Check check = health::examine(dragged, plan, 1);
+  EXPECT_GE(check.dust_steps, 12);
+  std::string text;
+  for (const health::Finding& finding : check.findings) text += health::sentence(finding) + "\n";
+  EXPECT_EQ(text.find("spray_drag has no effect"), std::string::npos) << text;
+  EXPECT_EQ(text.find("wind has no effect"), std::string::npos) << text;
+  EXPECT_NE(text.find("life has no effect"), std::string::npos) << text;
 }
 
 TEST(DustScene, PlansAndForecastsCountIt) {

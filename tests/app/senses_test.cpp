@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "app/health/findings.h"
 #include "app/scene/read.h"
@@ -63,6 +65,20 @@ TEST(Senses, AMaterialOfNothingIsSaid) {
   expect_only("[material.powder]\npreset = \"powder\"\n",
               "material.powder: no body and no emitter is of powder: its numbers do nothing; "
               "body.ball.material = \"powder\"");
+}
+
+TEST(Senses, GrainsAreNotPacked) {
+  const auto with = [](const std::string& J_P) {
+    return "[material.sand]\nmodel = \"sand\"\ndensity = 1500\n[[body]]\nname = \"heap\"\n"
+           "material = \"sand\"\nshape = { sphere = { center = [1, 0, 0], radius = 0.1 } }\nJ_P "
+           "= " +
+           J_P + "\n";
+  };
+  expect_only(with("0.8"),
+              "body.heap.J_P: sand is never packed: 0.8 puts 1.25 times its mass into the same "
+              "space, and counts as 1 from the first step on; body.heap.J_P = 1; "
+              "material.sand.density makes it denser");
+  EXPECT_TRUE(senses_of(with("1.2")).empty()) << "loose";
 }
 
 TEST(Senses, UsualNumbersGetNoWord) {

@@ -124,6 +124,34 @@ TEST_F(CardSubjects, OfAPictureAreThoseThatItShows) {
   }
 }
 
+/// A picture carries the scene as it was written: its curves, and what it sets beside them.
+TEST_F(CardSubjects, OfAPictureFollowItsCurves) {
+  folder.write("curve.toml", R"(
+[material.snow]
+youngs_modulus = 1e5
+[[body]]
+shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
+[[curve]]
+parameter = "material.snow.youngs_modulus"
+keyframes = [{ time = 0, value = 2e4 }, { time = 1, value = 3e4 }]
+)");
+  options.scenes = {(folder.path() / "curve.toml").string()};
+  const std::vector<Source> made = sources_of(options);
+  EXPECT_EQ(made.front().subject.material.youngs_modulus, 2e4);
+  const neve::render::Image pixel{1, 1, 3, {0, 0, 0}};
+  neve::app::output::write_file(folder / "card.png",
+                                neve::render::encode_png(pixel, texts_of(made)));
+  options.scenes = {(folder.path() / "card.png").string()};
+  const auto stiffness_with = [&](const std::string& change) {
+    options.overrides = {change};
+    return sources_of(options).front().subject.material.youngs_modulus;
+  };
+  EXPECT_EQ(stiffness_with("material.snow.hardening=3"), 2e4);
+  EXPECT_EQ(stiffness_with("curve.1.keyframes=[{time=0,value=2e3}]"), 2e3);
+  EXPECT_EQ(stiffness_with("curve.1=none"), 1e5);
+  EXPECT_THROW(stiffness_with("material.snow.youngs_modulus=1e6"), UsageError);
+}
+
 TEST_F(CardSubjects, AreNotMoreThanAPictureHolds) {
   options.presets.assign(9, Preset::wet);
   EXPECT_THROW(sources_of(options), UsageError);
@@ -133,11 +161,11 @@ TEST_F(CardSubjects, AreNotMoreThanAPictureHolds) {
 TEST(Cards, AnExperimentThatDivergesSaysSo) {
   Subject subject = subject_of(preset_snow(Preset::paper));
   subject.solver.acoustic_cfl = 3;
-  const Experiment pressed = press(subject);
+  const Experiment pressed = press(subject), torn = tear(subject), sheared = shear(subject);
   EXPECT_NE(pressed.failure.find("diverged"), std::string::npos) << pressed.failure;
   EXPECT_FALSE(pressed.shown.particles.x.empty()) << "it has a picture all the same";
   // What did not end is no verdict.
-  for (const Experiment& stopped : {drop(subject), column(subject)}) {
+  for (const Experiment& stopped : {drop(subject), column(subject), pressed, torn, sheared}) {
     ASSERT_NE(stopped.failure, "");
     EXPECT_TRUE(stopped.words.empty()) << stopped.words.front();
     EXPECT_FALSE(stopped.measures.empty());

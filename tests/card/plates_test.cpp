@@ -99,6 +99,15 @@ TEST(CardTear, SandBearsNoTensionAndElasticLawsDoNotTear) {
   EXPECT_TRUE(stretched.words.front().starts_with("bears at least ")) << stretched.words.front();
 }
 
+TEST(CardShear, WhatNeverYieldsHasNoStrengthAndNoFriction) {
+  const Experiment sheared = shear(subject_of(elastic(0.2)));
+  for (const char* name : {"strength", "friction"})
+    EXPECT_TRUE(std::isnan(value(sheared, name))) << name << ": it bears more";
+  EXPECT_TRUE(sheared.words.front().starts_with("bears at least ")) << sheared.words.front();
+  EXPECT_EQ(sheared.words.size(), 2u) << sheared.words.back();
+  EXPECT_GT(value(sheared, "modulus"), 0);
+}
+
 /// Below 0.6 % of shear strain the law is linear to 1e-4; the rest is waves and the plate's start.
 TEST(CardShear, TheShearHasTheShearModulus) {
   for (const Material& m : {elastic(0.2), elastic(0.4), preset_snow(Preset::wet),

@@ -151,10 +151,18 @@ TEST_F(DustRun, ExportWritesPointsAndVolumesWithoutARun) {
       neve({"export", "dusty.toml", "--at", "0.2s", "--dust", "--surface", "--format", "ply"});
   EXPECT_EQ(refused.exit_code, 2) << refused.errors;
   EXPECT_TRUE(contains(refused.errors, "dust has no surface")) << refused.errors;
-  EXPECT_FALSE(contains(exported.errors, "gives off dust")) << exported.errors;
+  EXPECT_FALSE(contains(exported.errors, "sheds dust")) << exported.errors;
   const auto none = neve({"export", "dusty.toml", "--at", "0s", "--dust", "--format", "csv",
                           "--set", "material.snow.dust=0", "--out", "none"});
-  EXPECT_TRUE(contains(none.errors, "no material of the scene gives off dust")) << none.errors;
+  EXPECT_TRUE(contains(none.errors, "no snow of the scene sheds dust")) << none.errors;
+  folder.write("by_curve.toml", std::string(dusty_scene) +
+                                    "[[curve]]\nparameter = \"material.snow.dust\"\n"
+                                    "keyframes = [{ time = 0, value = 0 }, { time = 0.1, value = "
+                                    "0.02 }]\n");
+  const auto by_curve = neve(
+      {"export", "by_curve.toml", "--at", "0s", "--dust", "--format", "csv", "--out", "by_curve"});
+  EXPECT_EQ(by_curve.exit_code, 0) << by_curve.errors;
+  EXPECT_FALSE(contains(by_curve.errors, "sheds dust")) << by_curve.errors;
 }
 
 }  // namespace

@@ -250,6 +250,47 @@ TEST_F(Fork, OnlyWhatMayChangeInARunIsTaken) {
   EXPECT_TRUE(contains(negative.errors, "as in --from 0.25s")) << negative.errors;
 }
 
+/// As where a run starts, in either order.
+TEST_F(Fork, ANumberBesideAPresetCounts) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const std::string number = "material.snow.hardening=4", preset = "material.snow.preset=wet";
+  const auto hardening_with = [&](const std::vector<std::string>& changes, const std::string& out) {
+    std::vector<std::string> words{"a", "--from", "0.1", "--out", out};
+    for (const std::string& change : changes) words.insert(words.end(), {"--set", change});
+    const auto done = render(words);
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    std::string hardening;
+    const app::Json run = json_of(out + "/run.json");
+    for (const app::Json& change : run["changes"])
+      if (change["address"] == "material.snow.hardening") hardening = change["value"];
+    return hardening;
+  };
+  EXPECT_EQ(hardening_with({number, preset}, "first"), "4");
+  EXPECT_EQ(hardening_with({preset, number}, "last"), "4");
+  EXPECT_EQ(hardening_with({preset}, "alone"), "5");
+}
+
+/// The curve has the word over a preset, which sets other numbers too.
+TEST_F(Fork, APresetLeavesANumberToItsCurve) {
+  folder.write("soft.toml", std::string(tiny_scene) +
+                                "[[curve]]\nname = \"soft\"\n"
+                                "parameter = \"material.snow.youngs_modulus\"\n"
+                                "keyframes = [{ time = 0, value = 1e5 }]\n");
+  ASSERT_EQ(render({"soft.toml", "--out", "a"}).exit_code, 0);
+  const auto done =
+      render({"a", "--from", "0.1", "--set", "material.snow.preset=icy", "--out", "b"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_TRUE(
+      contains(done.errors, "youngs_modulus is not of the preset: it follows its curve soft"))
+      << done.errors;
+  std::string changed;
+  const app::Json run = json_of("b/run.json");
+  for (const app::Json& change : run["changes"])
+    changed += change["address"].get<std::string>() + " ";
+  EXPECT_TRUE(contains(changed, "material.snow.hardening")) << changed;
+  EXPECT_FALSE(contains(changed, "youngs_modulus")) << changed;
+}
+
 TEST_F(Fork, ColoursAndCamerasChangeWithoutATraceInTheState) {
   ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
   const auto done = render(

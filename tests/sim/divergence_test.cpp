@@ -103,6 +103,36 @@ TEST(Divergence, SnowWithoutRoomIsFound) {
   EXPECT_NE(d.what.find("of the snow is packed to J_P = 0.1"), std::string::npos) << d.what;
 }
 
+/// However much sand lies beside it.
+TEST(Summary, SharesAreOfTheSnow) {
+  ParticleArrays p = falling_ball(0);
+  const std::size_t snow = p.x.size();
+  for (int copy = 0; copy < 20; ++copy)
+    for (std::size_t k = 0; k < snow; ++k) {
+      p.x.push_back(p.x[k] + Vec3d(2.0 + copy, 0, 0));
+      p.v.push_back(Vec3d::Zero());
+      p.m.push_back(3 * p.m[k]);
+      p.V0.push_back(p.V0[k]);
+    }
+  p.J_P.assign(p.x.size(), 1);
+  p.material.assign(p.x.size(), 1);
+  for (std::size_t k = 0; k < snow; ++k) p.J_P[k] = k < snow / 4 ? 0.1 : 0.9, p.material[k] = 0;
+  const auto summary_of = [&](const ParticleArrays& particles) {
+    Material sand;
+    sand.model = laws::model::sand;
+    sand.density = 1500;
+    return Simulation(with_held_nodes(), {soft_snow(), sand}, floor_plane(), particles, 1)
+        .summary();
+  };
+  const double share = static_cast<double>(snow / 4) / static_cast<double>(snow);
+  const Summary mixed = summary_of(p);
+  EXPECT_NEAR(mixed.packed, share, 1e-6);
+  EXPECT_NEAR(mixed.denser_than_ice, share, 1e-6);
+  p.material.assign(p.x.size(), 1);
+  EXPECT_EQ(summary_of(p).packed, 0);
+  EXPECT_EQ(summary_of(p).denser_than_ice, 0);
+}
+
 /// A plate that moves slowly does work on every step, mostly against stress that slows the nodes
 /// down by more than the plate's speed.
 TEST(Divergence, SlowPressesAreHealthy) {
