@@ -1,9 +1,8 @@
 #include "app/setup/resolve.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "app/setup/auto_camera.h"
 #include "app/setup/auto_ranges.h"
@@ -167,15 +166,12 @@ void reopen(scene::Scene& scene, const std::vector<scene::Override>& changes) {
     if (scene.camera->found != scene::FoundCamera::nothing && any("output.size"))
       scene.camera = without_place(*scene.camera);
   }
-  for (std::size_t k = 0; k < scene.views.size(); ++k) {
-    scene::View& view = scene.views[k];
-    const std::string name = "view." + view.name + ".", number = fmt::format("view.{}.", k + 1);
-    const auto is_set = [&](const std::string& key) {
-      return any(name + key) || any(number + key);
-    };
+  for (scene::View& view : scene.views) {
+    const std::string address = "view." + view.name + ".";
+    const auto is_set = [&](const std::string& key) { return any(address + key); };
     reopen_values(view, is_set);
     if (!view.camera) continue;
-    for (const std::string& at : {name, number}) reopen(*view.camera, at + "camera", changes);
+    reopen(*view.camera, address + "camera", changes);
     if (view.camera->found == scene::FoundCamera::nothing) continue;
     const bool is_turned = is_set("size") || is_set("slice") || any("output.size");
     if (view.camera->found == scene::FoundCamera::camera && (is_turned || any("camera")))
