@@ -168,11 +168,7 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
     }
   for (const output::WrittenFile& file : exporter_.finish()) note_file(file);
   record_.status = status;
-  // A run that ended early has not got further by other pictures of its frames.
-  const std::string before = earlier_ ? earlier_->json.value("status", "") : "";
-  if (is_inside_earlier() && (before == record::name(record::RunStatus::diverged) ||
-                              before == record::name(record::RunStatus::interrupted)))
-    record_.carried_status = before;
+  carry_status();
   bring_to_disk();
   return movies;
 }
@@ -249,11 +245,26 @@ void Ledger::fail(const std::string& error) {
   }
 }
 
-/// True where the frames of this command are some that the run had before.
-bool Ledger::is_inside_earlier() const {
-  return earlier_ && !earlier_->pictures.frames.empty() &&
-         record_.status == record::RunStatus::ok &&
-         scene::number_of(job_.scene, job_.frames.last) <= earlier_->pictures.frames.back().frame;
+/// A run that ended early has not got further by other pictures of its frames.
+void Ledger::carry_status() {
+  using enum record::RunStatus;
+  if (!earlier_ || record_.status != ok) return;
+  const Json& earlier = earlier_->json;
+  const std::string before = earlier.value("status", "");
+  const std::vector<record::FrameRecord>& frames = earlier_->pictures.frames;
+  if (before == record::name(diverged) || earlier.contains("divergence")) {
+    // What draws on diverges again, and says so itself.
+    const int last = scene::number_of(job_.scene, job_.frames.last);
+    if (!frames.empty() && last <= frames.back().frame)
+      record_.carried_status = record::name(diverged);
+    return;
+  }
+  const bool has_all = record::frames_asked(earlier) && !record_.frames.empty() &&
+                       record_.frames.back().frame >= record_.asked->last;
+  if (before == record::name(ok) || has_all) return;
+  // One that was killed had no time to say so.
+  record_.carried_status = before == record::name(running) ? record::name(interrupted) : before;
+  if (before == record::name(failed)) record_.carried["error"] = earlier.value("error", Json());
 }
 
 bool Ledger::is_missing(const std::string& view, int number) const {

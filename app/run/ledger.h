@@ -70,7 +70,7 @@ class Ledger {
   void write_earlier_movies(const std::string& view, std::vector<std::filesystem::path>& movies);
   void forget_unwritten_frames();
   bool is_missing(const std::string& view, int number) const;
-  bool is_inside_earlier() const;
+  void carry_status();
 
   const RenderJob& job_;
   Progress& progress_;

@@ -195,7 +195,8 @@ void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   keep_warnings(earlier, [](const std::string& text) { return !text.starts_with(no_movie); });
 }
 
-/// Those of the command, and those that the run has or was asked for before.
+/// Those of the command, and those that the run has or was asked for before. A run that is resumed
+/// with `--frames` is asked for these: other pictures of its frames ask for no other end.
 record::ViewFrames RenderRun::frames_asked(const std::optional<EarlierRun>& earlier) const {
   const setup::FrameRange ours = setup::numbers_of(job_.scene, frames_);
   record::ViewFrames asked{ours.first, ours.last};
@@ -206,7 +207,7 @@ record::ViewFrames RenderRun::frames_asked(const std::optional<EarlierRun>& earl
   if (const auto& listed = earlier->pictures.frames; !listed.empty())
     join({listed.front().frame, listed.back().frame});
   const auto before = record::frames_asked(earlier->json);
-  if (before && !job_.options.frames) join(*before);
+  if (before && !(job_.options.resume && job_.options.frames)) join(*before);
   return asked;
 }
 

@@ -427,6 +427,51 @@ TEST_F(Addition, AResumedRunHasTheFramesThatItWasAskedFor) {
   EXPECT_EQ(hashes("b").rbegin()->first, 4);
 }
 
+/// They made it "ok" and complete, and it forgot the frames that it lacks.
+TEST_F(Addition, OtherPicturesFinishNoRunThatWasKilledOrFailed) {
+  render({"scene.toml", "--out", "whole", "--no-movie", "--frames", "0-30"});
+  const pid_t child = start_program({NEVE_BINARY, "render", folder / "scene.toml", "--out",
+                                     folder / "a", "--frames", "0-30", "--quiet", "--no-movie"});
+  ASSERT_TRUE(wait_for_file(folder / "a/particles/0003.png"));
+  ::kill(child, SIGKILL);
+  wait_for(child);
+  const auto expect_unfinished = [&](const std::string& status) {
+    const app::Json run = json_of("a/run.json");
+    EXPECT_EQ(run["status"], status);
+    EXPECT_EQ(run["frames_asked"], (app::Json{0, 30}));
+    EXPECT_TRUE(contains(neve({"verify", "a"}).output, "not finished: its status is " + status));
+    EXPECT_TRUE(contains(neve({"info", "a"}).output, status));
+  };
+  expect_unfinished("running");
+  render({"a", "--no-movie", "--view", "smoke", "--frames", "0-2"});
+  expect_unfinished("interrupted");
+  render({"a", "--no-movie", "--set", "camera.eye=[0, 1, 2]", "--replace"});
+  expect_unfinished("interrupted");
+  app::Json failed = json_of("a/run.json");
+  failed["status"] = "failed";
+  failed["error"] = "no space";
+  folder.write("a/run.json", failed.dump());
+  render({"a", "--no-movie", "--view", "smoke"});
+  expect_unfinished("failed");
+  EXPECT_EQ(json_of("a/run.json").value("error", ""), "no space");
+  render({"a", "--no-movie", "--resume"});
+  EXPECT_EQ(json_of("a/run.json")["status"], "ok");
+  EXPECT_FALSE(json_of("a/run.json").contains("error"));
+  EXPECT_EQ(hashes("a"), hashes("whole"));
+  expect_whole("a");
+}
+
+/// A command that draws other pictures may be interrupted, too.
+TEST_F(Addition, AFinishedRunIsFinishedAgainOnceItsPicturesAreDrawn) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  app::Json run = json_of("a/run.json");
+  run["status"] = "interrupted";
+  folder.write("a/run.json", run.dump());
+  render({"a", "--no-movie", "--view", "smoke"});
+  EXPECT_EQ(json_of("a/run.json")["status"], "ok");
+  expect_whole("a");
+}
+
 TEST_F(Addition, ARunThatGrowsWritesItsExports) {
   folder.write("scene.toml",
                std::string(tiny_scene) + "\n[[export]]\nname = \"mesh\"\nformat = \"ply\"\n");
