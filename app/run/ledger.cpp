@@ -89,9 +89,13 @@ void Ledger::take(const timeline::Moment& moment) {
   note_exports();
 }
 
-void Ledger::open() {
+void Ledger::make_folders() {
   if (!job_.scene.exports.empty()) output::make_own_folder(job_.folder / output::exports_folder);
   for (const std::string& view : record_.views) output::make_own_folder(job_.folder / view);
+}
+
+void Ledger::open() {
+  make_folders();
   write();
 }
 

@@ -32,6 +32,8 @@ class Ledger {
   /// @param frame  of the moment, counted from 0
   timeline::Made made(int frame) const;
 
+  /// Makes the folders of views and exports. @throws IoError where something is in their place
+  void make_folders();
   /// Removes the files of an earlier run. Its frames stay listed until they are made again:
   /// whenever the process is killed, run.json lists every picture that exists.
   void replace_earlier();
@@ -43,7 +45,7 @@ class Ledger {
   bool is_made(int frame) const;
   /// Takes what a run that is resumed has made until a moment. @throws IoError for a broken list
   void take(const timeline::Moment& moment);
-  /// Makes the folders and writes run.json.
+  /// Makes the folders, of which removed files leave none, and writes run.json.
   void open();
   void write() { record::write_run_json(job_.folder, record_); }
 

@@ -182,6 +182,8 @@ std::vector<int> RenderRun::begin() {
 void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   refuse_foreign_files(job_, record());
   if (earlier) refuse_loss(job_, *earlier, record(), picture_);
+  // Nothing goes before there is a place for what replaces it.
+  ledger_.make_folders();
   if (!earlier || !earlier->is_same) return ledger_.replace_earlier();
   ledger_.add_to(*earlier);
   frames_ = frames_without_gaps(job_, record());

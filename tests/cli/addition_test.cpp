@@ -472,6 +472,19 @@ TEST_F(Addition, AFinishedRunIsFinishedAgainOnceItsPicturesAreDrawn) {
   expect_whole("a");
 }
 
+/// What it was to replace was gone before it was told that it cannot be written.
+TEST_F(Addition, ALinkInThePlaceOfAViewCostsNoPicture) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"a", "--view", "smoke", "--no-movie"});
+  const auto before = pictures("a/particles");
+  fs::rename(folder / "a/smoke", folder / "elsewhere");
+  fs::create_symlink(folder / "elsewhere", folder / "a/smoke");
+  const auto refused = render({"a", "--no-movie", "--size", "96x54", "--replace"}, 6);
+  EXPECT_TRUE(contains(refused.errors, "a/smoke: is a link")) << refused.errors;
+  EXPECT_TRUE(pictures("a/particles") == before);
+  EXPECT_EQ(json_of("a/run.json")["status"], "ok");
+}
+
 TEST_F(Addition, ARunThatGrowsWritesItsExports) {
   folder.write("scene.toml",
                std::string(tiny_scene) + "\n[[export]]\nname = \"mesh\"\nformat = \"ply\"\n");
