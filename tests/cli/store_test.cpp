@@ -211,6 +211,21 @@ TEST_F(Store, FramesThatWereNeverDrawnAreNoPartOfARunThatIsOk) {
   EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
 }
 
+/// Those that a later command draws before the first ones of the checkpoint.
+TEST_F(Store, FramesBeforeThoseOfTheCheckpointAreNotMissing) {
+  ASSERT_EQ(render("out", {"--frames", "2-3", "--no-movie"}).exit_code, 0);
+  ASSERT_EQ(render("out", {"--frames", "0-3", "--no-movie"}).exit_code, 0);
+  const auto drawn = fs::last_write_time(folder / "out/particles/0001.png");
+  for (const char* what : {"out", "scene.toml"}) {
+    const auto more = neve({"render", what, "--out", "out", "--no-movie", "--resume"});
+    ASSERT_EQ(more.exit_code, 0) << more.errors;
+    EXPECT_FALSE(contains(more.errors, "missing")) << more.errors;
+  }
+  EXPECT_TRUE(fs::last_write_time(folder / "out/particles/0001.png") == drawn);
+  EXPECT_EQ(json_of("out/run.json")["frames"].size(), 5u);
+  EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
+}
+
 TEST_F(Store, AMovieThatCannotBeWrittenIsNoSuccess) {
   if (!app::output::find_program("ffmpeg")) GTEST_SKIP() << "no ffmpeg";
   fs::create_directories(folder / "out/particles.mp4/inside");
