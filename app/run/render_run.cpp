@@ -139,7 +139,9 @@ std::vector<int> RenderRun::begin() {
   const bool is_same = earlier && earlier->is_same;
   const int begins_at = timeline_.here().frame;  // where it forks
   std::optional<Resumption> found;
-  if (job_.options.resume)
+  // Pictures that a later command has drawn otherwise are none of the checkpoint.
+  const bool draws_otherwise = is_same && !other_drawings(*earlier, record()).empty();
+  if (job_.options.resume && !draws_otherwise)
     found = find_resumption(job_.folder, record(), picture_, job_.frames, is_same, progress_);
   if (!found)
     begin_beside(earlier);

@@ -485,6 +485,31 @@ TEST_F(Addition, ALinkInThePlaceOfAViewCostsNoPicture) {
   EXPECT_EQ(json_of("a/run.json")["status"], "ok");
 }
 
+/// The checkpoint knows them as they were drawn first: it called them damaged, and put the first
+/// drawing in their place.
+TEST_F(Addition, ADrawingThatReplacedAnotherIsNotReplacedByAResumedRun) {
+  for (const std::vector<std::string>& other :
+       {std::vector<std::string>{"--set", "camera.eye=[0, 1, 2]"},
+        {"--quality", "final"},
+        {"--passes", "depth"}}) {
+    render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-3", "--replace"});
+    std::vector<std::string> words{"a", "--no-movie", "--replace"};
+    words.insert(words.end(), other.begin(), other.end());
+    render(words);
+    const auto before = pictures("a/particles");
+    const auto refused = render({"scene.toml", "--out", "a", "--no-movie", "--resume"}, 2);
+    EXPECT_TRUE(contains(refused.errors, "drawn otherwise")) << refused.errors;
+    EXPECT_FALSE(contains(refused.errors, "is not the file")) << refused.errors;
+    EXPECT_TRUE(pictures("a/particles") == before);
+    expect_whole("a");
+    words[2] = "--resume";
+    render(words);
+    EXPECT_TRUE(exists("a/particles/0004.png"));
+    for (const auto& [name, bytes] : before) EXPECT_TRUE(pictures("a/particles")[name] == bytes);
+    expect_whole("a");
+  }
+}
+
 TEST_F(Addition, ARunThatGrowsWritesItsExports) {
   folder.write("scene.toml",
                std::string(tiny_scene) + "\n[[export]]\nname = \"mesh\"\nformat = \"ply\"\n");
