@@ -13,8 +13,6 @@
 #include "app/run/step_warnings.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
-#include "app/setup/curves.h"
-#include "app/setup/seed_scene.h"
 #include "app/support/clock.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -44,24 +42,6 @@ record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simu
   for (const std::string& view : record.views)
     record.view_records[view].drawing = drawing_of(job, picture, view);
   return record;
-}
-
-/// As a picture of frame 0 would record it; where no run.json knows it, it is made again.
-/// @param before  run.json of this run, or of the one that it forks from; null: there is none
-/// @param last    number of the frame before those of this run, or of the fork
-record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& before, int last) {
-  if (auto known = record::start_of(before)) {
-    known->before = record::extremes_until(before, last);
-    return *known;
-  }
-  const auto start_in = [&](const sim::Simulation& simulation) {
-    return record::RunStart{
-        record::measure(simulation.particles(), timeline.start().solver.cell_size),
-        record::bodies_of(simulation.colliders(), 0)};
-  };
-  if (timeline.simulation().steps() == 0) return start_in(timeline.simulation());
-  return start_in(setup::make_simulation(setup::with_curves(timeline.start(), 0),
-                                         timeline.seeded().particles, 1));
 }
 
 }  // namespace
@@ -168,13 +148,11 @@ std::vector<int> RenderRun::begin() {
   if (frames_.first > 0) {
     const bool is_known =
         earlier && (is_same || found) && record::start_of(earlier->json).has_value();
-    const bool leaves_run = !is_known && job_.fork && !job_.run.empty();
     ledger_.record().start =
-        start_of_run(timeline_,
-                     is_known     ? earlier->json
-                     : leaves_run ? record::read_run_json(job_.run)
-                                  : Json(),
-                     scene::number_of(job_.scene, leaves_run ? begins_at : frames_.first - 1));
+        !is_known && job_.fork
+            ? start_of_fork(timeline_, job_.run, scene::number_of(job_.scene, begins_at))
+            : start_of_run(timeline_, is_known ? earlier->json : Json(),
+                           scene::number_of(job_.scene, frames_.first - 1));
   }
   note_warnings();
   ledger_.open();
