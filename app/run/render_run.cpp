@@ -44,6 +44,15 @@ record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simu
   return record;
 }
 
+/// A list of run.json; none if it is no list of texts.
+std::vector<std::string> texts_of(const Json& run, const char* key) {
+  std::vector<std::string> list;
+  if (const Json json = run.value(key, Json()); json.is_array())
+    for (const Json& text : json)
+      if (text.is_string()) list.push_back(text.get<std::string>());
+  return list;
+}
+
 }  // namespace
 
 RenderRun::RenderRun(const RenderJob& job, timeline::Timeline& timeline,
@@ -131,6 +140,7 @@ std::vector<int> RenderRun::begin() {
   if (!job_.run.empty() && !job_.fork && job_.folder != job_.run)
     timeline_.moments().add_run(job_.run);
   is_continued_ = found || job_.fork;
+  if (is_same) keep_step_warnings(*earlier);
   if (found) {
     const auto is_of_earlier_part = [](const std::string& text) {
       return text.starts_with(earlier_part);
@@ -196,10 +206,17 @@ record::ViewFrames RenderRun::frames_asked(const std::optional<EarlierRun>& earl
 void RenderRun::keep_warnings(const std::optional<EarlierRun>& earlier,
                               bool (*is_kept)(const std::string& warning)) {
   if (!earlier) return;
-  const Json warnings = earlier->json.value("warnings", Json::array());
-  if (!warnings.is_array()) return;
-  for (const Json& warning : warnings)
-    if (warning.is_string() && is_kept(warning.get<std::string>())) told_before_.push_back(warning);
+  const std::vector<std::string> of_steps = texts_of(earlier->json, "step_warnings");
+  for (std::string& warning : texts_of(earlier->json, "warnings"))
+    if (is_kept(warning) && std::ranges::find(of_steps, warning) == of_steps.end())
+      told_before_.push_back(std::move(warning));
+}
+
+void RenderRun::keep_step_warnings(const EarlierRun& earlier) {
+  const std::vector<record::FrameRecord>& frames = earlier.pictures.frames;
+  if (frames.empty()) return;
+  reached_before_ = scene::frame_of(job_.scene, frames.back().frame);
+  steps_before_ = texts_of(earlier.json, "step_warnings");
 }
 
 /// States that an earlier command of the same simulation has listed at its end.
@@ -462,12 +479,17 @@ void RenderRun::note_undrawn(int frame) {
   start->before->add(passed);
 }
 
-/// The simulation of a resumed run has the warnings of the steps before.
+/// The simulation of a resumed run has the warnings of the steps before. One that draws frames of
+/// an earlier command again has had fewer steps than that, whose numbers stay.
 void RenderRun::note_warnings() {
   record::RunRecord& record = ledger_.record();
+  const sim::Simulation& simulation = timeline_.simulation();
+  const bool is_further = timeline_.here().frame > reached_before_ || simulation.divergence();
+  record.step_warnings =
+      is_further ? step_warnings(*timeline_.here().scene, simulation) : steps_before_;
   record.warnings = job_.warnings;
-  for (std::string& warning : step_warnings(*timeline_.here().scene, timeline_.simulation()))
-    record.warnings.push_back(std::move(warning));
+  record.warnings.insert(record.warnings.end(), record.step_warnings.begin(),
+                         record.step_warnings.end());
   for (const std::string& warning : told_before_)
     if (std::ranges::find(record.warnings, warning) == record.warnings.end())
       record.warnings.push_back(warning);

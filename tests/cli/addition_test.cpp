@@ -510,6 +510,35 @@ TEST_F(Addition, ADrawingThatReplacedAnotherIsNotReplacedByAResumedRun) {
   }
 }
 
+/// Frames that are drawn again have had fewer steps: their number stood beside that of the run.
+TEST_F(Addition, WarningsOfStepsHaveTheNumbersOfTheWholeRun) {
+  folder.write("scene.toml", exploding_scene);
+  render({"scene.toml", "--out", "a", "--no-movie"}, 5);
+  const app::Json before = json_of("a/run.json")["warnings"];
+  ASSERT_EQ(before.size(), 1u) << before;
+  EXPECT_TRUE(contains(before[0], "the acoustic CFL reached"));
+  render({"a", "--view", "smoke", "--no-movie"});
+  EXPECT_EQ(json_of("a/run.json")["warnings"], before);
+}
+
+TEST_F(Addition, AWarningOfStepsGrowsWithTheRun) {
+  folder.write("scene.toml", std::string(tiny_scene) + R"([[emitter]]
+name = "hose"
+shape = { sphere = { center = [0, 0.15, 0], radius = 0.1 } }
+velocity = [0, 0, 0]
+rate = 200
+)");
+  const auto warnings = [&] { return json_of("a/run.json")["warnings"].dump(); };
+  render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-2"});
+  const std::string before = warnings();
+  ASSERT_TRUE(contains(before, "particles found no room")) << before;
+  render({"a", "--resume", "--no-movie", "--frames", "0-4"});
+  const std::string after = warnings();
+  EXPECT_NE(after, before);
+  const std::string words = "found no room";
+  EXPECT_EQ(after.find(words), after.rfind(words)) << after;
+}
+
 TEST_F(Addition, ARunThatGrowsWritesItsExports) {
   folder.write("scene.toml",
                std::string(tiny_scene) + "\n[[export]]\nname = \"mesh\"\nformat = \"ply\"\n");
