@@ -91,6 +91,10 @@ Findings verify_sweep_folder(const fs::path& folder) {
     findings.files += found.files;
     for (const record::Flaw& flaw : found.flaws)
       findings.flaws.push_back({(place / flaw.file).generic_string(), flaw.what});
+    if (const std::string other =
+            sweep::store::difference_of_record(status, record::read_run_json(folder / place));
+        found.flaws.empty() && !other.empty())
+      findings.flaws.push_back({(place / "run.json").generic_string(), other});
     if (status.state == sweep::store::RunState::ok && found.flaws.empty() &&
         found.last_frame < item.frames.last)
       findings.flaws.push_back({(place / "run.json").generic_string(),

@@ -402,6 +402,7 @@ Json to_json(const RunRecord& run) {
   json["files"] = run.files;
   if (!run.movies.empty()) json["movies"] = run.movies;
   json["warnings"] = run.warnings;
+  if (!run.step_warnings.empty()) json["step_warnings"] = run.step_warnings;
   json["slowdown"] = run.slowdown ? Json(*run.slowdown) : Json();
   if (!run.validation.empty()) json["validation"] = output::to_json(run.validation);
   if (!run.retries.empty()) json["retries"] = Json::array();

@@ -130,8 +130,9 @@ struct RunRecord {
   std::string carried_status;     ///< in the place of `status`, of a run that got further before
   Json carried = Json::object();  ///< entries of an earlier run.json, where this run has none
   FileHashes files;  ///< pictures and movies; a picture that is just being written is not in it yet
-  FileHashes movies;                  ///< quality and speed of those in `files`, as text
-  std::vector<std::string> warnings;  ///< of the start and of the steps so far
+  FileHashes movies;                       ///< quality and speed of those in `files`, as text
+  std::vector<std::string> warnings;       ///< of the start and of the steps so far
+  std::vector<std::string> step_warnings;  ///< those of `warnings` that the steps so far gave
   /// Says that a frame took much longer than the first. No warning: the load of the machine must
   /// not change a run.
   std::optional<std::string> slowdown;

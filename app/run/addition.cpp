@@ -163,15 +163,6 @@ bool has_other_movie(const RenderJob& job, const EarlierRun& earlier, const std:
          styles[name] != movie_style_text(job, job.options.movie);
 }
 
-/// Views of the command whose files differ from those that are there.
-std::vector<std::string> other_drawings(const EarlierRun& earlier, const record::RunRecord& ours) {
-  std::vector<std::string> views;
-  for (const std::string& view : ours.views)
-    if (earlier.has(view) && drawing_before(earlier, view) != ours.view_records.at(view).drawing)
-      views.push_back(view);
-  return views;
-}
-
 std::string name_of_earlier(const EarlierRun& earlier) {
   return earlier.json.value("scene_file", "");
 }
@@ -201,6 +192,14 @@ record::ViewFrames EarlierRun::frames_of(const std::string& view) const {
   const auto part = pictures.view_frames.find(view);
   if (part != pictures.view_frames.end()) return part->second;
   return {pictures.frames.front().frame, pictures.frames.back().frame};
+}
+
+std::vector<std::string> other_drawings(const EarlierRun& earlier, const record::RunRecord& ours) {
+  std::vector<std::string> views;
+  for (const std::string& view : ours.views)
+    if (earlier.has(view) && drawing_before(earlier, view) != ours.view_records.at(view).drawing)
+      views.push_back(view);
+  return views;
 }
 
 std::vector<std::string> movies_of(const std::string& view, const record::FileHashes& files) {

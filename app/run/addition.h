@@ -29,6 +29,9 @@ struct EarlierRun {
 /// @param ours  record of the command, with its simulation
 std::optional<EarlierRun> earlier_run(const RenderJob& job, const record::RunRecord& ours);
 
+/// Views of the command whose files differ from those that the folder has.
+std::vector<std::string> other_drawings(const EarlierRun& earlier, const record::RunRecord& ours);
+
 /// Movies of a view among files of a run, by their names.
 std::vector<std::string> movies_of(const std::string& view, const record::FileHashes& files);
 

@@ -10,6 +10,8 @@
 #include "app/run/fork.h"
 #include "app/run/passes.h"
 #include "app/scene/read.h"
+#include "app/setup/curves.h"
+#include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/support/text.h"
@@ -208,6 +210,29 @@ record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simula
   record.threads = simulation.threads();
   record.simd = simulation.simd();
   return record;
+}
+
+record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& before, int last) {
+  if (auto known = record::start_of(before)) {
+    known->before = record::extremes_until(before, last);
+    return *known;
+  }
+  const auto start_in = [&](const sim::Simulation& simulation) {
+    return record::RunStart{
+        record::measure(simulation.particles(), timeline.start().solver.cell_size),
+        record::bodies_of(simulation.colliders(), 0)};
+  };
+  if (timeline.simulation().steps() == 0) return start_in(timeline.simulation());
+  return start_in(setup::make_simulation(setup::with_curves(timeline.start(), 0),
+                                         timeline.seeded().particles, 1));
+}
+
+record::RunStart start_of_fork(const timeline::Timeline& timeline,
+                               const std::filesystem::path& left, int last) {
+  record::RunStart start =
+      start_of_run(timeline, left.empty() ? Json() : record::read_run_json(left), last);
+  if (start.before && start.before->frame > last) start.before.reset();
+  return start;
 }
 
 }  // namespace neve::app::run

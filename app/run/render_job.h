@@ -12,6 +12,7 @@
 #include "app/run/render_options.h"
 #include "app/scene/override.h"
 #include "app/timeline/origin.h"
+#include "app/timeline/timeline.h"
 
 namespace neve::app::run {
 
@@ -62,5 +63,16 @@ record::PictureRecord picture_record(const RenderJob& job, const std::string& sc
 
 /// The record of the run of a job with a resolved scene, as it begins.
 record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation);
+
+/// As a picture of frame 0 would record it; where no run.json knows it, it is made again.
+/// @param before  run.json of this run; null: there is none
+/// @param last    number of the frame before those of this run
+record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& before, int last);
+/// The same of a run that leaves another one. Nothing is known of the frames before where that one
+/// begins later: what it knows is greatest may have come after the fork.
+/// @param left  the folder of that one; empty: it leaves a scene or a picture
+/// @param last  number of the frame of the fork, or of the last one before it
+record::RunStart start_of_fork(const timeline::Timeline& timeline,
+                               const std::filesystem::path& left, int last);
 
 }  // namespace neve::app::run

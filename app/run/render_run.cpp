@@ -13,8 +13,6 @@
 #include "app/run/step_warnings.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
-#include "app/setup/curves.h"
-#include "app/setup/seed_scene.h"
 #include "app/support/clock.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
@@ -46,22 +44,13 @@ record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simu
   return record;
 }
 
-/// As a picture of frame 0 would record it; where no run.json knows it, it is made again.
-/// @param before  run.json of this run, or of the one that it forks from; null: there is none
-/// @param last    number of the frame before those of this run, or of the fork
-record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& before, int last) {
-  if (auto known = record::start_of(before)) {
-    known->before = record::extremes_until(before, last);
-    return *known;
-  }
-  const auto start_in = [&](const sim::Simulation& simulation) {
-    return record::RunStart{
-        record::measure(simulation.particles(), timeline.start().solver.cell_size),
-        record::bodies_of(simulation.colliders(), 0)};
-  };
-  if (timeline.simulation().steps() == 0) return start_in(timeline.simulation());
-  return start_in(setup::make_simulation(setup::with_curves(timeline.start(), 0),
-                                         timeline.seeded().particles, 1));
+/// A list of run.json; none if it is no list of texts.
+std::vector<std::string> texts_of(const Json& run, const char* key) {
+  std::vector<std::string> list;
+  if (const Json json = run.value(key, Json()); json.is_array())
+    for (const Json& text : json)
+      if (text.is_string()) list.push_back(text.get<std::string>());
+  return list;
 }
 
 }  // namespace
@@ -139,7 +128,9 @@ std::vector<int> RenderRun::begin() {
   const bool is_same = earlier && earlier->is_same;
   const int begins_at = timeline_.here().frame;  // where it forks
   std::optional<Resumption> found;
-  if (job_.options.resume)
+  // Pictures that a later command has drawn otherwise are none of the checkpoint.
+  const bool draws_otherwise = is_same && !other_drawings(*earlier, record()).empty();
+  if (job_.options.resume && !draws_otherwise)
     found = find_resumption(job_.folder, record(), picture_, job_.frames, is_same, progress_);
   if (!found)
     begin_beside(earlier);
@@ -149,6 +140,7 @@ std::vector<int> RenderRun::begin() {
   if (!job_.run.empty() && !job_.fork && job_.folder != job_.run)
     timeline_.moments().add_run(job_.run);
   is_continued_ = found || job_.fork;
+  if (is_same) keep_step_warnings(*earlier);
   if (found) {
     const auto is_of_earlier_part = [](const std::string& text) {
       return text.starts_with(earlier_part);
@@ -166,13 +158,11 @@ std::vector<int> RenderRun::begin() {
   if (frames_.first > 0) {
     const bool is_known =
         earlier && (is_same || found) && record::start_of(earlier->json).has_value();
-    const bool leaves_run = !is_known && job_.fork && !job_.run.empty();
     ledger_.record().start =
-        start_of_run(timeline_,
-                     is_known     ? earlier->json
-                     : leaves_run ? record::read_run_json(job_.run)
-                                  : Json(),
-                     scene::number_of(job_.scene, leaves_run ? begins_at : frames_.first - 1));
+        !is_known && job_.fork
+            ? start_of_fork(timeline_, job_.run, scene::number_of(job_.scene, begins_at))
+            : start_of_run(timeline_, is_known ? earlier->json : Json(),
+                           scene::number_of(job_.scene, frames_.first - 1));
   }
   note_warnings();
   ledger_.open();
@@ -182,6 +172,8 @@ std::vector<int> RenderRun::begin() {
 void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   refuse_foreign_files(job_, record());
   if (earlier) refuse_loss(job_, *earlier, record(), picture_);
+  // Nothing goes before there is a place for what replaces it.
+  ledger_.make_folders();
   if (!earlier || !earlier->is_same) return ledger_.replace_earlier();
   ledger_.add_to(*earlier);
   frames_ = frames_without_gaps(job_, record());
@@ -195,7 +187,8 @@ void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   keep_warnings(earlier, [](const std::string& text) { return !text.starts_with(no_movie); });
 }
 
-/// Those of the command, and those that the run has or was asked for before.
+/// Those of the command, and those that the run has or was asked for before. A run that is resumed
+/// with `--frames` is asked for these: other pictures of its frames ask for no other end.
 record::ViewFrames RenderRun::frames_asked(const std::optional<EarlierRun>& earlier) const {
   const setup::FrameRange ours = setup::numbers_of(job_.scene, frames_);
   record::ViewFrames asked{ours.first, ours.last};
@@ -206,17 +199,24 @@ record::ViewFrames RenderRun::frames_asked(const std::optional<EarlierRun>& earl
   if (const auto& listed = earlier->pictures.frames; !listed.empty())
     join({listed.front().frame, listed.back().frame});
   const auto before = record::frames_asked(earlier->json);
-  if (before && !job_.options.frames) join(*before);
+  if (before && !(job_.options.resume && job_.options.frames)) join(*before);
   return asked;
 }
 
 void RenderRun::keep_warnings(const std::optional<EarlierRun>& earlier,
                               bool (*is_kept)(const std::string& warning)) {
   if (!earlier) return;
-  const Json warnings = earlier->json.value("warnings", Json::array());
-  if (!warnings.is_array()) return;
-  for (const Json& warning : warnings)
-    if (warning.is_string() && is_kept(warning.get<std::string>())) told_before_.push_back(warning);
+  const std::vector<std::string> of_steps = texts_of(earlier->json, "step_warnings");
+  for (std::string& warning : texts_of(earlier->json, "warnings"))
+    if (is_kept(warning) && std::ranges::find(of_steps, warning) == of_steps.end())
+      told_before_.push_back(std::move(warning));
+}
+
+void RenderRun::keep_step_warnings(const EarlierRun& earlier) {
+  const std::vector<record::FrameRecord>& frames = earlier.pictures.frames;
+  if (frames.empty()) return;
+  reached_before_ = scene::frame_of(job_.scene, frames.back().frame);
+  steps_before_ = texts_of(earlier.json, "step_warnings");
 }
 
 /// States that an earlier command of the same simulation has listed at its end.
@@ -479,12 +479,17 @@ void RenderRun::note_undrawn(int frame) {
   start->before->add(passed);
 }
 
-/// The simulation of a resumed run has the warnings of the steps before.
+/// The simulation of a resumed run has the warnings of the steps before. One that draws frames of
+/// an earlier command again has had fewer steps than that, whose numbers stay.
 void RenderRun::note_warnings() {
   record::RunRecord& record = ledger_.record();
+  const sim::Simulation& simulation = timeline_.simulation();
+  const bool is_further = timeline_.here().frame > reached_before_ || simulation.divergence();
+  record.step_warnings =
+      is_further ? step_warnings(*timeline_.here().scene, simulation) : steps_before_;
   record.warnings = job_.warnings;
-  for (std::string& warning : step_warnings(*timeline_.here().scene, timeline_.simulation()))
-    record.warnings.push_back(std::move(warning));
+  record.warnings.insert(record.warnings.end(), record.step_warnings.begin(),
+                         record.step_warnings.end());
   for (const std::string& warning : told_before_)
     if (std::ranges::find(record.warnings, warning) == record.warnings.end())
       record.warnings.push_back(warning);

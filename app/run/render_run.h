@@ -54,6 +54,7 @@ class RenderRun {
   /// Warnings of the earlier part of the run stay in its run.json.
   void keep_warnings(const std::optional<EarlierRun>& earlier,
                      bool (*is_kept)(const std::string& warning));
+  void keep_step_warnings(const EarlierRun& earlier);
   std::set<int> trusted_states(const std::optional<EarlierRun>& earlier) const;
   timeline::StatesFolder states_folder(const std::optional<EarlierRun>& earlier) const;
   void note_states();
@@ -96,12 +97,14 @@ class RenderRun {
   Drawing drawing_;
   std::optional<sim::checks::Watch> laws_;  ///< of --validate
   RenderResult result_;
-  setup::FrameRange frames_;              ///< to draw, counted from 0
-  int newest_checkpoint_ = -1;            ///< of an earlier command that this one adds to
-  bool was_cut_off_ = false;              ///< that command
-  std::vector<std::string> told_before_;  ///< warnings of that command
-  double seconds_ = 0;                    ///< that the simulation of the frame took
-  bool is_continued_ = false;             ///< from a checkpoint or a fork
+  setup::FrameRange frames_;               ///< to draw, counted from 0
+  int newest_checkpoint_ = -1;             ///< of an earlier command that this one adds to
+  bool was_cut_off_ = false;               ///< that command
+  std::vector<std::string> told_before_;   ///< warnings of that command, but for those of its steps
+  std::vector<std::string> steps_before_;  ///< these, up to `reached_before_`
+  int reached_before_ = -1;                ///< the last frame of that command, counted from 0
+  double seconds_ = 0;                     ///< that the simulation of the frame took
+  bool is_continued_ = false;              ///< from a checkpoint or a fork
   bool is_mending_ = false;
   bool said_slow_ = false;
   std::atomic<bool> is_abandoned_ = false;  ///< nobody waits for the frame being simulated

@@ -17,15 +17,15 @@ namespace neve::app::run {
 
 namespace {
 
-/// Adds the frames that run.json lists and the checkpoint does not: those after `last`, and all of
-/// an earlier version. Their pictures stay listed until they are made again.
-void add_listed(const std::filesystem::path& folder, const Json& run_json, int last,
-                timeline::Made& run) {
-  const bool has_none = run.frames.empty();
-  if (has_none && run_json.is_object()) run.exports = run_json.value("exports", Json());
+/// Adds the frames that run.json lists and the checkpoint does not: those after it, those that
+/// later commands have drawn before its first one, and all of an earlier version. Their pictures
+/// stay listed until they are made again. Of a file that both list, run.json is the later one.
+void add_listed(const std::filesystem::path& folder, const Json& run_json, timeline::Made& run) {
+  if (run.frames.empty() && run_json.is_object()) run.exports = run_json.value("exports", Json());
   for (const record::FrameRecord& frame : record::frame_records(run_json))
-    if (has_none || frame.frame > last) record::add_frame(run.frames, frame);
-  for (const auto& [file, hash] : record::file_hashes(run_json)) run.files.emplace(file, hash);
+    if (!std::ranges::binary_search(run.frames, frame.frame, {}, &record::FrameRecord::frame))
+      record::add_frame(run.frames, frame);
+  for (const auto& [file, hash] : record::file_hashes(run_json)) run.files[file] = hash;
   // Pictures are in folders. Movies are made again at the end; those of other formats stay ours.
   std::erase_if(run.files, [&](const auto& file) {
     if (file.first.find('/') != std::string::npos) return false;
@@ -116,8 +116,7 @@ std::optional<Resumption> find_resumption(const std::filesystem::path& folder,
   for (const std::string& warning : warnings) progress.warning(warning);
   Resumption resumption{timeline::to_moment(*std::move(found.checkpoint)), {}, std::move(warnings)};
   timeline::Moment& moment = resumption.moment;
-  add_listed(folder, record::read_run_json(folder), moment.made.first_number + moment.frame,
-             moment.made);
+  add_listed(folder, record::read_run_json(folder), moment.made);
   const std::vector<record::Flaw> flaws = find_flaws(folder, record, frames, resumption);
   if (!flaws.empty())
     progress.warning(folder.string() + ": " + record::flaw_text(flaws) + "; made again");

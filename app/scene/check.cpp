@@ -358,8 +358,20 @@ Found camera_problem(const Scene& scene, const CameraSettings& camera, const std
   return follow_problem(scene, camera.follow, at);
 }
 
+/// Pictures of a view are in the folder of its name, among all else that a run has.
+Found folder_problem(const std::string& at, const std::string& name) {
+  for (const char* own : {"checkpoint", "exports", "log", "states"})
+    if (name == own)
+      return Problem{
+          at + ".name",
+          toml::toml_string(name) + " is the name of something else in the folder of a run",
+          "choose another name"};
+  return {};
+}
+
 Found problem_of(const Scene& scene, const View& view) {
   const std::string at = "view." + view.name;
+  if (Found found = folder_problem(at, view.name)) return found;
   if (view.slice.normal.norm() <= negligible)
     return Problem{at + ".slice.normal", "normal is zero", "it must point across the plane"};
   if (Found found = follow_problem(scene, view.slice.follow, at + ".slice")) return found;
@@ -377,6 +389,7 @@ Found problem_of(const Scene& scene, const View& view) {
 Found problem_of(const Scene& scene, const Mosaic& mosaic) {
   constexpr std::size_t most = 64;
   const std::string at = "mosaic." + mosaic.name;
+  if (Found found = folder_problem(at, mosaic.name)) return found;
   std::vector<std::string> names;
   for (const View& view : scene.views) names.push_back(view.name);
   if (mosaic.views.empty() || mosaic.views.size() > most) {

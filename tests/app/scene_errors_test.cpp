@@ -135,6 +135,18 @@ TEST(SceneErrors, AMosaicMayNameBuiltInViews) {
   EXPECT_NE(mosaic.find("did you mean \"slice\"?"), std::string::npos) << mosaic;
 }
 
+/// `log` made every run of a sweep fail, with advice that did not help.
+TEST(SceneErrors, ViewsHaveNoNamesThatTheFolderOfARunNeeds) {
+  for (const char* list : {"view", "mosaic"})
+    for (const std::string name : {"checkpoint", "exports", "log", "states"}) {
+      const std::string error =
+          error_of(with_ball("[[" + std::string(list) + "]]\nname = \"" + name + "\""));
+      EXPECT_NE(error.find("is the name of something else in the folder of a run"),
+                std::string::npos)
+          << error;
+    }
+}
+
 TEST(SceneErrors, KeysOfOtherVersionsListTheKnownOnes) {
   EXPECT_EQ(error_of(with_ball("[light]\nbloom = 0.5")),
             "s.toml:5:1: error: unknown key \"bloom\" in [light]; expected \"direction\", "

@@ -133,6 +133,21 @@ TEST_F(Addition, AFilmInAnotherFormatIsMadeFromThePictures) {
   expect_whole("a");
 }
 
+/// It was listed as whole, with fewer frames than the run.
+TEST_F(Addition, AFilmThatLacksFramesThatWereAddedIsTold) {
+  const auto made = render({"scene.toml", "--out", "a", "--movie", "gif", "--frames", "0-2"});
+  if (!exists("a/particles.gif")) GTEST_SKIP() << "no ffmpeg: " << made.errors;
+  const auto more = render({"a", "--frames", "0-4", "--no-movie"});
+  const std::string warning = "no movie of the frames that were added to particles.gif";
+  EXPECT_TRUE(contains(more.errors, warning)) << more.errors;
+  EXPECT_TRUE(contains(json_of("a/run.json")["warnings"].dump(), warning));
+  render({"a", "--view", "smoke", "--no-movie"});
+  const std::string before = json_of("a/run.json")["files"]["particles.gif"];
+  render({"a", "--view", "particles", "--movie", "gif"});
+  EXPECT_EQ(json_of("a/run.json")["warnings"].size(), 0u);
+  EXPECT_NE(json_of("a/run.json")["files"]["particles.gif"], before);
+}
+
 TEST_F(Addition, AnotherDrawingOfAViewIsRefusedUntilItMayReplaceIt) {
   render({"scene.toml", "--out", "a", "--no-movie"});
   const auto before = pictures("a/particles");
@@ -425,6 +440,118 @@ TEST_F(Addition, AResumedRunHasTheFramesThatItWasAskedFor) {
   render({"b", "--resume", "--no-movie"});
   EXPECT_EQ(hashes("b").begin()->first, 1);
   EXPECT_EQ(hashes("b").rbegin()->first, 4);
+}
+
+/// They made it "ok" and complete, and it forgot the frames that it lacks.
+TEST_F(Addition, OtherPicturesFinishNoRunThatWasKilledOrFailed) {
+  render({"scene.toml", "--out", "whole", "--no-movie", "--frames", "0-30"});
+  const pid_t child = start_program({NEVE_BINARY, "render", folder / "scene.toml", "--out",
+                                     folder / "a", "--frames", "0-30", "--quiet", "--no-movie"});
+  ASSERT_TRUE(wait_for_file(folder / "a/particles/0003.png"));
+  ::kill(child, SIGKILL);
+  wait_for(child);
+  const auto expect_unfinished = [&](const std::string& status) {
+    const app::Json run = json_of("a/run.json");
+    EXPECT_EQ(run["status"], status);
+    EXPECT_EQ(run["frames_asked"], (app::Json{0, 30}));
+    EXPECT_TRUE(contains(neve({"verify", "a"}).output, "not finished: its status is " + status));
+    EXPECT_TRUE(contains(neve({"info", "a"}).output, status));
+  };
+  expect_unfinished("running");
+  render({"a", "--no-movie", "--view", "smoke", "--frames", "0-2"});
+  expect_unfinished("interrupted");
+  render({"a", "--no-movie", "--set", "camera.eye=[0, 1, 2]", "--replace"});
+  expect_unfinished("interrupted");
+  app::Json failed = json_of("a/run.json");
+  failed["status"] = "failed";
+  failed["error"] = "no space";
+  folder.write("a/run.json", failed.dump());
+  render({"a", "--no-movie", "--view", "smoke"});
+  expect_unfinished("failed");
+  EXPECT_EQ(json_of("a/run.json").value("error", ""), "no space");
+  render({"a", "--no-movie", "--resume"});
+  EXPECT_EQ(json_of("a/run.json")["status"], "ok");
+  EXPECT_FALSE(json_of("a/run.json").contains("error"));
+  EXPECT_EQ(hashes("a"), hashes("whole"));
+  expect_whole("a");
+}
+
+/// A command that draws other pictures may be interrupted, too.
+TEST_F(Addition, AFinishedRunIsFinishedAgainOnceItsPicturesAreDrawn) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  app::Json run = json_of("a/run.json");
+  run["status"] = "interrupted";
+  folder.write("a/run.json", run.dump());
+  render({"a", "--no-movie", "--view", "smoke"});
+  EXPECT_EQ(json_of("a/run.json")["status"], "ok");
+  expect_whole("a");
+}
+
+/// What it was to replace was gone before it was told that it cannot be written.
+TEST_F(Addition, ALinkInThePlaceOfAViewCostsNoPicture) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"a", "--view", "smoke", "--no-movie"});
+  const auto before = pictures("a/particles");
+  fs::rename(folder / "a/smoke", folder / "elsewhere");
+  fs::create_symlink(folder / "elsewhere", folder / "a/smoke");
+  const auto refused = render({"a", "--no-movie", "--size", "96x54", "--replace"}, 6);
+  EXPECT_TRUE(contains(refused.errors, "a/smoke: is a link")) << refused.errors;
+  EXPECT_TRUE(pictures("a/particles") == before);
+  EXPECT_EQ(json_of("a/run.json")["status"], "ok");
+}
+
+/// The checkpoint knows them as they were drawn first: it called them damaged, and put the first
+/// drawing in their place.
+TEST_F(Addition, ADrawingThatReplacedAnotherIsNotReplacedByAResumedRun) {
+  for (const std::vector<std::string>& other :
+       {std::vector<std::string>{"--set", "camera.eye=[0, 1, 2]"},
+        {"--quality", "final"},
+        {"--passes", "depth"}}) {
+    render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-3", "--replace"});
+    std::vector<std::string> words{"a", "--no-movie", "--replace"};
+    words.insert(words.end(), other.begin(), other.end());
+    render(words);
+    const auto before = pictures("a/particles");
+    const auto refused = render({"scene.toml", "--out", "a", "--no-movie", "--resume"}, 2);
+    EXPECT_TRUE(contains(refused.errors, "drawn otherwise")) << refused.errors;
+    EXPECT_FALSE(contains(refused.errors, "is not the file")) << refused.errors;
+    EXPECT_TRUE(pictures("a/particles") == before);
+    expect_whole("a");
+    words[2] = "--resume";
+    render(words);
+    EXPECT_TRUE(exists("a/particles/0004.png"));
+    for (const auto& [name, bytes] : before) EXPECT_TRUE(pictures("a/particles")[name] == bytes);
+    expect_whole("a");
+  }
+}
+
+/// Frames that are drawn again have had fewer steps: their number stood beside that of the run.
+TEST_F(Addition, WarningsOfStepsHaveTheNumbersOfTheWholeRun) {
+  folder.write("scene.toml", exploding_scene);
+  render({"scene.toml", "--out", "a", "--no-movie"}, 5);
+  const app::Json before = json_of("a/run.json")["warnings"];
+  ASSERT_EQ(before.size(), 1u) << before;
+  EXPECT_TRUE(contains(before[0], "the acoustic CFL reached"));
+  render({"a", "--view", "smoke", "--no-movie"});
+  EXPECT_EQ(json_of("a/run.json")["warnings"], before);
+}
+
+TEST_F(Addition, AWarningOfStepsGrowsWithTheRun) {
+  folder.write("scene.toml", std::string(tiny_scene) + R"([[emitter]]
+name = "hose"
+shape = { sphere = { center = [0, 0.15, 0], radius = 0.1 } }
+velocity = [0, 0, 0]
+rate = 200
+)");
+  const auto warnings = [&] { return json_of("a/run.json")["warnings"].dump(); };
+  render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-2"});
+  const std::string before = warnings();
+  ASSERT_TRUE(contains(before, "particles found no room")) << before;
+  render({"a", "--resume", "--no-movie", "--frames", "0-4"});
+  const std::string after = warnings();
+  EXPECT_NE(after, before);
+  const std::string words = "found no room";
+  EXPECT_EQ(after.find(words), after.rfind(words)) << after;
 }
 
 TEST_F(Addition, ARunThatGrowsWritesItsExports) {

@@ -151,6 +151,17 @@ TEST_F(Fork, ABranchOfABranchHasTheChangesOfBoth) {
   EXPECT_EQ(json_of("d/run.json")["changes"].size(), 1u);
 }
 
+/// They were those of the run that it leaves up to its first picture, after the fork.
+TEST_F(Fork, WhatWasGreatestAfterItIsNotBeforeIt) {
+  ASSERT_EQ(render({"scene.toml", "--frames", "4-4", "--out", "late"}).exit_code, 0);
+  ASSERT_TRUE(json_of("late/run.json")["start"].contains("before"));
+  ASSERT_EQ(render({"late", "--from", "0.05s", "--set", "solver.gravity=[0, 5, 0]", "--out", "a"})
+                .exit_code,
+            0);
+  EXPECT_EQ(hashes("a").begin()->first, 2);
+  EXPECT_FALSE(json_of("a/run.json")["start"].contains("before"));
+}
+
 /// The card is of the snow that the branch has, and no run itself.
 /// Those before it are pictures of the run that it left.
 TEST_F(Fork, ABranchBeginsAtItsForkWhateverIsDrawnOfItLater) {

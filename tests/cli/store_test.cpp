@@ -211,6 +211,21 @@ TEST_F(Store, FramesThatWereNeverDrawnAreNoPartOfARunThatIsOk) {
   EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
 }
 
+/// Those that a later command draws before the first ones of the checkpoint.
+TEST_F(Store, FramesBeforeThoseOfTheCheckpointAreNotMissing) {
+  ASSERT_EQ(render("out", {"--frames", "2-3", "--no-movie"}).exit_code, 0);
+  ASSERT_EQ(render("out", {"--frames", "0-3", "--no-movie"}).exit_code, 0);
+  const auto drawn = fs::last_write_time(folder / "out/particles/0001.png");
+  for (const char* what : {"out", "scene.toml"}) {
+    const auto more = neve({"render", what, "--out", "out", "--no-movie", "--resume"});
+    ASSERT_EQ(more.exit_code, 0) << more.errors;
+    EXPECT_FALSE(contains(more.errors, "missing")) << more.errors;
+  }
+  EXPECT_TRUE(fs::last_write_time(folder / "out/particles/0001.png") == drawn);
+  EXPECT_EQ(json_of("out/run.json")["frames"].size(), 5u);
+  EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
+}
+
 TEST_F(Store, AMovieThatCannotBeWrittenIsNoSuccess) {
   if (!app::output::find_program("ffmpeg")) GTEST_SKIP() << "no ffmpeg";
   fs::create_directories(folder / "out/particles.mp4/inside");
@@ -247,6 +262,53 @@ TEST_F(Store, SweepsMakeDamagedRunsAgainAndCollectNamesThem) {
   EXPECT_TRUE(contains(again.errors, "run 1: particles/0001.png is missing; it is made again"))
       << again.errors;
   EXPECT_TRUE(app::output::read_file(folder / "s/runs/0001/particles/0001.png") == picture);
+}
+
+/// Its sheet showed another camera, and its table the numbers of another simulation.
+TEST_F(Store, SweepsNoticeThatARunWasDrawnOrSimulatedOtherwise) {
+  const std::vector<std::string> sweep{
+      "sweep", "scene.toml", "-p", "material.snow.hardening=4,8", "--frames", "0-2", "--out", "s"};
+  ASSERT_EQ(neve(sweep).exit_code, 0);
+  const RunFiles before = files_of(folder / "s/runs/0001");
+  const auto expect_noticed = [&](const std::string& what) {
+    const auto found = neve({"verify", "s"});
+    EXPECT_EQ(found.exit_code, 9);
+    EXPECT_TRUE(contains(found.output, "runs/0001/run.json " + what)) << found.output;
+    const auto collected = neve({"sweep", "collect", "s"});
+    EXPECT_EQ(collected.exit_code, 9);
+    EXPECT_TRUE(contains(collected.errors, "run 1: run.json " + what)) << collected.errors;
+    const auto again = neve(sweep);
+    EXPECT_EQ(again.exit_code, 0) << again.errors;
+    EXPECT_TRUE(contains(again.errors, "run 1: run.json " + what)) << again.errors;
+    EXPECT_EQ(neve({"verify", "s"}).exit_code, 0);
+    EXPECT_TRUE(files_of(folder / "s/runs/0001").pictures == before.pictures);
+  };
+  neve({"render", "s/runs/0001", "--set", "camera.eye=[0, 1, 2]", "--no-movie", "--replace"});
+  expect_noticed("has pictures of particles that are drawn otherwise than the sweep did");
+  const auto done = neve({"render", "s/runs/0001/scene.toml", "--out", "s/runs/0001", "--frames",
+                          "0-2", "--set", "material.snow.hardening=50", "--no-movie", "--replace"});
+  EXPECT_EQ(done.exit_code, 0) << done.errors;
+  neve({"sweep", "collect", "s"});
+  EXPECT_TRUE(contains(read_text(folder / "s/data.csv"), "\n1,run 1,8.0,ok,-,1,0,,,"))
+      << "no number";
+  expect_noticed("is of another simulation than the sweep made");
+}
+
+/// They were called damaged, and their further frames were lost without a word.
+TEST_F(Store, SweepsCompareRunsThatBecameLongerAtTheirOwnEnd) {
+  const std::vector<std::string> sweep{
+      "sweep", "scene.toml", "-p", "material.snow.hardening=4,8", "--frames", "0-2", "--out", "s"};
+  ASSERT_EQ(neve(sweep).exit_code, 0);
+  const std::string table = read_text(folder / "s/data.csv");
+  const auto done = neve({"render", "s/runs/0001", "--frames", "0-4", "--no-movie"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  ASSERT_EQ(neve({"render", "s/runs/0001", "--view", "smoke", "--no-movie"}).exit_code, 0);
+  EXPECT_EQ(neve({"verify", "s"}).exit_code, 0);
+  const auto collected = neve({"sweep", "collect", "s"});
+  EXPECT_EQ(collected.exit_code, 0) << collected.errors;
+  EXPECT_EQ(read_text(folder / "s/data.csv"), table);
+  EXPECT_EQ(neve(sweep).exit_code, 0);
+  EXPECT_TRUE(exists("s/runs/0001/particles/0004.png"));
 }
 
 }  // namespace

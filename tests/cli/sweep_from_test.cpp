@@ -56,6 +56,17 @@ TEST_F(SweepFrom, BranchesOfARunAreThoseOfRenderAndOfWholeRuns) {
   EXPECT_NE(hashes("f.cdb/runs/0000").at(6), hashes("a").at(6));
 }
 
+/// As branches of render do.
+TEST_F(SweepFrom, BranchesOfARunKnowWhatWasBeforeThem) {
+  render({"scene.toml", "--frames", "6", "--out", "a"});
+  render({"a", "--from", "0.125s", "--set", "material.snow.hardening=4", "--frames", "6", "--out",
+          "b"});
+  ASSERT_EQ(sweep("a", three).exit_code, 0);
+  const app::Json start = json_of("b/run.json")["start"];
+  ASSERT_TRUE(start.contains("before")) << start;
+  EXPECT_EQ(json_of("f.cdb/runs/0000/run.json")["start"], start);
+}
+
 TEST_F(SweepFrom, APictureAndARunWithoutCheckpointsGiveTheSameBranches) {
   render({"scene.toml", "--frames", "4", "--checkpoint-every", "0", "--out", "a"});
   ASSERT_EQ(sweep("a", three).exit_code, 0);

@@ -395,6 +395,25 @@ TEST_F(SweepCli, ATileBecomesASceneOfItsOwn) {
   EXPECT_EQ(neve({"sweep", "promote", "out/scene.cdb", "2"}).exit_code, 2);
 }
 
+TEST_F(SweepCli, AFileThatASceneNamesAndThatChangedSinceIsTold) {
+  const auto write_mesh = [&](const char* height) {
+    folder.write("shots/mesh.obj", std::string("v 0 0 0\nv 0.1 0 0\nv 0 0 0.1\nv 0 ") + height +
+                                       " 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n");
+  };
+  write_mesh("0.1");
+  folder.write("shots/scene.toml",
+               std::string(tiny_scene) +
+                   "[[collider]]\nname = \"rock\"\nshape = { mesh = { file = \"mesh.obj\" } }\n");
+  const auto made = neve({"sweep", "shots/scene.toml", "-p", "material.snow.hardening=5,7",
+                          "--frames", "1", "--quiet", "--out", "s"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_FALSE(contains(neve({"sweep", "promote", "s", "1"}).errors, "changed since"));
+  write_mesh("0.12");
+  const auto later = neve({"sweep", "promote", "s", "1"});
+  EXPECT_EQ(later.exit_code, 0) << later.errors;
+  EXPECT_TRUE(contains(later.errors, "mesh.obj has changed since the sweep")) << later.errors;
+}
+
 TEST_F(SweepCli, StarsAndNotesStayWithTheSweep) {
   folder.write("scene.toml", tiny_scene);
   ASSERT_EQ(neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,7,9", "--frames", "1",

@@ -530,7 +530,8 @@ class LocalJobs {
     }
   }
 
-  void finish(const Run& run, const fs::path& folder, const store::RunStatus& status) {
+  void finish(const Run& run, const fs::path& folder, store::RunStatus& status) {
+    store::note_record(record::read_run_json(folder), status);
     store::write_status(folder, status);
     if (store::is_finished(status.state)) count(status);
     // Also by another process: then the sweep is not done either.

@@ -10,6 +10,7 @@
 #include "app/options/common.h"
 #include "app/options/languages.h"
 #include "app/output/atomic_file.h"
+#include "app/record/earlier.h"
 #include "app/record/run_json.h"
 #include "app/scene/edit_text.h"
 #include "app/scene/read.h"
@@ -52,6 +53,18 @@ std::string scene_text(const std::string& folder, const Manifest& manifest, cons
   return scene::read_toml_file(manifest.scene_file);
 }
 
+/// Of those that the scene of a run names.
+std::vector<std::string> changed_files(const fs::path& run_folder) {
+  std::vector<std::string> changed;
+  const Json run = record::read_run_json(run_folder);
+  const Json files = run.is_object() ? run.value("scene_files", Json()) : Json();
+  if (!files.is_object()) return changed;
+  for (const auto& [file, hash] : files.items())
+    if (hash.is_string() && !record::has_hash(run_folder / file, hash.get<std::string>()))
+      changed.push_back(file);
+  return changed;
+}
+
 fs::path path_of(const PromoteOptions& options, const Manifest& manifest) {
   if (!options.out.empty()) return options.out;
   const fs::path scene = manifest.scene_file;
@@ -92,9 +105,14 @@ int run_promote(const PromoteOptions& options) {
     throw UsageError("sweep promote", out.string() + " exists, and is another scene",
                      "name another file with --out, or move that one away");
   output::write_among_others(out, made);
-  const bool has_changed =
+  const bool is_other_text =
       !manifest.scene_hash.empty() && manifest.scene_hash != record::hash_of(text);
-  if (has_changed)
+  const std::vector<std::string> files = changed_files(runs_folder(options.folder) / run.folder);
+  const bool has_changed = is_other_text || !files.empty();
+  for (const std::string& file : files)
+    std::cerr << "neve: warning: " << file
+              << " has changed since the sweep: this scene takes it as it is now\n";
+  if (is_other_text)
     std::cerr << "neve: warning: " << manifest.scene_file
               << " has changed since the sweep: the rest of this scene is as it is now\n";
   if (options.is_json)

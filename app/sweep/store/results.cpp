@@ -146,9 +146,11 @@ std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
   if (!has_record(status)) return {};
   const record::Verification found = record::verify_run(runs_folder(folder) / run.folder);
   if (!found.flaws.empty()) return record::flaw_text(found.flaws);
-  if (status.state == RunState::ok && found.last_frame != run.frames.last)
+  if (status.state == RunState::ok && found.last_frame < run.frames.last)
     return "run.json does not reach frame " + std::to_string(run.frames.last);
-  return {};
+  const std::string other =
+      difference_of_record(status, record::read_run_json(runs_folder(folder) / run.folder));
+  return other.empty() ? "" : "run.json " + other;
 }
 
 RunResult read_result(const std::filesystem::path& folder, const Run& run,
@@ -161,9 +163,14 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   if (result.status.key != run.key) result.status = RunStatus{};
   std::vector<record::FrameRecord> frames;
   RunNotes notes;
-  if (result.status.key == run.key) {
-    const Json record = record::read_run_json(run_folder);
+  const Json record = result.status.key == run.key ? record::read_run_json(run_folder) : Json();
+  // Numbers of another simulation are none of this run.
+  const bool is_other = record.is_object() && !result.status.states.empty() &&
+                        record.value("simulation", Json()) != Json(result.status.states);
+  if (record.is_object() && !is_other) {
     frames = record::frame_records(record);
+    // Other commands may have made the run longer: it is compared at the end of the sweep.
+    std::erase_if(frames, [&](const record::FrameRecord& f) { return f.frame > run.frames.last; });
     notes = notes_of(record, frames);
     result.warnings = notes.warnings;
     result.simd = notes.simd;
@@ -172,7 +179,8 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   std::error_code error;
   // run.json lists a frame before its pictures are written: a run that was killed lacks the last.
   for (const record::FrameRecord& frame : frames)
-    if (std::filesystem::is_regular_file(output::frame_path(run_folder, view, frame.frame),
+    if (frame.frame >= run.frames.first &&
+        std::filesystem::is_regular_file(output::frame_path(run_folder, view, frame.frame),
                                          error)) {
       result.frames.push_back(frame.frame);
       result.places.push_back({frame.frame, frame.time, frame.summary.particles,

@@ -1,5 +1,7 @@
 #include "app/sweep/store/store.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -14,6 +16,7 @@
 #include "app/scene/leaf.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
+#include "app/sweep/plan/labels.h"
 
 namespace neve::app::sweep::store {
 
@@ -26,6 +29,11 @@ constexpr std::array states{"pending", "running", "ok",      "diverged",      "f
 
 fs::path status_path(const fs::path& run_folder) {
   return run_folder / "status.json";
+}
+
+std::string text_of(const Json& json, const std::string& key) {
+  const bool has_text = json.is_object() && json.contains(key) && json[key].is_string();
+  return has_text ? json[key].get<std::string>() : "";
 }
 
 bool is_run_folder(const std::string& name) {
@@ -97,6 +105,8 @@ RunStatus read_status(const fs::path& run_folder) {
     status.pid = whole_number_or(json, "pid", 0L);
     status.host = json.value("host", "");
     status.failed_beginning = whole_number_or(json, "failed_beginning", 0);
+    status.states = json.value("states", "");
+    status.drawings = json.value("drawings", status.drawings);
     if (!(status.seconds >= 0 && status.seconds < 1e12) || status.attempts < 0) return damaged;
     if (found != states.end()) status.state = static_cast<RunState>(found - states.begin());
   } catch (const UnreadableError&) {
@@ -124,7 +134,30 @@ void write_status(const fs::path& run_folder, const RunStatus& status) {
   json["pid"] = status.pid;
   json["host"] = status.host;
   if (status.failed_beginning > 0) json["failed_beginning"] = status.failed_beginning;
+  if (!status.states.empty()) json["states"] = status.states;
+  if (!status.drawings.empty()) json["drawings"] = status.drawings;
   output::write_file(status_path(run_folder), record::with_own_hash(json));
+}
+
+void note_record(const Json& run_json, RunStatus& status) {
+  status.states.clear();
+  status.drawings.clear();
+  if (!has_record(status) || !run_json.is_object()) return;
+  status.states = text_of(run_json, "simulation");
+  if (const Json drawings = run_json.value("drawings", Json()); drawings.is_object())
+    for (const auto& entry : drawings.items())
+      status.drawings[entry.key()] = text_of(drawings, entry.key());
+}
+
+std::string difference_of_record(const RunStatus& status, const Json& run_json) {
+  if (!run_json.is_object()) return {};
+  if (!status.states.empty() && status.states != text_of(run_json, "simulation"))
+    return "is of another simulation than the sweep made";
+  const Json drawings = run_json.value("drawings", Json());
+  for (const auto& [view, drawing] : status.drawings)
+    if (text_of(drawings, view) != drawing)
+      return "has pictures of " + view + " that are drawn otherwise than the sweep did";
+  return {};
 }
 
 Retry parse_retry(const std::string& text) {

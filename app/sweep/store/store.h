@@ -10,6 +10,10 @@
 #include "app/setup/plan.h"
 #include "app/support/json.h"
 
+namespace neve::app::sweep {
+struct Run;
+}
+
 namespace neve::app::sweep::store {
 
 enum class RunState {
@@ -40,6 +44,9 @@ struct RunStatus {
   std::string host;
   /// Attempts of its common beginning, which failed, and with it the run; 0: it began.
   int failed_beginning = 0;
+  /// Of run.json when it ended: its `simulation` and `drawings`. Other commands may replace both.
+  std::string states;
+  std::map<std::string, std::string> drawings;
   bool is_damaged = false;  ///< there is a file, and it is not as neve wrote it
 };
 
@@ -54,6 +61,12 @@ std::filesystem::path beginning_folder(const std::filesystem::path& sweep, const
 RunStatus read_status(const std::filesystem::path& run_folder);
 /// @throws IoError
 void write_status(const std::filesystem::path& run_folder, const RunStatus& status);
+
+/// Keeps what the run that has ended says of itself, to be compared with later.
+void note_record(const Json& run_json, RunStatus& status);
+/// Says that another command has simulated or drawn the run otherwise since; "" where it is as the
+/// sweep made it, and in folders of earlier versions.
+std::string difference_of_record(const RunStatus& status, const Json& run_json);
 
 /// Nothing is left to do, unless failed ones are to be run again.
 bool is_finished(RunState state);
