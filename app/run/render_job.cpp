@@ -1,5 +1,4 @@
 #include "app/run/render_job.h"
-#include "app/record/picture_files.h"
 
 #include <fmt/core.h>
 
@@ -7,6 +6,9 @@
 #include <set>
 #include <system_error>
 
+#include "app/record/earlier.h"
+#include "app/record/picture_files.h"
+#include "app/record/verify.h"
 #include "app/run/fork.h"
 #include "app/run/passes.h"
 #include "app/scene/read.h"
@@ -86,6 +88,38 @@ void take_picture(const record::PictureRecord& picture, RenderJob& job) {
   check_texts(job);
 }
 
+/// A run that is continued is drawn as its newest picture is, where the options say nothing else.
+/// @return whether it has one
+bool take_drawing_of_run(RenderJob& job) {
+  const std::optional<record::Pictures> pictures =
+      record::listed_pictures(record::read_run_json(job.run));
+  if (!pictures) return false;
+  for (const std::string& view : pictures->views) {
+    const bool is_drawn =
+        std::ranges::find(job.only_tiles, view) == job.only_tiles.end() &&
+        (std::ranges::find(job.scene.views, view, &scene::View::name) != job.scene.views.end() ||
+         std::ranges::find(job.scene.mosaics, view, &scene::Mosaic::name) !=
+             job.scene.mosaics.end());
+    if (!is_drawn) continue;
+    for (auto frame = pictures->frames.rbegin(); frame != pictures->frames.rend(); ++frame) {
+      const std::string name = record::picture_name(view, frame->frame);
+      const auto listed = pictures->files.find(name);
+      if (!pictures->has(view, frame->frame) || listed == pictures->files.end() ||
+          !record::has_hash(job.run / name, listed->second))
+        continue;
+      const record::PictureRecord picture = record::read_picture_record(job.run / name);
+      job.quality = setup::quality_named(picture.quality);
+      job.passes = picture.passes;
+      job.shutter = picture.shutter;
+      job.plate = picture.plate;
+      job.lut = picture.lut;
+      job.options.has_caption = job.options.has_caption && picture.has_caption;
+      return true;
+    }
+  }
+  return false;
+}
+
 bool is_only_mosaics(const RenderJob& job) {
   return !job.scene.mosaics.empty() && job.only_tiles.size() == job.scene.views.size();
 }
@@ -143,6 +177,8 @@ RenderJob make_job(const RenderOptions& options) {
   if (job.prediction.is_object())
     job.prediction_lines = job.prediction.value("text", std::vector<std::string>());
   if (!options.views.empty()) choose_views(options.views, job);
+  const bool has_drawing =
+      job.picture || (edits.continues_run && !job.run.empty() && take_drawing_of_run(job));
   if (!options.has_caption)
     for (scene::View& view : job.scene.views) std::erase(view.layers, scene::Layer::caption);
   set_sizes(options, job.scene);
@@ -155,7 +191,7 @@ RenderJob make_job(const RenderOptions& options) {
   if (!options.out.empty()) job.folder = options.out;
   if (options.shutter)
     job.shutter = *options.shutter;
-  else if (!job.picture || options.quality)  // a picture has its own
+  else if (!has_drawing || options.quality)  // a picture has its own
     job.shutter = job.quality == setup::Quality::final ? usual_shutter : 0;
   if (!options.plate.empty()) job.plate = options.plate;
   if (!options.lut.empty())

@@ -131,6 +131,36 @@ TEST_F(Resume, AnotherSceneIsRefusedAndNothingIsTouched) {
   EXPECT_FALSE(exists("out/checkpoint"));
 }
 
+/// Checkpoints know the first drawing of a run: what was drawn since was replaced by it.
+TEST_F(Resume, ARunThatWasDrawnAgainContinuesInItsNewDrawingOrIsRefused) {
+  ASSERT_EQ(render("whole", {"--quality", "final", "--no-movie"}).exit_code, 0);
+  ASSERT_EQ(render("a", {"--frames", "0-2", "--no-movie"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "a", "--quality", "final", "--replace", "--no-movie"}).exit_code, 0);
+  const RunFiles before = files_of(folder / "a");
+  const auto refused = render("a", {"--resume", "--no-movie"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.errors, "a has particles of this run, drawn otherwise"))
+      << refused.errors;
+  EXPECT_FALSE(contains(refused.errors, "not the file that the run wrote")) << refused.errors;
+  EXPECT_TRUE(files_of(folder / "a").pictures == before.pictures);
+  // Its folder says how it is drawn.
+  const auto more = neve({"render", "a", "--resume", "--no-movie"});
+  EXPECT_EQ(more.exit_code, 0) << more.errors;
+  EXPECT_FALSE(contains(more.errors, "made again")) << more.errors;
+  expect_same("whole", "a");
+}
+
+TEST_F(Resume, ARunThatGotPassesLaterContinuesWithThem) {
+  ASSERT_EQ(render("whole", {"--passes", "depth", "--no-movie"}).exit_code, 0);
+  ASSERT_EQ(render("a", {"--frames", "0-2", "--no-movie"}).exit_code, 0);
+  ASSERT_EQ(neve({"render", "a", "--passes", "depth", "--replace", "--no-movie"}).exit_code, 0);
+  const auto more = neve({"render", "a", "--resume", "--no-movie"});
+  ASSERT_EQ(more.exit_code, 0) << more.errors;
+  EXPECT_FALSE(contains(more.errors, "made again")) << more.errors;
+  EXPECT_TRUE(exists("a/particles/0004.exr"));
+  expect_same("whole", "a");
+}
+
 TEST_F(Resume, ARunWithoutACheckpointStartsAtTheBeginning) {
   const auto result = render("out", {"--resume", "--frames", "0-1"});
   EXPECT_EQ(result.exit_code, 0);
