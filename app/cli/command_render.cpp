@@ -390,7 +390,11 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
     const std::size_t made = run.record().frames.size();
     progress.say(fmt::format("interrupted; {} {} in {}", count_text(made, "frame"),
                              made == 1 ? "is" : "are", job.folder.string()));
-    if (result.has_checkpoint) progress.say("--resume continues from here");
+    if (result.is_addition)
+      progress.say(options.replaces ? "the same command without --replace continues from here"
+                                    : "the same command continues from here");
+    else if (result.has_checkpoint)
+      progress.say("--resume continues from here");
     return code;
   }
   progress.note(frames_text(job, run, result));

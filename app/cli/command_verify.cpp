@@ -183,7 +183,8 @@ void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const F
   else if (!findings.is_in_use)
     std::cout << (is_sweep ? "repeat the command of the sweep to make the rest\n"
                   : findings.is_run
-                      ? "repeat the command that made it, with --resume, to make the rest\n"
+                      ? "repeat the command that made it, with --resume, to make the rest, and "
+                        "without --replace\n"
                       : "repeat the command that made it\n");
 }
 

@@ -298,11 +298,23 @@ void Ledger::carry_status() {
     return;
   }
   const bool has_all = record::frames_asked(earlier) && !record_.frames.empty() &&
-                       record_.frames.back().frame >= record_.asked->last;
+                       record_.frames.back().frame >= record_.asked->last && has_all_pictures();
   if (before == record::name(ok) || has_all) return;
   // One that was killed had no time to say so.
   record_.carried_status = before == record::name(running) ? record::name(interrupted) : before;
   if (before == record::name(failed)) record_.carried["error"] = earlier.value("error", Json());
+}
+
+/// True where every view has the frames that this command and those before it were asked for: what
+/// was interrupted was the drawing, and it is done.
+bool Ledger::has_all_pictures() const {
+  const auto have = [&](const std::optional<record::ViewFrames>& asked) {
+    return !asked || std::ranges::all_of(record_.view_records, [&](const auto& view) {
+      const record::ViewFrames frames = record::frames_of(record_, view.first);
+      return frames.has(asked->first) && frames.has(asked->last);
+    });
+  };
+  return have(record_.asked) && have(record::frames_asked(earlier_->json));
 }
 
 bool Ledger::is_missing(const std::string& view, int number) const {

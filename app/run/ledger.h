@@ -77,6 +77,7 @@ class Ledger {
   void forget_unwritten_frames();
   bool is_missing(const std::string& view, int number) const;
   void carry_status();
+  bool has_all_pictures() const;
 
   const RenderJob& job_;
   Progress& progress_;

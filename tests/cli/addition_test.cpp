@@ -611,6 +611,38 @@ TEST_F(Addition, OtherOutputsDoNotReplaceItsFiles) {
   }
 }
 
+/// The simulation was done: the run stayed interrupted, whatever was drawn of it afterwards.
+TEST_F(Addition, AnInterruptedDrawingOfAWholeRunIsFinishedByItsCommand) {
+  render({"scene.toml", "--out", "a", "--frames", "0-40", "--no-movie"});
+  const std::filesystem::path printed = folder / "printed";
+  const auto interrupt = [&](const std::string& words, const std::string& picture) {
+    const pid_t child =
+        start_program({"/bin/sh", "-c",
+                       "cd " + folder.path().string() + " && exec " NEVE_BINARY " render " + words +
+                           " --no-movie 2>" + printed.string()});
+    ASSERT_TRUE(wait_for_file(folder / picture));
+    ::kill(child, SIGINT);
+    EXPECT_EQ(wait_for(child), 75) << read_text(printed);
+    EXPECT_EQ(json_of("a/run.json")["status"], "interrupted");
+    EXPECT_FALSE(contains(read_text(printed), "--resume")) << read_text(printed);
+  };
+  interrupt("a --view smoke --size 320x180", "a/smoke/0001.png");
+  EXPECT_TRUE(contains(read_text(printed), "the same command continues from here"));
+  // A part of the rest is not all of it.
+  render({"a", "--view", "smoke", "--size", "320x180", "--frames", "0-39", "--no-movie"});
+  EXPECT_EQ(json_of("a/run.json")["status"], "interrupted");
+  render({"a", "--view", "smoke", "--size", "320x180", "--no-movie"});
+  EXPECT_EQ(json_of("a/run.json")["status"], "ok");
+  expect_whole("a");
+  fs::remove_all(folder / "a/particles");
+  interrupt("a --view particles --quality final --replace", "a/particles/0001.png");
+  EXPECT_TRUE(
+      contains(read_text(printed), "the same command without --replace continues from here"));
+  render({"a", "--view", "particles", "--quality", "final", "--no-movie"});
+  EXPECT_EQ(json_of("a/run.json")["status"], "ok");
+  expect_whole("a");
+}
+
 TEST_F(Addition, AnInterruptedRunIsFinishedByItsNameAlone) {
   render({"scene.toml", "--out", "whole", "--no-movie"});
   render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-2"});
