@@ -112,12 +112,20 @@ void check_picture_sizes(const scene::Scene& scene, setup::Quality quality, int 
   }
 }
 
-/// Reads the plate of the first frame for every view: a wrong one is found before the run.
+/// Reads the plates of all frames for every view: a wrong one is found before the run, and before
+/// what it replaces is gone. A run that is continued may have no more than those it needs.
 void check_plates(const run::RenderJob& job) {
   if (job.plate.empty()) return;
-  for (const scene::View& view : job.scene.views)
-    run::read_plate(job, scene::number_of(job.scene, job.frames.first), view.name,
-                    setup::size_of(job.scene, view));
+  const int last = job.options.resume ? job.frames.first : job.frames.last;
+  std::filesystem::path before;
+  for (int frame = job.frames.first; frame <= last; ++frame) {
+    const int number = scene::number_of(job.scene, frame);
+    const std::filesystem::path file = run::plate_path(job.plate, number);
+    if (file == before) return;  // one picture for all frames
+    before = file;
+    for (const scene::View& view : job.scene.views)
+      run::read_plate(job, number, view.name, setup::size_of(job.scene, view));
+  }
 }
 
 /// @return the exit code; leaves DIR/difference.png when the pictures differ

@@ -643,6 +643,17 @@ TEST_F(Addition, AnInterruptedDrawingOfAWholeRunIsFinishedByItsCommand) {
   expect_whole("a");
 }
 
+/// What was simulated is known, drawn or not.
+TEST_F(Addition, ADrawingThatFailsKeepsTheRecordsOfTheFrames) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const auto before = hashes("a");
+  fs::remove(folder / "a/particles/0003.png");
+  fs::create_directories(folder / "a/particles/0003.png");
+  render({"a", "--size", "96x54", "--replace", "--no-movie"}, app::exit_io);
+  EXPECT_EQ(json_of("a/run.json")["status"], "failed");
+  EXPECT_EQ(hashes("a"), before);
+}
+
 TEST_F(Addition, AnInterruptedRunIsFinishedByItsNameAlone) {
   render({"scene.toml", "--out", "whole", "--no-movie"});
   render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-2"});

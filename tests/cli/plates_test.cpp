@@ -214,5 +214,21 @@ TEST_F(Plates, WrongPlatesAndShuttersAreRefusedBeforeTheRun) {
   EXPECT_FALSE(exists("out/flying/run.json"));
 }
 
+/// The plates of later frames were read when the pictures that they replace were gone.
+TEST_F(Plates, AWrongPlateOfAnyFrameIsRefusedBeforeAnythingIsRemoved) {
+  render({"flying.toml", "--out", "a", "--frames", "2"});
+  const render::Image street{160, 90, 3, std::vector<std::uint8_t>(3 * 160 * 90, 200)};
+  folder.write("street/0002.png", "no picture");
+  for (const char* file : {"street/0000.png", "street/0001.png"})
+    app::output::write_file(folder / file, render::encode_png(street));
+  const std::vector<std::string> command{"render", "a", "--plate", "street/%04d.png", "--replace"};
+  const std::string before = read_text(folder / "a/run.json");
+  const auto refused = neve(command);
+  EXPECT_EQ(refused.exit_code, 3) << refused.errors;
+  EXPECT_TRUE(contains(refused.errors, "street/0002.png")) << refused.errors;
+  EXPECT_EQ(read_text(folder / "a/run.json"), before);
+  EXPECT_EQ(neve({"verify", "a"}).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace neve::test
