@@ -365,6 +365,7 @@ TEST(RunResults, FramesOfKilledRunsHaveTheirPictures) {
   app::sweep::store::Manifest m = manifest_of({1});
   m.view = "particles";
   m.runs[0].key = "k";
+  m.runs[0].frames = {0, 2};
   Json frames = Json::array();
   for (const int number : {0, 1, 2}) {
     app::record::FrameRecord frame;
