@@ -48,22 +48,8 @@ timeline::Made Ledger::made(int frame) const {
   return made;
 }
 
-void Ledger::keep_views(const EarlierRun& earlier) {
-  run::keep_views(job_, earlier, record_);
-  note_short_movies(earlier.json);
-}
-
-void Ledger::note_short_movies(const Json& run) {
-  if (!run.contains("warnings") || !run["warnings"].is_array()) return;
-  for (const Json& warning : run["warnings"])
-    if (warning.is_string())
-      if (const std::string text = warning.get<std::string>(); text.starts_with(short_movie))
-        short_movies_.insert(text.substr(short_movie.size(), text.find(';') - short_movie.size()));
-}
-
 void Ledger::add_to(const EarlierRun& earlier) {
   record::remove_listed(job_.folder, add_to_run(job_, earlier, record_));
-  note_short_movies(earlier.json);
   if (!job_.scene.exports.empty() && earlier.json.contains("exports"))
     exporter_.resume(earlier.json["exports"], output::max_frame);
   note_exports();
@@ -182,31 +168,13 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
   if (job_.has_movies())
     for (const std::string& view : record_.views) {
       write_movie(view, job_.options.movie, movies);
-      if (has_added_ || !short_movies_.empty()) write_earlier_movies(view, movies);
+      if (has_added_) write_earlier_movies(view, movies);
     }
-  warn_of_short_movies();
   for (const output::WrittenFile& file : exporter_.finish()) note_file(file);
   record_.status = status;
   carry_status();
   bring_to_disk();
   return movies;
-}
-
-/// They are whole files, and end where the film did before.
-void Ledger::warn_of_short_movies() {
-  for (const std::string& view : record_.views) {
-    if (job_.has_movies() || !has_added_) break;
-    const int count = record::frames_of(record_, view).count();
-    if (earlier_ && earlier_->frames_of(view).count() == count) continue;
-    for (const std::string& movie : movies_of(view, record_.files)) short_movies_.insert(movie);
-  }
-  for (const std::string& movie : short_movies_) {
-    if (!record_.files.contains(movie)) continue;
-    std::string warning =
-        short_movie + movie + "; repeat the command without --no-movie to make it again";
-    progress_.warning(warning);
-    record_.warnings.push_back(std::move(warning));
-  }
 }
 
 /// Movies in other formats would end where the film did before.
@@ -229,8 +197,7 @@ void Ledger::write_movie(const std::string& view, const output::MovieStyle& styl
   const int first = frames.first - (record_.slate ? 1 : 0);
   const std::filesystem::path file = output::movie_path(job_.folder, view, style.format);
   const auto listed = record_.files.find(file.filename().string());
-  const bool is_whole = !has_added_ && !short_movies_.contains(file.filename().string());
-  if (is_whole && listed != record_.files.end() && record::has_hash(file, listed->second)) {
+  if (!has_added_ && listed != record_.files.end() && record::has_hash(file, listed->second)) {
     movies.push_back(file);
     return;
   }
@@ -253,7 +220,6 @@ void Ledger::write_movie(const std::string& view, const output::MovieStyle& styl
       record_.files[request.file.filename().string()] =
           record::hash_text(output::hash_file(request.file));
       record_.movies[request.file.filename().string()] = movie_style_text(job_, style);
-      short_movies_.erase(request.file.filename().string());
       return;
     case output::MovieOutcome::no_ffmpeg:
       if (view == record_.views.front())

@@ -18,8 +18,6 @@ namespace neve::app::run {
 
 /// Begins the warning of a movie that was not made: the next command may make it.
 inline const std::string no_movie = "no movie ";
-/// The same of one that is there, without frames that were added; then its name.
-inline const std::string short_movie = no_movie + "of the frames that were added to ";
 
 class Ledger {
  public:
@@ -42,7 +40,7 @@ class Ledger {
   /// Becomes the ledger of the same run with more pictures; removes what they replace.
   void add_to(const EarlierRun& earlier);
   /// Notes the earlier views of a run that is resumed.
-  void keep_views(const EarlierRun& earlier);
+  void keep_views(const EarlierRun& earlier) { run::keep_views(job_, earlier, record_); }
   /// True where the run has the pictures of a frame already, unchanged, and no exports are due.
   bool is_made(int frame) const;
   /// Takes what a run that is resumed has made until a moment. @throws IoError for a broken list
@@ -71,8 +69,6 @@ class Ledger {
   void note_exports();
   void write_movie(const std::string& view, const output::MovieStyle& style,
                    std::vector<std::filesystem::path>& movies);
-  void note_short_movies(const Json& run);
-  void warn_of_short_movies();
   void write_earlier_movies(const std::string& view, std::vector<std::filesystem::path>& movies);
   void forget_unwritten_frames();
   bool is_missing(const std::string& view, int number) const;
@@ -85,7 +81,6 @@ class Ledger {
   exports::Exporter exporter_;
   std::optional<EarlierRun> earlier_;         ///< that pictures are added to
   bool has_added_ = false;                    ///< a frame
-  std::set<std::string> short_movies_;        ///< that lack frames which earlier commands added
   std::set<std::filesystem::path> unsynced_;  ///< files that a power cut may still take
   output::PictureWriter writer_;              ///< last: stops before its inputs are destroyed
 };

@@ -133,21 +133,6 @@ TEST_F(Addition, AFilmInAnotherFormatIsMadeFromThePictures) {
   expect_whole("a");
 }
 
-/// It was listed as whole, with fewer frames than the run.
-TEST_F(Addition, AFilmThatLacksFramesThatWereAddedIsTold) {
-  const auto made = render({"scene.toml", "--out", "a", "--movie", "gif", "--frames", "0-2"});
-  if (!exists("a/particles.gif")) GTEST_SKIP() << "no ffmpeg: " << made.errors;
-  const auto more = render({"a", "--frames", "0-4", "--no-movie"});
-  const std::string warning = "no movie of the frames that were added to particles.gif";
-  EXPECT_TRUE(contains(more.errors, warning)) << more.errors;
-  EXPECT_TRUE(contains(json_of("a/run.json")["warnings"].dump(), warning));
-  render({"a", "--view", "smoke", "--no-movie"});
-  const std::string before = json_of("a/run.json")["files"]["particles.gif"];
-  render({"a", "--view", "particles", "--movie", "gif"});
-  EXPECT_EQ(json_of("a/run.json")["warnings"].size(), 0u);
-  EXPECT_NE(json_of("a/run.json")["files"]["particles.gif"], before);
-}
-
 TEST_F(Addition, AnotherDrawingOfAViewIsRefusedUntilItMayReplaceIt) {
   render({"scene.toml", "--out", "a", "--no-movie"});
   const auto before = pictures("a/particles");
