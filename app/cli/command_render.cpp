@@ -407,6 +407,8 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
   }
   progress.note(frames_text(job, run, result));
   if (const std::string films = films_text(job, run, result); !films.empty()) progress.note(films);
+  for (const auto& [movie, shown] : record::short_movies(run.record()))
+    progress.note((job.folder / movie).string() + record::short_movie_text(shown));
   if (const std::string states = states_text(job, run.record().states); !states.empty())
     progress.note(states);
   return exit_ok;

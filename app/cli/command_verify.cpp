@@ -149,6 +149,7 @@ void print_json(const std::string& folder, const Findings& findings) {
   json["flaws"] = Json::array();
   for (const record::Flaw& flaw : findings.flaws)
     json["flaws"].push_back({{"file", flaw.file}, {"what", flaw.what}});
+  json["notes"] = findings.notes;
   std::cout << to_text(json) << "\n";
 }
 
@@ -169,6 +170,8 @@ void print_text(const std::string& folder, bool is_sweep, bool is_quiet, const F
   if (!findings.unfinished.empty())
     std::cout << printable_text(folder + ": " + findings.unfinished) << "\n";
   if (is_quiet) return;
+  for (const std::string& note : findings.notes)
+    std::cout << printable_text((fs::path(folder) / note).string()) << "\n";
   const bool is_made = !findings.flaws.empty() && findings.unfinished.empty() &&
                        std::ranges::all_of(findings.flaws, is_of_kept_file);
   const bool is_of_export = !findings.flaws.empty() && findings.unfinished.empty() &&

@@ -401,6 +401,8 @@ Json to_json(const RunRecord& run) {
   if (run.frames_from_states > 0) json["frames_from_states"] = run.frames_from_states;
   json["files"] = run.files;
   if (!run.movies.empty()) json["movies"] = run.movies;
+  for (const auto& [movie, shown] : short_movies(run))
+    json["movie_frames"][movie] = {shown.first, shown.last};
   json["warnings"] = run.warnings;
   if (!run.step_warnings.empty()) json["step_warnings"] = run.step_warnings;
   json["slowdown"] = run.slowdown ? Json(*run.slowdown) : Json();
@@ -428,6 +430,38 @@ ViewFrames frames_of(const RunRecord& run, const std::string& view) {
   if (run.frames.empty()) return {};
   return run.view_records.at(view).frames.value_or(
       ViewFrames{run.frames.front().frame, run.frames.back().frame});
+}
+
+std::map<std::string, ViewFrames> short_movies(const RunRecord& run) {
+  std::map<std::string, ViewFrames> movies = run.movie_frames;
+  std::erase_if(movies, [&](const auto& movie) {
+    const std::string view = std::filesystem::path(movie.first).stem().string();
+    if (!run.files.contains(movie.first) || !run.view_records.contains(view)) return true;
+    const ViewFrames frames = frames_of(run, view);
+    return movie.second.first <= frames.first && movie.second.last >= frames.last;
+  });
+  return movies;
+}
+
+std::map<std::string, ViewFrames> short_movies(const Json& run) {
+  std::map<std::string, ViewFrames> movies;
+  try {
+    const Json listed = run.value("movie_frames", Json::object());
+    for (const auto& [movie, shown] : listed.items())
+      movies[movie] = {whole_number<int>(shown.at(0)), whole_number<int>(shown.at(1))};
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return {};
+  }
+  return movies;
+}
+
+std::string short_movie_text(const ViewFrames& shown) {
+  return fmt::format(
+      " shows frames {} to {}, and its view has others; a command that draws the view, without "
+      "--no-movie, makes it whole",
+      shown.first, shown.last);
 }
 
 void write_run_json(const std::filesystem::path& folder, const RunRecord& run) {

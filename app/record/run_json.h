@@ -130,8 +130,9 @@ struct RunRecord {
   std::string carried_status;     ///< in the place of `status`, of a run that got further before
   Json carried = Json::object();  ///< entries of an earlier run.json, where this run has none
   FileHashes files;  ///< pictures and movies; a picture that is just being written is not in it yet
-  FileHashes movies;                       ///< quality and speed of those in `files`, as text
-  std::vector<std::string> warnings;       ///< of the start and of the steps so far
+  FileHashes movies;  ///< quality and speed of those in `files`, as text
+  std::map<std::string, ViewFrames> movie_frames{};  ///< numbers of the pictures that they show
+  std::vector<std::string> warnings;                 ///< of the start and of the steps so far
   std::vector<std::string> step_warnings;  ///< those of `warnings` that the steps so far gave
   /// Says that a frame took much longer than the first. No warning: the load of the machine must
   /// not change a run.
@@ -195,6 +196,14 @@ Json to_json(const RunRecord& run);
 /// The frames of a view: its own, or all of the run's. @throws std::out_of_range where the run has
 /// none of the name
 ViewFrames frames_of(const RunRecord& run, const std::string& view);
+
+/// Movies that do not show all pictures of their view, by their files, with the numbers of those
+/// that they show: a command without movies has drawn others.
+std::map<std::string, ViewFrames> short_movies(const RunRecord& run);
+/// The same, of a run.json.
+std::map<std::string, ViewFrames> short_movies(const Json& run);
+/// " shows frames 0 to 3, and its view has others; a command that ... makes it whole"
+std::string short_movie_text(const ViewFrames& shown);
 
 /// @throws IoError
 void write_run_json(const std::filesystem::path& folder, const RunRecord& run);

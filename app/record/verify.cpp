@@ -213,6 +213,8 @@ Verification verify_run(const fs::path& folder) {
   result.status = run["status"].get<std::string>();
   if (!pictures->frames.empty()) result.last_frame = pictures->frames.back().frame;
   check_gaps(name, pictures->frames, result.flaws);
+  for (const auto& [movie, shown] : short_movies(run))
+    result.notes.push_back(movie + short_movie_text(shown));
   std::vector<int> flawed;
   for (Flaw& flaw : picture_flaws(folder, *pictures, 0, -1, flawed))
     result.flaws.push_back(std::move(flaw));

@@ -58,6 +58,7 @@ struct Verification {
   int last_frame = -1;    ///< that is listed; -1: none
   std::size_t files = 0;  ///< that were checked
   std::vector<Flaw> flaws;
+  std::vector<std::string> notes{};  ///< of files that are as they were written, and not all
 };
 
 /// Reads run.json and all files that it lists, and those of `neve export` of this run.

@@ -333,7 +333,13 @@ void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::
 
 void keep_views(const RenderJob& job, const EarlierRun& earlier, record::RunRecord& ours) {
   const auto& with_passes = earlier.pictures.views_of_passes;
+  const auto short_movies = record::short_movies(earlier.json);
   for (const std::string& view : earlier.pictures.views) {
+    for (const std::string& movie : movies_of(view, earlier.pictures.files)) {
+      const auto found = short_movies.find(movie);
+      ours.movie_frames[movie] =
+          found != short_movies.end() ? found->second : earlier.frames_of(view);
+    }
     ours.earlier_views.push_back(view);
     record::ViewRecord& record = ours.view_records[view];
     record.frames = earlier.frames_of(view);

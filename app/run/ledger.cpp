@@ -168,7 +168,7 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
   if (job_.has_movies())
     for (const std::string& view : record_.views) {
       write_movie(view, job_.options.movie, movies);
-      if (has_added_) write_earlier_movies(view, movies);
+      write_earlier_movies(view, movies);
     }
   for (const output::WrittenFile& file : exporter_.finish()) note_file(file);
   record_.status = status;
@@ -177,13 +177,18 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
   return movies;
 }
 
+/// True of a movie that does not show all pictures of its view.
+bool Ledger::is_movie_short(const std::filesystem::path& file) const {
+  return has_added_ || record::short_movies(record_).contains(file.filename().string());
+}
+
 /// Movies in other formats would end where the film did before.
 void Ledger::write_earlier_movies(const std::string& view,
                                   std::vector<std::filesystem::path>& movies) {
   const std::filesystem::path own = output::movie_path({}, view, job_.options.movie.format);
   for (const std::filesystem::path file : movies_of(view, record_.files)) {
     const auto listed = record_.movies.find(file.string());
-    if (file == own || listed == record_.movies.end()) continue;
+    if (file == own || listed == record_.movies.end() || !is_movie_short(file)) continue;
     output::MovieStyle style = movie_style_of(job_, listed->second);
     style.format = *output::movie_format_named(file.extension().string().substr(1));
     write_movie(view, style, movies);
@@ -197,7 +202,8 @@ void Ledger::write_movie(const std::string& view, const output::MovieStyle& styl
   const int first = frames.first - (record_.slate ? 1 : 0);
   const std::filesystem::path file = output::movie_path(job_.folder, view, style.format);
   const auto listed = record_.files.find(file.filename().string());
-  if (!has_added_ && listed != record_.files.end() && record::has_hash(file, listed->second)) {
+  if (!is_movie_short(file) && listed != record_.files.end() &&
+      record::has_hash(file, listed->second)) {
     movies.push_back(file);
     return;
   }
@@ -220,6 +226,7 @@ void Ledger::write_movie(const std::string& view, const output::MovieStyle& styl
       record_.files[request.file.filename().string()] =
           record::hash_text(output::hash_file(request.file));
       record_.movies[request.file.filename().string()] = movie_style_text(job_, style);
+      record_.movie_frames[request.file.filename().string()] = frames;
       return;
     case output::MovieOutcome::no_ffmpeg:
       if (view == record_.views.front())

@@ -69,6 +69,7 @@ class Ledger {
   void note_exports();
   void write_movie(const std::string& view, const output::MovieStyle& style,
                    std::vector<std::filesystem::path>& movies);
+  bool is_movie_short(const std::filesystem::path& file) const;
   void write_earlier_movies(const std::string& view, std::vector<std::filesystem::path>& movies);
   void forget_unwritten_frames();
   bool is_missing(const std::string& view, int number) const;

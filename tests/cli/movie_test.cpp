@@ -61,6 +61,28 @@ TEST_F(MovieFlags, ALongerFilmIsLongerInAllOfItsFormats) {
   EXPECT_EQ(neve({"verify", "a"}).exit_code, 0);
 }
 
+/// It was listed as whole.
+TEST_F(MovieFlags, AFilmThatIsShorterThanItsPicturesIsToldUntilItIsMadeAgain) {
+  ASSERT_EQ(
+      neve({"render", "scene.toml", "--frames", "2", "--out", "a", "--movie", "gif"}).exit_code, 0);
+  const std::string text = "a/particles.gif shows frames 0 to 2, and its view has others";
+  for (const char* frames : {"4", "5"}) {
+    const auto longer = neve({"render", "a", "--frames", frames, "--no-movie"});
+    ASSERT_EQ(longer.exit_code, 0) << longer.errors;
+    EXPECT_TRUE(contains(longer.errors, text)) << longer.errors;
+    const auto verified = neve({"verify", "a"});
+    EXPECT_EQ(verified.exit_code, 0);
+    EXPECT_TRUE(contains(verified.output, text)) << verified.output;
+  }
+  const auto whole = neve({"render", "a", "--movie", "gif"});
+  ASSERT_EQ(whole.exit_code, 0) << whole.errors;
+  EXPECT_FALSE(contains(whole.errors, "its view has others")) << whole.errors;
+  EXPECT_FALSE(contains(neve({"verify", "a"}).output, "its view has others"));
+  ASSERT_EQ(
+      neve({"render", "scene.toml", "--frames", "5", "--out", "b", "--movie", "gif"}).exit_code, 0);
+  EXPECT_EQ(read_text(folder / "a/particles.gif"), read_text(folder / "b/particles.gif"));
+}
+
 TEST_F(MovieFlags, SheetsAndComparisonsHaveThemToo) {
   const auto swept = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0-2", "--size",
                            "96x54", "--out", "s", "--movie", "gif"});
