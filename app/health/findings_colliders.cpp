@@ -101,7 +101,8 @@ void check_motion(const scene::Scene& scene, const Check& check, std::vector<Fin
   // Adaptive steps are short enough.
   const double dt = s.time_step == sim::TimeStep::fixed ? s.dt : 0;
   for (const sim::shapes::Collider& collider : scene.colliders) {
-    const double speed = setup::collider_speed(scene, collider.name), cells = speed * dt / s.cell_size;
+    const double speed = setup::collider_speed(scene, collider.name),
+                 cells = speed * dt / s.cell_size;
     const double c = check.start.max_sound_speed;
     const std::string at = "collider." + collider.name + fastest_part(collider, speed);
     if (cells > sim::health::limits_of(sim::health::Law::collider_cfl).check_warning)
