@@ -29,7 +29,8 @@ void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& f
   const sim::DustSettings& d = scene.solver.dust;
   const sim::Material* dusty = scene::dusty_material(scene);
   if (!dusty) {
-    const std::string hint = "material." + scene.materials.front().name + ".dust = 0.02";
+    const std::string hint =
+        "material." + scene::materials_of_snow(scene).front().name + ".dust = 0.02";
     if (d != sim::DustSettings{} && !scene::has_spray_drag(scene))
       findings.push_back(
           {Severity::warning, "dust", "it has no effect: no snow of the scene sheds dust", hint});

@@ -220,7 +220,7 @@ std::optional<Idle> idle_in_dust(const scene::Scene& scene, const std::string& k
       (is_of_air && scene::has_spray_drag(scene)))
     return std::nullopt;
   return Idle{"no snow of the scene sheds dust",
-              "material." + scene.materials.front().name + ".dust = 0.02"};
+              "material." + scene::materials_of_snow(scene).front().name + ".dust = 0.02"};
 }
 
 std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& address) {

@@ -228,7 +228,7 @@ void warn_of_no_dust(const scene::Scene& scene, Progress& progress) {
     progress.warning(
         "--dust: no snow of the scene sheds dust, and the files hold none; set "
         "material.NAME.dust, as in --set material." +
-        scene.materials.front().name + ".dust=0.01");
+        scene::materials_of_snow(scene).front().name + ".dust=0.01");
 }
 
 void write_list(const ExportJob& job, const ExportResult& result, const Kept& kept,

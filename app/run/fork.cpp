@@ -33,9 +33,10 @@ scene::Scene with_all_changes(const RenderJob& job) {
 /// They come first, as where a scene is read: wherever a single number is set beside a preset, the
 /// number counts, and a curve has the word over both.
 void take_live_numbers(const scene::Scene& before, Fork& fork) {
-  const auto beside = std::ranges::stable_partition(
-      fork.changes, [](const scene::Override& o) { return scene::is_preset_address(o.address); });
-  const std::vector<scene::Override> presets(fork.changes.begin(), beside.begin());
+  const auto beside = std::stable_partition(
+      fork.changes.begin(), fork.changes.end(),
+      [](const scene::Override& o) { return scene::is_preset_address(o.address); });
+  const std::vector<scene::Override> presets(fork.changes.begin(), beside);
   std::vector<scene::Override> changes;
   for (const scene::Difference& number :
        scene::differences(before, scene::apply(before, presets, "the scene"))) {
@@ -48,7 +49,7 @@ void take_live_numbers(const scene::Scene& before, Fork& fork) {
       fork.notes.push_back(fmt::format("{} stays {}: it cannot change while a simulation runs",
                                        number.address, scene::toml::toml_literal(*number.before)));
   }
-  changes.insert(changes.end(), beside.begin(), beside.end());
+  changes.insert(changes.end(), beside, fork.changes.end());
   fork.changes = std::move(changes);
 }
 
