@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "app/health/findings.h"
@@ -352,6 +353,27 @@ Hypothesis shock(const Case& c) {
       c.at("youngs_modulus")};
 }
 
+/// Of elastic snow, which nothing crushes: only the energy tells.
+Hypothesis elastic_shock(const Case& c) {
+  if (c.d.rule != "energy") return std::nullopt;
+  const setup::Impact impact = setup::hardest_impact(c.scene);
+  const double sound = c.start_sound() * impact.share_of_sound;
+  const std::vector<setup::SnowPiece> places = setup::snow_places(c.scene);
+  const auto hit = std::ranges::find(places, impact.address, &setup::SnowPiece::address);
+  if (hit == places.end() || sim::laws::of(*hit->material).is_plastic ||
+      impact.speed < cause(Law::impact_mach) * sound)
+    return std::nullopt;
+  const std::string at = "material." + hit->material->name + ".youngs_modulus";
+  return Diagnosis{
+      Cause::shock,
+      fmt::format("{} hits something at {} m/s, {} times the speed of its sound", impact.address,
+                  rough_text(impact.speed), rough_text(impact.speed / sound)),
+      fmt::format(
+          "stay below {} m/s, or make it stiffer: {} = {}", rough_text(sound), at,
+          rough_text(hit->material->youngs_modulus * std::pow(2 * impact.speed / sound, 2))),
+      at};
+}
+
 /// " and hardening = 10", where the law hardens.
 std::string hardening_text(const char* joint, const sim::Material& m) {
   const sim::laws::Parameter* rate = sim::laws::of(m).rate;
@@ -489,11 +511,26 @@ Diagnosis unexplained(const Case& c) {
 Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence,
                    double coarsening) {
   const Case c(scene, divergence, coarsening);
-  for (const auto hypothesis :
-       {bypass, begins_dense, initial_state, units, raised_limits, too_long_at_rest, collider_speed,
-        colliders_closing, incompressible, hardened_beyond_fixed_step, shock, too_soft, hardening,
-        hardened_within_a_step, far_flight, raised_acoustic_limit, doubts_of_the_law, rounding,
-        thin})
+  for (const auto hypothesis : {bypass,
+                                begins_dense,
+                                initial_state,
+                                units,
+                                raised_limits,
+                                too_long_at_rest,
+                                collider_speed,
+                                colliders_closing,
+                                incompressible,
+                                hardened_beyond_fixed_step,
+                                shock,
+                                elastic_shock,
+                                too_soft,
+                                hardening,
+                                hardened_within_a_step,
+                                far_flight,
+                                raised_acoustic_limit,
+                                doubts_of_the_law,
+                                rounding,
+                                thin})
     if (Hypothesis found = hypothesis(c)) {
       found->coarsening = coarsening;
       return *found;

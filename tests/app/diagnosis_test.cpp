@@ -2,8 +2,10 @@
 
 #include "app/health/diagnosis.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -261,6 +263,35 @@ TEST(Diagnosis, AnyMaterialMayMakeEnergy) {
   const app::health::Diagnosis diagnosis = app::health::diagnose(scene, d);
   EXPECT_EQ(diagnosis.cause, app::health::Cause::incompressible) << diagnosis.evidence;
   EXPECT_EQ(diagnosis.address, "material.gel.poisson_ratio");
+}
+
+/// Nothing crushes rubber: the law of energy ends its run, and knows no particle. A stiffer body
+/// elsewhere hides nothing.
+TEST(Diagnosis, RubberThatHitsFasterThanItsSoundIsNamed) {
+  const auto diagnosis_of = [](const std::string& model, double speed) {
+    const app::scene::Scene scene = app::scene::read_scene_text(
+        "[material.stone]\nyoungs_modulus = 1e7\n[material.soft]\nyoungs_modulus = 1e5\n"
+        "model = \"" +
+            model + "\"\n[[body]]\nname = \"rubber\"\nmaterial = \"soft\"\n" +
+            fmt::format("velocity = [0, -{}, 0]\n", speed) +
+            "shape = { sphere = { center = [0, 0.5, 0], radius = 0.3 } }\n"
+            "[[body]]\nname = \"far\"\nmaterial = \"stone\"\n"
+            "shape = { sphere = { center = [3, 0.5, 0], radius = 0.3 } }\n"
+            "[[collider]]\nshape = { plane = {} }\n",
+        "soft.toml");
+    sim::Divergence d;
+    d.rule = "energy";
+    for (const sim::Material& material : scene.materials)
+      d.start.max_sound_speed = std::max(d.start.max_sound_speed, sim::sound_speed(material));
+    return app::health::diagnose(scene, d);
+  };
+  const app::health::Diagnosis fast = diagnosis_of("neo_hookean", 40);
+  EXPECT_EQ(fast.cause, app::health::Cause::shock) << fast.evidence;
+  EXPECT_EQ(fast.address, "material.soft.youngs_modulus");
+  EXPECT_NE(fast.evidence.find("body.rubber hits something at 40"), std::string::npos)
+      << fast.evidence;
+  EXPECT_NE(diagnosis_of("neo_hookean", 4).cause, app::health::Cause::shock);
+  EXPECT_NE(diagnosis_of("snow", 40).cause, app::health::Cause::shock);
 }
 
 /// Where no other cause shows, the body that the grid resolves least is named.
