@@ -40,7 +40,7 @@ class Plates {
   bool next(PlateSample& sample);
   /// Keeps the present state for the picture.
   void show();
-  /// What was measured before is no verdict then: snow bursts before the watch says so.
+  /// Then what was measured is no verdict: snow bursts before the watch says so.
   bool has_diverged() const { return simulation_->divergence().has_value(); }
 
  private:

@@ -112,22 +112,6 @@ void check_picture_sizes(const scene::Scene& scene, setup::Quality quality, int 
   }
 }
 
-/// Reads the plates of all frames for every view: a wrong one is found before the run, and before
-/// what it replaces is gone. A run that is continued may have no more than those it needs.
-void check_plates(const run::RenderJob& job) {
-  if (job.plate.empty()) return;
-  const int last = job.options.resume ? job.frames.first : job.frames.last;
-  std::filesystem::path before;
-  for (int frame = job.frames.first; frame <= last; ++frame) {
-    const int number = scene::number_of(job.scene, frame);
-    const std::filesystem::path file = run::plate_path(job.plate, number);
-    if (file == before) return;  // one picture for all frames
-    before = file;
-    for (const scene::View& view : job.scene.views)
-      run::read_plate(job, number, view.name, setup::size_of(job.scene, view));
-  }
-}
-
 /// @return the exit code; leaves DIR/difference.png when the pictures differ
 int compare_with_reference(const run::RenderOptions& options, const run::RenderJob& job,
                            const render::Image& picture, const render::Image& reference) {
@@ -453,7 +437,7 @@ int run_render(const run::RenderOptions& options) {
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, options.shader_dir, &pool);
   check_picture_sizes(job.scene, job.quality, renderer.max_size());
-  check_plates(job);
+  run::check_plates(job);
   if (!job.lut.empty()) run::read_lut(job.lut);
   // Before anything else of the run: another one may be writing there.
   const output::FolderLock lock(job.folder, "neve render");

@@ -353,7 +353,7 @@ Hypothesis shock(const Case& c) {
       c.at("youngs_modulus")};
 }
 
-/// Of elastic snow, which nothing crushes: only the energy tells.
+/// Nothing crushes elastic snow: only its energy tells.
 Hypothesis elastic_shock(const Case& c) {
   if (c.d.rule != "energy") return std::nullopt;
   const setup::Impact impact = setup::hardest_impact(c.scene);

@@ -69,6 +69,9 @@ std::string why_idle(const scene::Scene& scene, const std::string& address);
 void check_idle(const scene::Scene& scene, std::vector<std::string> addresses,
                 std::vector<Finding>& findings);
 
+/// "material.snow.dust = 0.02", of a material that snow of the scene has.
+std::string advice_on_dust(const scene::Scene& scene);
+
 /// Dust that never flies, that nothing shows, and that it takes time. @param speed m/s, of the
 /// fastest snow
 void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& findings);

@@ -25,12 +25,15 @@ bool is_shown(const scene::Scene& scene) {
 
 }  // namespace
 
+std::string advice_on_dust(const scene::Scene& scene) {
+  return "material." + scene::materials_of_snow(scene).front().name + ".dust = 0.02";
+}
+
 void check_dust(const scene::Scene& scene, double speed, std::vector<Finding>& findings) {
   const sim::DustSettings& d = scene.solver.dust;
   const sim::Material* dusty = scene::dusty_material(scene);
   if (!dusty) {
-    const std::string hint =
-        "material." + scene::materials_of_snow(scene).front().name + ".dust = 0.02";
+    const std::string hint = advice_on_dust(scene);
     if (d != sim::DustSettings{} && !scene::has_spray_drag(scene))
       findings.push_back(
           {Severity::warning, "dust", "it has no effect: no snow of the scene sheds dust", hint});

@@ -213,14 +213,13 @@ std::optional<Idle> idle_in_collider(const scene::Collider& collider, const std:
   return std::nullopt;
 }
 
-/// Of the dust, where no snow sheds any: drag of spray acts, and so does what moves its air.
+/// Where no snow sheds dust, drag of spray acts, and so does what moves its air.
 std::optional<Idle> idle_in_dust(const scene::Scene& scene, const std::string& key) {
   const bool is_of_air = key == "wind" || key == "air_cell" || key == "speed";
   if (key == "spray_drag" || scene::dusty_material(scene) ||
       (is_of_air && scene::has_spray_drag(scene)))
     return std::nullopt;
-  return Idle{"no snow of the scene sheds dust",
-              "material." + scene::materials_of_snow(scene).front().name + ".dust = 0.02"};
+  return Idle{"no snow of the scene sheds dust", advice_on_dust(scene)};
 }
 
 std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& address) {

@@ -97,7 +97,12 @@ std::filesystem::path plate_path(const std::string& pattern, int frame);
 /// over black. @return RGB @throws IoError; Error when it is none of them, not of the size of the
 /// view, or a picture names it that was not made with it; LimitError
 render::Image read_plate(const RenderJob& job, int frame, const std::string& view,
-                         scene::PictureSize size);
+                         const scene::PictureSize& size);
+
+/// Reads the plates of all frames for every view: a wrong one is found before the run, and before
+/// what it replaces is gone. A run that is continued may have no more than those it needs.
+/// @throws as read_plate
+void check_plates(const RenderJob& job);
 
 /// The look of --lut. @throws IoError; Error when it is no .cube file
 render::CubeLut read_lut(const std::string& file);

@@ -305,19 +305,13 @@ void Ledger::forget_unwritten_frames() {
     while (part->count() > 0 && is_missing(view, part->last)) --part->last;
     while (part->count() > 0 && is_missing(view, part->first)) ++part->first;
   }
-  // Of an earlier command some have other views, and what it simulated stays known undrawn.
+  // What an earlier command simulated stays known, whether its pictures are there or not.
   const auto is_of_earlier = [&](const record::FrameRecord& frame) {
-    return earlier_ &&
-           std::ranges::find(earlier_->pictures.frames, frame.frame, &record::FrameRecord::frame) !=
-               earlier_->pictures.frames.end();
+    return earlier_ && std::ranges::binary_search(earlier_->pictures.frames, frame.frame, {},
+                                                  &record::FrameRecord::frame);
   };
   std::erase_if(record_.frames, [&](const record::FrameRecord& frame) {
     if (is_of_earlier(frame)) return false;
-    if (earlier_ && std::ranges::any_of(record_.earlier_views, [&](const std::string& view) {
-          const auto& part = record_.view_records.at(view).frames;
-          return part && part->has(frame.frame);
-        }))
-      return false;
     return std::ranges::any_of(
         record_.views, [&](const std::string& view) { return is_missing(view, frame.frame); });
   });

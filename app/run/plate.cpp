@@ -10,6 +10,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/read_picture.h"
 #include "app/record/picture_files.h"
+#include "app/setup/plan.h"
 #include "app/support/errors.h"
 #include "app/support/room.h"
 #include "render/image/exr.h"
@@ -114,9 +115,10 @@ std::filesystem::path plate_path(const std::string& pattern, int frame) {
   return name;
 }
 
-render::Image read_plate(const RenderJob& job, int frame, const std::string& view,
-                         scene::PictureSize size) {
-  const std::filesystem::path file = plate_path(job.plate, frame);
+namespace {
+
+/// @param file  of the frame
+render::Image read_file_of(const RenderJob& job, int frame, const std::filesystem::path& file) {
   if (job.picture && job.options.plate.empty())
     record::require_listed(*job.picture, file.string(), job.scene_file);
   std::error_code error;
@@ -130,7 +132,11 @@ render::Image read_plate(const RenderJob& job, int frame, const std::string& vie
                     has_its_number ? fmt::format("--frames {}-{}, or --set handles=0", first, last)
                                    : fmt::format("--set first_frame={}", first)));
   }
-  const render::Image image = rgb_of(output::read_file(file), file);
+  return rgb_of(output::read_file(file), file);
+}
+
+void require_size(const render::Image& image, const std::filesystem::path& file,
+                  const std::string& view, const scene::PictureSize& size) {
   const std::string advice = std::min(image.width, image.height) < scene::min_side
                                  ? fmt::format("pictures are at least {0}x{0}", scene::min_side)
                                  : fmt::format("draw with --size {}x{}", image.width, image.height);
@@ -140,7 +146,31 @@ render::Image read_plate(const RenderJob& job, int frame, const std::string& vie
         fmt::format("{}: error: the plate is {}x{} and the view {} is {}x{}; {}", file.string(),
                     image.width, image.height, view, size.width, size.height, advice),
         file.string(), advice);
+}
+
+}  // namespace
+
+render::Image read_plate(const RenderJob& job, int frame, const std::string& view,
+                         const scene::PictureSize& size) {
+  const std::filesystem::path file = plate_path(job.plate, frame);
+  render::Image image = read_file_of(job, frame, file);
+  require_size(image, file, view, size);
   return image;
+}
+
+void check_plates(const RenderJob& job) {
+  if (job.plate.empty()) return;
+  const int last = job.options.resume ? job.frames.first : job.frames.last;
+  std::filesystem::path before;
+  for (int frame = job.frames.first; frame <= last; ++frame) {
+    const int number = scene::number_of(job.scene, frame);
+    const std::filesystem::path file = plate_path(job.plate, number);
+    if (file == before) return;  // one picture for all frames
+    before = file;
+    const render::Image image = read_file_of(job, number, file);
+    for (const scene::View& view : job.scene.views)
+      require_size(image, file, view.name, setup::size_of(job.scene, view));
+  }
 }
 
 render::CubeLut read_lut(const std::string& file) {

@@ -73,16 +73,21 @@ void check_texts(const RenderJob& job) {
   check("neve:passes", [&] { pass_list(job.passes); });
 }
 
-/// The view of a picture, and how it was drawn.
-void take_picture(const record::PictureRecord& picture, RenderJob& job) {
-  job.folder = out_folder() / fmt::format("{:04}-again", picture.frame);
+/// How a picture was drawn, but for its scene.
+void take_drawing(const record::PictureRecord& picture, RenderJob& job) {
   job.quality = setup::quality_named(picture.quality);
   job.passes = picture.passes;
-  job.prediction_lines = picture.prediction;
   job.shutter = picture.shutter;
   job.plate = picture.plate;
   job.lut = picture.lut;
   job.options.has_caption = job.options.has_caption && picture.has_caption;
+}
+
+/// The view of a picture, and how it was drawn.
+void take_picture(const record::PictureRecord& picture, RenderJob& job) {
+  job.folder = out_folder() / fmt::format("{:04}-again", picture.frame);
+  job.prediction_lines = picture.prediction;
+  take_drawing(picture, job);
   choose_views({picture.view}, job);
   job.scene.exports.clear();
   check_texts(job);
@@ -107,13 +112,7 @@ bool take_drawing_of_run(RenderJob& job) {
       if (!pictures->has(view, frame->frame) || listed == pictures->files.end() ||
           !record::has_hash(job.run / name, listed->second))
         continue;
-      const record::PictureRecord picture = record::read_picture_record(job.run / name);
-      job.quality = setup::quality_named(picture.quality);
-      job.passes = picture.passes;
-      job.shutter = picture.shutter;
-      job.plate = picture.plate;
-      job.lut = picture.lut;
-      job.options.has_caption = job.options.has_caption && picture.has_caption;
+      take_drawing(record::read_picture_record(job.run / name), job);
       return true;
     }
   }

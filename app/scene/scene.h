@@ -98,7 +98,7 @@ struct CameraKeyframe {
   std::optional<double> fov;  ///< vertical, degrees
 };
 
-/// What of a camera neve found: eye and target, or all of it, for a view without one of its own.
+/// What neve found of a camera: eye and target, or, for a view without one of its own, all of it.
 enum class FoundCamera { nothing, place, camera };
 
 struct CameraSettings {

@@ -218,7 +218,7 @@ double collider_memory(const scene::Scene& scene) {
   return bytes;
 }
 
-/// Of dust and the air around it; spray that feels the air has air alone.
+/// Dust takes memory, and the air around it does; spray that feels the air takes that of air alone.
 double dust_memory(const scene::Scene& scene) {
   sim::DustSettings dust = scene.solver.dust;
   if (!scene::dusty_material(scene)) {

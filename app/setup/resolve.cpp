@@ -89,7 +89,7 @@ bool is_in(const scene::Override& change, const std::string& address) {
   return change.address == address || change.address.starts_with(address + ".");
 }
 
-/// What changes of one camera leave of what was found.
+/// Leaves open again what changes of a camera make void of what was found.
 void reopen(scene::CameraSettings& camera, const std::string& address,
             const std::vector<scene::Override>& changes) {
   if (camera.found == scene::FoundCamera::nothing) return;

@@ -37,18 +37,20 @@ void StillGrid<Real>::rasterize() {
 
 template <class Real>
 void StillGrid<Real>::estimate_volumes() {
-  std::vector<kernels::Particle<Real>>& records = state_.particles.records;
-  const auto room_of_mass = [&](const kernels::Particle<Real>& p) {
+  using Particle = kernels::Particle<Real>;
+  std::vector<Particle>& records = state_.particles.records;
+  const auto is_wanted = [](const Particle& p) { return (p.flags() & kernels::needs_volume) != 0; };
+  if (std::none_of(records.begin(), records.end(), is_wanted)) return;
+  const auto room_of_mass = [&](const Particle& p) {
     const Material& material = state_.method.materials[static_cast<std::size_t>(p.material())];
     return p.J_P / static_cast<Real>(material.density);
   };
   const Real first = room_of_mass(records.front());
-  const bool is_mixed =
-      std::any_of(records.begin(), records.end(),
-                  [&](const kernels::Particle<Real>& p) { return room_of_mass(p) != first; });
+  const bool is_mixed = std::any_of(records.begin(), records.end(),
+                                    [&](const Particle& p) { return room_of_mass(p) != first; });
   std::vector<Real> masses;
   if (is_mixed) {
-    for (kernels::Particle<Real>& p : records) {
+    for (Particle& p : records) {
       masses.push_back(p.m);
       p.m *= room_of_mass(p) / first;
     }

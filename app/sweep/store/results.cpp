@@ -141,16 +141,26 @@ std::optional<double> told_metric(const Run& run, const RunResult& result, std::
   return is_told && metric < result.metrics.size() ? result.metrics[metric] : std::nullopt;
 }
 
-std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
-                         const RunStatus& status) {
+namespace {
+
+/// @param run_json  of the run
+std::string flaws_of(const std::filesystem::path& run_folder, const Run& run,
+                     const RunStatus& status, const Json& run_json) {
   if (!has_record(status)) return {};
-  const record::Verification found = record::verify_run(runs_folder(folder) / run.folder);
+  const record::Verification found = record::verify_run(run_folder);
   if (!found.flaws.empty()) return record::flaw_text(found.flaws);
   if (status.state == RunState::ok && found.last_frame < run.frames.last)
     return "run.json does not reach frame " + std::to_string(run.frames.last);
-  const std::string other =
-      difference_of_record(status, record::read_run_json(runs_folder(folder) / run.folder));
+  const std::string other = difference_of_record(status, run_json);
   return other.empty() ? "" : "run.json " + other;
+}
+
+}  // namespace
+
+std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
+                         const RunStatus& status) {
+  const std::filesystem::path run_folder = runs_folder(folder) / run.folder;
+  return flaws_of(run_folder, run, status, record::read_run_json(run_folder));
 }
 
 RunResult read_result(const std::filesystem::path& folder, const Run& run,
@@ -165,9 +175,7 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   RunNotes notes;
   const Json record = result.status.key == run.key ? record::read_run_json(run_folder) : Json();
   // Numbers of another simulation are none of this run.
-  const bool is_other = record.is_object() && !result.status.states.empty() &&
-                        record.value("simulation", Json()) != Json(result.status.states);
-  if (record.is_object() && !is_other) {
+  if (record.is_object() && !is_of_other_simulation(result.status, record)) {
     frames = record::frame_records(record);
     // Other commands may have made the run longer: it is compared at the end of the sweep.
     std::erase_if(frames, [&](const record::FrameRecord& f) { return f.frame > run.frames.last; });
@@ -190,7 +198,7 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   if (is_damaged)
     result.flaws = "status.json is damaged";
   else if (result.status.key == run.key)
-    result.flaws = flaws_of_run(folder, run, result.status);
+    result.flaws = flaws_of(run_folder, run, result.status, record);
   if (!notes.start && !frames.empty())
     notes.start = {frames.front().metrics, frames.front().bodies};
   result.metrics = metrics_of(frames, notes.start.value_or(record::RunStart{}), notes.whole,

@@ -149,9 +149,14 @@ void note_record(const Json& run_json, RunStatus& status) {
       status.drawings[entry.key()] = text_of(drawings, entry.key());
 }
 
+bool is_of_other_simulation(const RunStatus& status, const Json& run_json) {
+  return run_json.is_object() && !status.states.empty() &&
+         status.states != text_of(run_json, "simulation");
+}
+
 std::string difference_of_record(const RunStatus& status, const Json& run_json) {
   if (!run_json.is_object()) return {};
-  if (!status.states.empty() && status.states != text_of(run_json, "simulation"))
+  if (is_of_other_simulation(status, run_json))
     return "is of another simulation than the sweep made";
   const Json drawings = run_json.value("drawings", Json());
   for (const auto& [view, drawing] : status.drawings)

@@ -64,6 +64,8 @@ void write_status(const std::filesystem::path& run_folder, const RunStatus& stat
 
 /// Keeps what the run that has ended says of itself, to be compared with later.
 void note_record(const Json& run_json, RunStatus& status);
+/// Whether run.json is of another simulation than the one that the sweep made.
+bool is_of_other_simulation(const RunStatus& status, const Json& run_json);
 /// Says that another command has simulated or drawn the run otherwise since; "" where it is as the
 /// sweep made it, and in folders of earlier versions.
 std::string difference_of_record(const RunStatus& status, const Json& run_json);
