@@ -17,14 +17,14 @@ Experiment drop(const Subject& subject) {
   stage.bodies.front().velocity = {0, -speed, 0};
   add_plane(stage, "floor", {0, 0, 0}, {0, 1, 0}, sim::shapes::Contact::separate);
   sim::Simulation simulation = simulation_of(stage);
-  const record::Metrics first = record::measure(simulation.particles(), cell);
+  const record::Metrics first = record::measure(simulation.particles(), stage);
   record::Metrics last = first;
   e.x.push_back(0);
   e.y.push_back(first.spread);
   for (int k = 1; k <= samples; ++k) {
     const double time = duration * k / samples;
     if (!advance(simulation, time, e)) break;
-    last = record::measure(simulation.particles(), cell);
+    last = record::measure(simulation.particles(), stage);
     e.x.push_back(time);
     e.y.push_back(last.spread);
   }

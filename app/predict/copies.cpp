@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "app/record/metrics.h"
 #include "app/record/run_json.h"
 #include "app/scene/coarsen.h"
 #include "app/support/errors.h"
+#include "app/support/interrupt.h"
 #include "app/support/text.h"
 #include "app/timeline/timeline.h"
-#include "sim/laws/law.h"
 
 namespace neve::app::predict {
 
@@ -26,12 +28,16 @@ double largest_force(const timeline::Timeline& timeline) {
   return force;
 }
 
-void run(const scene::Scene& scene, int last, int threads, Progress& progress, Copy& copy) {
+/// @param say  gets each frame
+void run(const scene::Scene& scene, int last, int threads, std::function<void(int frame)> say,
+         Copy& copy) {
+  timeline::Watch watch;
+  watch.after_step = [] { return is_interrupted(); };
+  watch.after_frame = std::move(say);
   timeline::Timeline timeline(scene, {},
                               std::make_shared<const setup::SeededScene>(setup::seed_scene(scene)),
-                              threads, {}, timeline::watched_by(progress, scene));
-  const double h = scene.solver.cell_size;
-  const record::Metrics first = record::measure(timeline.simulation().particles(), h);
+                              threads, {}, std::move(watch));
+  const record::Metrics first = record::measure(timeline.simulation().particles(), scene);
   double force = 0;
   for (int frame = 1; frame <= last; ++frame) {
     if (!timeline.advance_frame()) {
@@ -40,7 +46,7 @@ void run(const scene::Scene& scene, int last, int threads, Progress& progress, C
     }
     force = std::max(force, largest_force(timeline));
   }
-  const record::Metrics end = record::measure(timeline.simulation().particles(), h);
+  const record::Metrics end = record::measure(timeline.simulation().particles(), scene);
   copy.has_broken = record::has_broken(first, end);
   copy.whole = record::held_whole(first, end).value_or(copy.whole);
   const double values[] = {end.spread, end.height, end.mean_J_P, end.largest_fragment, force};
@@ -59,10 +65,7 @@ const QuantityInfo& info_of(Quantity quantity) {
 }
 
 std::string why_not(const scene::Scene& scene) {
-  const bool has_snow =
-      std::any_of(scene.materials.begin(), scene.materials.end(),
-                  [](const sim::Material& m) { return sim::laws::of(m).is_snow; });
-  return has_snow ? "" : "no material of the scene breaks";
+  return scene::which_are_snow(scene).empty() ? "no material of the scene breaks" : "";
 }
 
 scene::Scene copy_of(const scene::Scene& scene, double coarsening, std::uint64_t seed) {
@@ -78,16 +81,23 @@ double share_of_work() {
   return share;
 }
 
+namespace {
+
+int copy_count() {
+  int count = 0;
+  for (const CopyPlan& plan : copy_plans) count += plan.seeds;
+  return count;
+}
+
+}  // namespace
+
 std::string cost_text() {
   std::string copies;
-  int count = 0;
-  for (const CopyPlan& plan : copy_plans) {
+  for (const CopyPlan& plan : copy_plans)
     copies += fmt::format("{}{} with --coarsen {}", copies.empty() ? "" : ", ", plan.seeds,
                           rough_text(plan.coarsening));
-    count += plan.seeds;
-  }
-  return fmt::format("runs {} coarse copies ({}), about {:.0f} % of the work of the run", count,
-                     copies, 100 * share_of_work());
+  return fmt::format("runs {} coarse copies ({}), about {:.0f} % of the work of the run",
+                     copy_count(), copies, 100 * share_of_work());
 }
 
 std::vector<Copy> run_copies(const scene::Scene& scene, int last, int threads, Progress& progress) {
@@ -97,8 +107,12 @@ std::vector<Copy> run_copies(const scene::Scene& scene, int last, int threads, P
       Copy copy;
       copy.coarsening = plan.coarsening;
       copy.seed = scene.seed + static_cast<std::uint64_t>(k);
+      const auto say = [&, number = copies.size() + 1](int frame) {
+        progress.line(fmt::format("coarse copy {} of {}, frame {} of {}", number, copy_count(),
+                                  scene::number_of(scene, frame), scene::number_of(scene, last)));
+      };
       try {
-        run(copy_of(scene, copy.coarsening, copy.seed), last, threads, progress, copy);
+        run(copy_of(scene, copy.coarsening, copy.seed), last, threads, say, copy);
       } catch (const UsageError& error) {
         copy.failure = error.what();
       }

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "app/scene/coarsen.h"
+
 namespace neve::app::record {
 
 namespace {
@@ -20,10 +22,16 @@ double quantile(std::vector<double>& values, double share) {
   return *place;
 }
 
-std::vector<std::size_t> finite_particles(const sim::ParticleArrays& particles) {
+std::vector<std::size_t> finite_particles(const sim::ParticleArrays& particles,
+                                          const std::vector<bool>& is_counted) {
   std::vector<std::size_t> ids;
+  const auto counts = [&](std::size_t p) {
+    return is_counted.empty() || particles.material.empty() ||
+           is_counted[static_cast<std::size_t>(particles.material[p])];
+  };
   for (std::size_t p = 0; p < particles.x.size(); ++p)
-    if (particles.x[p].allFinite() && particles.x[p].cwiseAbs().maxCoeff() < 1e8) ids.push_back(p);
+    if (counts(p) && particles.x[p].allFinite() && particles.x[p].cwiseAbs().maxCoeff() < 1e8)
+      ids.push_back(p);
   return ids;
 }
 
@@ -133,9 +141,10 @@ std::optional<bool> has_broken(const Metrics& first, const Metrics& last) {
   return true;
 }
 
-Metrics measure(const sim::ParticleArrays& particles, double cell_size) {
+Metrics measure(const sim::ParticleArrays& particles, double cell_size,
+                const std::vector<bool>& is_counted) {
   Metrics metrics;
-  const std::vector<std::size_t> ids = finite_particles(particles);
+  const std::vector<std::size_t> ids = finite_particles(particles, is_counted);
   if (ids.empty()) return metrics;
   sim::Vec3d centre = sim::Vec3d::Zero();
   double mass = 0, J_P = 0;
@@ -155,6 +164,10 @@ Metrics measure(const sim::ParticleArrays& particles, double cell_size) {
   metrics.height = quantile(height, 0.98) - quantile(height, 0.02);
   measure_fragments(occupied_cells(particles, ids, cell_size), ids.size(), metrics);
   return metrics;
+}
+
+Metrics measure(const sim::ParticleArrays& particles, const scene::Scene& scene) {
+  return measure(particles, scene.solver.cell_size, scene::which_are_snow(scene));
 }
 
 }  // namespace neve::app::record

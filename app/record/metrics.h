@@ -1,20 +1,23 @@
 #pragma once
-/// Shape statistics of a particle state.
+/// Shape statistics of the snow of a state.
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
+#include "app/scene/scene.h"
 #include "sim/simulation.h"
 
 namespace neve::app::record {
 
+/// Of a scene that has snow, sand and elastic bodies do not count: they neither break nor pack.
 struct Metrics {
   double spread = 0;    ///< m, horizontal radius about the centre that holds 90 % of the particles
   double height = 0;    ///< m, between the lowest and the highest 2 % of the particles
   double mean_J_P = 1;  ///< weighted by mass
   std::size_t fragments = 0;    ///< groups of occupied cells that touch, corners included
   double largest_fragment = 0;  ///< share of the particles that are in the largest of them
-  std::size_t particles = 0;    ///< all of them; 0: not known
+  std::size_t particles = 0;    ///< that count; 0: there are none
   double powder = 0;            ///< share of the particles that are alone in theirs
   double crumbs = 0;            ///< share of them in groups of 2 to 100
   double max_depth_cells = 0;   ///< of the particle that is deepest in a collider, cells
@@ -34,7 +37,10 @@ std::optional<double> held_whole(const Metrics& first, const Metrics& last);
 std::optional<bool> has_broken(const Metrics& first, const Metrics& last);
 
 /// Particles whose position is no number are left out.
-/// @param cell_size m, of the solver: snow closer than a cell is one piece
-Metrics measure(const sim::ParticleArrays& particles, double cell_size);
+/// @param cell_size   m, of the solver: snow closer than a cell is one piece
+/// @param is_counted  one for each material; empty: all count
+Metrics measure(const sim::ParticleArrays& particles, double cell_size,
+                const std::vector<bool>& is_counted = {});
+Metrics measure(const sim::ParticleArrays& particles, const scene::Scene& scene);
 
 }  // namespace neve::app::record

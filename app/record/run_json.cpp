@@ -49,14 +49,18 @@ std::string hash_of(const std::string& text) {
 
 namespace {
 
+/// Of no snow, these are no numbers.
 void add_metrics(const Metrics& metrics, Json& json) {
-  json["spread"] = number_or_null(metrics.spread);
-  json["height"] = number_or_null(metrics.height);
-  json["mean_J_P"] = number_or_null(metrics.mean_J_P);
+  const auto number = [&](double value) {
+    return metrics.particles > 0 ? number_or_null(value) : Json();
+  };
+  json["spread"] = number(metrics.spread);
+  json["height"] = number(metrics.height);
+  json["mean_J_P"] = number(metrics.mean_J_P);
   json["fragments"] = metrics.fragments;
-  json["largest_fragment"] = number_or_null(metrics.largest_fragment);
-  json["powder"] = number_or_null(metrics.powder);
-  json["crumbs"] = number_or_null(metrics.crumbs);
+  json["largest_fragment"] = number(metrics.largest_fragment);
+  json["powder"] = number(metrics.powder);
+  json["crumbs"] = number(metrics.crumbs);
 }
 
 Metrics metrics_of(const Json& json) {
@@ -67,7 +71,8 @@ Metrics metrics_of(const Json& json) {
   for (const auto& [name, value] :
        {std::pair{"powder", &metrics.powder}, std::pair{"crumbs", &metrics.crumbs}})
     *value = json.contains(name) ? output::number_or_nan(json.at(name)) : std::nan("");
-  metrics.particles = whole_number_or(json, "particles", std::size_t{0});
+  metrics.particles =
+      whole_number_or(json, "measured", whole_number_or(json, "particles", std::size_t{0}));
   return metrics;
 }
 
@@ -114,13 +119,15 @@ Json to_json(const FrameRecord& frame) {
   json["kinetic_energy"] = number_or_null(s.kinetic_energy);
   json["elastic_energy"] = number_or_null(s.elastic_energy);
   json["momentum"] = output::vector_json(s.momentum);
-  json["centre_of_mass"] = output::vector_json(s.centre_of_mass);
+  json["centre_of_mass"] = s.particles > 0 ? output::vector_json(s.centre_of_mass)
+                                           : Json::array({Json(), Json(), Json()});
   json["max_speed"] = number_or_null(s.max_speed);
-  json["min_J_P"] = number_or_null(s.min_J_P);
-  json["max_J_P"] = number_or_null(s.max_J_P);
+  json["min_J_P"] = s.particles > 0 ? number_or_null(s.min_J_P) : Json();
+  json["max_J_P"] = s.particles > 0 ? number_or_null(s.max_J_P) : Json();
   json["denser_than_ice"] = number_or_null(s.denser_than_ice);
   json["max_depth"] = number_or_null(s.max_depth);
   json["max_depth_cells"] = number_or_null(frame.metrics.max_depth_cells);
+  if (frame.metrics.particles != s.particles) json["measured"] = frame.metrics.particles;
   add_metrics(frame.metrics, json);
   if (s.dust.born > 0) json["dust"] = to_json(s.dust);
   json["forces"] = Json::array();
@@ -157,6 +164,10 @@ std::vector<ColliderForce> forces_of(const sim::AdvanceReport& advance, const si
                                      const std::vector<scene::Collider>& colliders) {
   std::vector<ColliderForce> forces;
   if (!(advance.seconds > 0)) return forces;
+  // Steps without snow have no loads: nothing pushes.
+  if (advance.loads.empty())
+    for (const scene::Collider& collider : colliders)
+      forces.push_back({collider.name, sim::Vec3d::Zero(), sim::Vec3d::Zero(), 0});
   for (std::size_t k = 0; k < std::min(colliders.size(), advance.loads.size()); ++k)
     forces.push_back({colliders[k].name, advance.loads[k].impulse / advance.seconds,
                       advance.loads[k].angular_impulse / advance.seconds, summary.max_pressure[k]});

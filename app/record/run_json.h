@@ -65,7 +65,7 @@ struct RunStart {
 
 /// Whether any is left at the end of a frame: metrics of none are no numbers.
 inline bool has_snow(const FrameRecord& frame) {
-  return frame.summary.particles > 0;
+  return frame.metrics.particles > 0;
 }
 
 /// Steps of the frame times its particles.

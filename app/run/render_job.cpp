@@ -253,9 +253,8 @@ record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& be
     return *known;
   }
   const auto start_in = [&](const sim::Simulation& simulation) {
-    return record::RunStart{
-        record::measure(simulation.particles(), timeline.start().solver.cell_size),
-        record::bodies_of(simulation.colliders(), 0)};
+    return record::RunStart{record::measure(simulation.particles(), timeline.start()),
+                            record::bodies_of(simulation.colliders(), 0)};
   };
   if (timeline.simulation().steps() == 0) return start_in(timeline.simulation());
   return start_in(setup::make_simulation(setup::with_curves(timeline.start(), 0),

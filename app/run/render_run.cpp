@@ -432,7 +432,7 @@ void RenderRun::draw_frame(int frame) {
   Drawing::Files drawn = drawing_.draw(snapshot);
   if (!drawn.pictures.empty()) result_.last_picture = drawn.pictures.front().image;
   const double h = job_.scene.solver.cell_size;
-  record::Metrics metrics = record::measure(snapshot.particles, h);
+  record::Metrics metrics = record::measure(snapshot.particles, job_.scene);
   metrics.max_depth_cells = summary.max_depth / h;
   const record::FrameRecord made{scene::number_of(job_.scene, frame),
                                  frame / job_.scene.fps,

@@ -139,6 +139,14 @@ std::vector<sim::Material> materials_of_snow(const Scene& scene) {
   return materials.empty() ? scene.materials : materials;
 }
 
+std::vector<bool> which_are_snow(const Scene& scene) {
+  const auto is_snow = [](const sim::Material& m) { return sim::laws::of(m).is_snow; };
+  if (std::ranges::none_of(materials_of_snow(scene), is_snow)) return {};
+  std::vector<bool> are;
+  for (const sim::Material& material : scene.materials) are.push_back(is_snow(material));
+  return are;
+}
+
 const sim::Material* dusty_material(const Scene& scene) {
   for (const sim::Material& material : scene.materials)
     if (is_ever_positive(scene, "material." + material.name + ".dust", material.dust) &&

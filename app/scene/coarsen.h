@@ -26,6 +26,9 @@ Scene without_dust(Scene scene);
 bool has_snow_of(const Scene& scene, const sim::Material& material);
 /// Those of bodies and emitters; of a scene without any, all.
 std::vector<sim::Material> materials_of_snow(const Scene& scene);
+/// For each material of the scene whether its law is one of snow; empty where no body and no
+/// emitter is of such a one.
+std::vector<bool> which_are_snow(const Scene& scene);
 /// A material of bodies or emitters that sheds dust, or that a curve makes shed it; null: none
 /// does. Check: DustScene.CurvesMakeAndEndIt
 const sim::Material* dusty_material(const Scene& scene);

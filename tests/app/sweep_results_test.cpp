@@ -8,6 +8,8 @@
 
 #include "app/record/metrics.h"
 #include "app/record/run_json.h"
+#include "app/scene/read.h"
+#include "app/setup/seed_scene.h"
 #include "app/sweep/jobs/outcome.h"
 #include "app/sweep/sheet/data_csv.h"
 #include "app/sweep/sheet/metric_plots.h"
@@ -107,6 +109,65 @@ TEST(Metrics, MetricsOfDivergedStatesCountFiniteParticles) {
   particles.x[0].setConstant(NAN);
   particles.x[1].setConstant(1e300);
   EXPECT_EQ(app::record::measure(particles, 1).fragments, 1u);
+}
+
+/// A heap of sand held 90 % of all particles, so that a ball that burst beside it was whole.
+TEST(Metrics, SandAndElasticBodiesCountWhereThereIsNoSnow) {
+  const std::string snow = R"(
+[solver]
+cell_size = 0.05
+[material.snow]
+model = "cam_clay"
+[material.sand]
+model = "sand"
+[[body]]
+name = "ball"
+shape = { sphere = { center = [2, 0.2, 0], radius = 0.1 } }
+)",
+                    sand = R"([[body]]
+name = "heap"
+material = "sand"
+shape = { box = { center = [0, 0.25, 0], size = [0.5, 0.5, 0.5] } }
+)",
+                    alone =
+                        "[[collider]]\nname = \"floor\"\nshape = { plane = { point = "
+                        "[0, 0, 0], normal = [0, 1, 0] } }\n";
+  const auto measured = [](const std::string& text) {
+    const app::scene::Scene scene = app::scene::read_scene_text(text, "scene.toml");
+    const auto simulation =
+        app::setup::make_simulation(scene, app::setup::seed_scene(scene).particles, 1);
+    return app::record::measure(simulation.particles(), scene);
+  };
+  const app::record::Metrics both = measured(snow + sand), ball = measured(snow + alone);
+  EXPECT_EQ(both.particles, ball.particles);
+  EXPECT_EQ(both.fragments, 1u);
+  EXPECT_EQ(both.spread, ball.spread);
+  EXPECT_EQ(both.height, ball.height);
+  EXPECT_EQ(both.largest_fragment, 1);
+  std::string of_sand = snow + sand;
+  of_sand.replace(of_sand.find("cam_clay"), 8, "sand");
+  EXPECT_GT(measured(of_sand).particles, 5 * ball.particles);
+  EXPECT_EQ(measured(of_sand).fragments, 2u);
+}
+
+/// Of frames that have sand and no snow any more, too.
+TEST(Metrics, OfNoSnowAreNoNumbersInRunJson) {
+  app::record::FrameRecord frame;
+  frame.summary.particles = 7;
+  const app::Json json = app::record::to_json(frame);
+  for (const char* name : {"spread", "height", "mean_J_P", "largest_fragment", "powder", "crumbs"})
+    EXPECT_TRUE(json.at(name).is_null()) << name;
+  EXPECT_EQ(json.at("fragments"), 0);
+  EXPECT_EQ(json.at("measured"), 0);
+  EXPECT_FALSE(json.at("max_J_P").is_null()) << "that of the sand";
+  const app::record::FrameRecord read = app::record::frame_record(json);
+  EXPECT_FALSE(app::record::has_snow(read));
+  EXPECT_EQ(to_text(app::record::to_json(read)), to_text(json));
+  frame.summary.particles = 0;
+  const app::Json none = app::record::to_json(frame);
+  for (const char* name : {"spread", "min_J_P", "max_J_P"})
+    EXPECT_TRUE(none.at(name).is_null()) << name;
+  EXPECT_TRUE(none.at("centre_of_mass").at(0).is_null());
 }
 
 app::sweep::store::Manifest manifest_of(const std::vector<int>& sizes) {
@@ -340,7 +401,7 @@ TEST(RunResults, WhereNoSnowIsLeftItHasNoShape) {
   status.state = app::sweep::store::RunState::ok;
   status.key = "k";
   for (const std::size_t particles : {1u, 0u}) {
-    frame.summary.particles = particles;
+    frame.summary.particles = frame.metrics.particles = particles;
     folder.write("runs/0000/run.json",
                  to_text(Json{{"frames", Json::array({app::record::to_json(frame)})}}));
     app::sweep::store::write_status(folder.path() / "runs/0000", status);

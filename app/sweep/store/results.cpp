@@ -191,7 +191,7 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
         std::filesystem::is_regular_file(output::frame_path(run_folder, view, frame.frame),
                                          error)) {
       result.frames.push_back(frame.frame);
-      result.places.push_back({frame.frame, frame.time, frame.summary.particles,
+      result.places.push_back({frame.frame, frame.time, frame.metrics.particles,
                                frame.summary.centre_of_mass, frame.metrics.spread,
                                frame.metrics.height});
     }
