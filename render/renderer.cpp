@@ -73,14 +73,15 @@ void check_frame(const Frame& frame, int max_size) {
         std::to_string(frame.supersampling) + " samples per axis; this context draws up to " +
         std::to_string(max_size) + " samples per side, 1 or 2 per pixel");
   const Points& points = frame.points;
-  check_points(points.position.size(),
-               {points.id.size(), points.value.size(), points.volume.size(), points.turn.size()});
+  check_points(points.position.size(), {points.id.size(), points.value.size(), points.volume.size(),
+                                        points.turn.size(), points.to_solid.size()});
   if (const std::optional<CutAway>& cut = points.cut) {
-    check_points(cut->position.size(),
-                 {cut->id.size(), cut->value.size(), cut->volume.size(), cut->turn.size()});
+    check_points(cut->position.size(), {cut->id.size(), cut->value.size(), cut->volume.size(),
+                                        cut->turn.size(), cut->to_solid.size()});
     if (!cut->position.empty() &&
         (cut->id.empty() != points.id.empty() || cut->value.empty() != points.value.empty() ||
-         cut->volume.empty() != points.volume.empty() || cut->turn.empty() != points.turn.empty()))
+         cut->volume.empty() != points.volume.empty() || cut->turn.empty() != points.turn.empty() ||
+         cut->to_solid.empty() != points.to_solid.empty()))
       throw std::invalid_argument("Frame: points that are cut away have other arrays than points");
   }
   for (const TriangleMesh& mesh : frame.meshes) check_mesh(mesh);

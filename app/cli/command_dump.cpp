@@ -243,7 +243,8 @@ int run_dump(const dump::DumpOptions& given) {
   Progress progress(options.run.verbosity, options.run.progress);
   timeline::Timeline timeline = timeline::open(job, options.run.threads, progress);
   const sim::Simulation& simulation = timeline.simulation();
-  progress.start(timeline::frame_at(options.at.back(), job.scene.fps));
+  progress.start(timeline::frame_at(options.at.back(), job.scene.fps),
+                 scene::number_of(job.scene, 0));
   DumpOutput out(job, options);
   for (const double at : options.at) {
     timeline.go_to(at);

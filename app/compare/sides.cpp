@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "app/picture/frame_builder.h"
+#include "app/scene/burn_in.h"
 #include "app/scene/check.h"
 #include "app/scene/flat.h"
 #include "app/scene/live_change.h"
@@ -46,7 +46,7 @@ double time_of(const Side& side, int frame) {
 
 /// The first values, a line each, and how many more there are.
 std::string values_text(const std::vector<std::string>& texts) {
-  std::vector<std::string> lines = picture::override_lines(texts);
+  std::vector<std::string> lines = scene::override_lines(texts);
   const std::size_t count = lines.size();
   if (count > max_values) {
     lines.resize(max_values);

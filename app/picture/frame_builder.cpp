@@ -128,10 +128,11 @@ render::Frame FrameBuilder::build(const scene::View& wanted, const Snapshot& sna
     frame.points = std::move(*points);
   else if (is_of_stage || scene::shows_particles(view))
     add_points(view, snapshot, look, frame);
+  if (frame.has_snow_surface) find_solids_below(scene_, view, snapshot.time, frame.points);
   add_grid(view, snapshot, frame);
   if (scene::has_layer(view, scene::Layer::scale))
     add_scale_bar(view, snapshot, plane_of(scene_, view, seeded_, snapshot), frame);
-  if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(scene_, view);
+  if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(scene_, view, frame);
   if (is_of_stage) add_stage_change(snapshot, *look, frame);
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
   if (scene::has_layer(view, scene::Layer::plots))
@@ -139,8 +140,9 @@ render::Frame FrameBuilder::build(const scene::View& wanted, const Snapshot& sna
                              1 / scene_.fps, std::max(scene::duration(scene_), snapshot.time));
   frame.caption = words(view, snapshot);
   if (scene::has_burn_in(scene_.burn_in)) {
-    std::vector<std::string> changes = override_lines(options_.overrides);
-    for (std::string& line : change_lines(snapshot.changes)) changes.push_back(std::move(line));
+    std::vector<std::string> changes = scene::override_lines(options_.overrides);
+    for (std::string& line : scene::change_lines(snapshot.changes))
+      changes.push_back(std::move(line));
     frame.edge_words =
         scene::burnt_in(scene_, {snapshot.frame, snapshot.time, view.name, joined(changes, ", ")});
   }
@@ -212,8 +214,14 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
           static_cast<float>(std::isfinite(values[p]) ? values[p] : range.max));
   };
   if (is_surface && view.clip)
-    points.cut = {
-        to_float(cut.point()), to_float(sim::Vec3d(cut.normal().normalized())), {}, {}, {}, {}, {}};
+    points.cut = {to_float(cut.point()),
+                  to_float(sim::Vec3d(cut.normal().normalized())),
+                  {},
+                  {},
+                  {},
+                  {},
+                  {},
+                  {}};
   for (std::size_t p = 0; p < snapshot.particles.x.size(); ++p) {
     // A diverged state is drawn too, as far as it can be.
     const sim::Vec3d& x = snapshot.particles.x[p];
@@ -340,7 +348,8 @@ std::vector<std::string> FrameBuilder::slate() const {
   for (const sim::Material& m : scene_.materials)
     lines.push_back(m.name + ": " + rough_text(m.density) + " kg/m3, E " +
                     rough_text(m.youngs_modulus) + " Pa, " + strength_line(m));
-  for (std::string& line : override_lines(options_.overrides)) lines.push_back(std::move(line));
+  for (std::string& line : scene::override_lines(options_.overrides))
+    lines.push_back(std::move(line));
   return lines;
 }
 
@@ -359,86 +368,14 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
     lines.push_back(curves);
   if (snapshot.warnings.rules_ignored > 0) lines.push_back(ignored_rule_text(snapshot.warnings));
   lines.insert(lines.end(), options_.prediction.begin(), options_.prediction.end());
-  std::vector<std::string> different = override_lines(options_.overrides);
-  for (std::string& line : change_lines(snapshot.changes)) different.push_back(std::move(line));
+  std::vector<std::string> different = scene::override_lines(options_.overrides);
+  for (std::string& line : scene::change_lines(snapshot.changes))
+    different.push_back(std::move(line));
   const std::size_t shown = std::min(different.size(), max_override_lines);
   lines.insert(lines.end(), different.begin(),
                different.begin() + static_cast<std::ptrdiff_t>(shown));
   if (shown < different.size())
     lines.push_back("and " + std::to_string(different.size() - shown) + " more changes");
-  return lines;
-}
-
-namespace {
-
-/// "hardening" of material.snow.hardening, "post center" of collider.post.shape.sphere.center.
-std::string short_name(const std::string& address) {
-  const std::size_t first = address.find('.'), last = address.rfind('.');
-  if (first == std::string::npos) return address;
-  const std::string kind = address.substr(0, first), word = address.substr(last + 1);
-  const bool is_of_one = kind == "body" || kind == "collider" || kind == "emitter" ||
-                         kind == "sink" || kind == "material";
-  const std::size_t second = address.find('.', first + 1);
-  if (!is_of_one || second == std::string::npos) return word;
-  const std::string name = address.substr(first + 1, second - first - 1);
-  return name == "snow" && kind == "material" ? word : name + " " + word;
-}
-
-/// True where nothing is left of an earlier change: its whole table is set or removed after it, or
-/// the preset that sets its number.
-bool replaces(const std::string& later, const std::string& earlier) {
-  if (earlier.starts_with(later + ".")) return true;
-  if (!scene::is_preset_address(later)) return false;
-  const std::vector<std::string> numbers = scene::addresses_set_by(later);
-  return std::find(numbers.begin(), numbers.end(), earlier) != numbers.end();
-}
-
-}  // namespace
-
-std::vector<std::string> override_lines(const std::vector<std::string>& overrides) {
-  std::map<std::string, std::string> by_address;  // the last value of an address counts
-  std::map<std::string, int> named_alike;
-  std::vector<std::string> order;
-  for (const std::string& text : overrides) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) continue;
-    const std::string address = text.substr(0, equals);
-    if (!scene::concerns_simulation(address)) continue;
-    std::erase_if(order, [&](const std::string& earlier) {
-      if (!replaces(address, earlier)) return false;
-      --named_alike[short_name(earlier)];
-      return by_address.erase(earlier) > 0;
-    });
-    if (!by_address.contains(address)) {
-      order.push_back(address);
-      ++named_alike[short_name(address)];
-    }
-    by_address[address] = text.substr(equals + 1);
-  }
-  std::vector<std::string> lines;
-  for (const std::string& address : order) {
-    const std::string name = short_name(address);
-    const std::string& value = by_address[address];
-    if (scene::is_object_address(address))
-      lines.push_back((value == "none" ? "removed " : "set ") + address);
-    else
-      lines.push_back((named_alike[name] > 1 ? address : name) + " = " + value);
-  }
-  return lines;
-}
-
-std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& changes) {
-  std::vector<std::string> texts, objects;
-  for (const scene::LiveChange& change : changes) {
-    const std::string step = "step " + std::to_string(change.step);
-    if (scene::is_object_address(change.address))
-      objects.push_back((change.value == "none" ? "removed " : "added ") + change.address + " at " +
-                        step);
-    else
-      texts.push_back(change.address + "=" + change.value + " since " + step);
-  }
-  std::vector<std::string> lines = override_lines(texts);
-  lines.insert(lines.end(), objects.begin(), objects.end());
   return lines;
 }
 

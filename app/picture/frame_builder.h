@@ -83,12 +83,4 @@ render::Camera camera_of(const scene::Scene& scene, const scene::View& view,
 SlicePlane plane_of(const scene::Scene& scene, const scene::View& view,
                     const setup::SeededScene& seeded, const Snapshot& snapshot);
 
-/// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for a value of a collider;
-/// the whole address where two are named alike. None for other cameras, views and colours: these
-/// are seen; and none of what a later one replaces, with its table say.
-std::vector<std::string> override_lines(const std::vector<std::string>& overrides);
-
-/// "hardening = 5 since step 120", "added collider.ball at step 120".
-std::vector<std::string> change_lines(const std::vector<scene::LiveChange>& changes);
-
 }  // namespace neve::app::picture

@@ -82,16 +82,12 @@ void add_fields_of_step(const scene::Scene& scene, const sim::Simulation& simula
 }
 
 void add_needs(const scene::View& view, FieldNeeds& needs) {
-  if (scene::has_layer(view, scene::Layer::arrows) ||
-      scene::has_layer(view, scene::Layer::streamlines))
-    needs.vectors.insert(view.slice.field);
+  const bool has_vectors = scene::has_layer(view, scene::Layer::arrows) ||
+                           scene::has_layer(view, scene::Layer::streamlines);
+  if (has_vectors) needs.vectors.insert(view.slice.field);
   if (scene::has_layer(view, scene::Layer::heatmap)) needs.scalars.insert(view.slice.scalar);
-  if (scene::has_layer(view, scene::Layer::extremes) &&
-      scene::has_layer(view, scene::Layer::arrows) &&
-      !scene::has_layer(view, scene::Layer::heatmap))
-    needs.vectors.insert(view.slice.field);
-  else if (scene::has_layer(view, scene::Layer::extremes) &&
-           !scene::has_layer(view, scene::Layer::smoke))
+  if (scene::has_layer(view, scene::Layer::extremes) && !has_vectors &&
+      !scene::has_layer(view, scene::Layer::smoke))
     needs.scalars.insert(view.slice.scalar);
   if (scene::has_layer(view, scene::Layer::blocks) || scene::has_layer(view, scene::Layer::smoke))
     needs.is_needed = true;

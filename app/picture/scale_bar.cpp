@@ -33,6 +33,7 @@ double pixels_per_metre(const render::Frame& frame, Vec3f place) {
 void add_scale_bar(const scene::View& view, const Snapshot& snapshot, const SlicePlane& plane,
                    render::Frame& frame) {
   const bool is_plane = scene::shows_slice(view) && !scene::shows_particles(view);
+  if (!is_plane && snapshot.particles.x.empty()) return;
   const sim::Vec3d place = is_plane ? plane.point : middle_of(snapshot.particles.x);
   const double pixels = pixels_per_metre(frame, to_float(place));
   const double length = pixels > 0 ? round_down(share_of_picture * frame.width / pixels) : 0;

@@ -1,7 +1,8 @@
 #pragma once
-/// Volumes of particles as surfaces see them.
+/// What the surface of snow needs to know of its particles: their volumes, and what they rest on.
 
 #include "app/scene/scene.h"
+#include "render/frame/frame.h"
 #include "sim/types/particle_arrays.h"
 
 namespace neve::app::picture {
@@ -9,5 +10,11 @@ namespace neve::app::picture {
 /// m3: that at rest times J_E J_P, where snow looser than any solid counts as if it were one; not
 /// above 0 or not a number in a state that has diverged.
 double snow_volume(const scene::Scene& scene, const sim::ParticleArrays& particles, std::size_t p);
+
+/// Sets to_solid of the points, and of those that are cut away, where one is near a terrain or
+/// another solid that the view draws. Thin solids count where the mirror image is inside them.
+/// Planes are left out: they are grounds of the frame.
+void find_solids_below(const scene::Scene& scene, const scene::View& view, double time,
+                       render::Points& points);
 
 }  // namespace neve::app::picture

@@ -136,8 +136,8 @@ MarkedField scalars_of(const FieldSamples& fields, scene::ScalarField field) {
 /// That the view shows first of all.
 MarkedField field_shown(const scene::View& view, const FieldSamples& fields) {
   const auto has = [&](scene::Layer layer) { return scene::has_layer(view, layer); };
-  if (has(scene::Layer::arrows) && !has(scene::Layer::heatmap))
-    return lengths_of(fields, view.slice.field);
+  const bool has_vectors = has(scene::Layer::arrows) || has(scene::Layer::streamlines);
+  if (has_vectors && !has(scene::Layer::heatmap)) return lengths_of(fields, view.slice.field);
   if (has(scene::Layer::smoke) && !has(scene::Layer::heatmap))
     return scalars_of(fields, view.smoke.field);
   return scalars_of(fields, view.slice.scalar);

@@ -109,7 +109,7 @@ scene::Scene scene_before_fork(const RenderJob& job) {
 void walk_to_fork(const RenderJob& job, timeline::Timeline& timeline, Progress& progress) {
   const double time = job.fork->time;
   require_whole_frame(scene_before_fork(job), time, "--from");
-  progress.start(timeline::frame_at(time, timeline.fps()));
+  progress.start(timeline::frame_at(time, timeline.fps()), scene::number_of(job.scene, 0));
   const bool is_reached = timeline.go_to(time);
   progress.clear();
   if (const std::optional<sim::Divergence>& divergence = timeline.simulation().divergence())

@@ -7,6 +7,7 @@
 #include "app/picture/frame_builder.h"
 #include "app/picture/legends.h"
 #include "app/record/picture_record.h"
+#include "app/scene/burn_in.h"
 #include "app/scene/read.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
@@ -73,16 +74,19 @@ struct Layout {
 
 /// Title, view and changes: those at the start are of all tiles, the others say when they were
 /// made.
+/// @param footnote  of the first tile
 std::vector<std::string> words_of(const StripJob& job,
-                                  const std::vector<scene::LiveChange>& changes) {
+                                  const std::vector<scene::LiveChange>& changes,
+                                  const std::string& footnote) {
   const scene::Scene& scene = job.run.scene;
   std::vector<std::string> lines{scene.title.empty() ? job.run.scene_file : scene.title};
   std::string line = "view " + scene.views.front().name;
-  for (const std::string& change : picture::override_lines(job.run.overrides))
+  for (const std::string& change : scene::override_lines(job.run.overrides))
     line += "   \u00b7   " + change;
-  for (const std::string& change : picture::change_lines(changes)) line += "   \u00b7   " + change;
+  for (const std::string& change : scene::change_lines(changes)) line += "   \u00b7   " + change;
   if (job.run.coarsening > 1)
     line += "   \u00b7   coarsened " + rough_text(job.run.coarsening) + "x";
+  if (!footnote.empty()) line += "   \u00b7   " + footnote;
   lines.push_back(line);
   return lines;
 }
@@ -125,8 +129,13 @@ class Strip {
                               .build(scene.views.front(), snapshot);
     changes_ = snapshot.changes;
     frame.caption = {"t = " + time_text(time, fps)};
+    if (tiles_.empty())
+      footnote_ = frame.footnote;
+    else if (frame.footnote != footnote_)
+      frame.caption.push_back(frame.footnote);
     frame.footnote.clear();
     if (!tiles_.empty()) frame.scale_bar.reset();  // all tiles have one scale
+    tell_values_beyond(picture::legends_of(scene, scene.views.front(), frame));
     const std::size_t at = tiles_.size();
     tiles_.push_back({layout_.x(at), layout_.y(at), renderer_.draw(frame)});
     state_hash_ = timeline.simulation().state_hash();
@@ -136,10 +145,11 @@ class Strip {
     render::Frame words;
     words.width = job_.width;
     words.height = layout_.height();
-    words.caption = words_of(job_, changes_);
+    words.caption = words_of(job_, changes_, footnote_);
     words.caption_height = layout_.top;
     words.font_size = layout_.font_size;
     words.legends = legends_;
+    words.legend_width = static_cast<float>(layout_.right - 2 * layout_.font_size);
     return renderer_.draw_over(render::compose(words.width, words.height, behind_tiles, tiles_),
                                words);
   }
@@ -161,8 +171,16 @@ class Strip {
 
  private:
   Layout layout_with(const scene::Scene& scene) const {
-    return {job_, setup::size_of(scene, scene.views.front()), words_of(job_, {}).size(),
+    return {job_, setup::size_of(scene, scene.views.front()), words_of(job_, {}, {}).size(),
             !legends_.empty()};
+  }
+
+  /// A legend of all tiles says what one of its tiles has.
+  void tell_values_beyond(const std::vector<render::Legend>& of_tile) {
+    for (std::size_t k = 0; k < std::min(of_tile.size(), legends_.size()); ++k) {
+      legends_[k].has_lower_values |= of_tile[k].has_lower_values;
+      legends_[k].has_higher_values |= of_tile[k].has_higher_values;
+    }
   }
 
   /// All tiles have the ranges of the scene.
@@ -187,6 +205,7 @@ class Strip {
   Layout layout_;
   std::vector<render::Tile> tiles_;
   std::vector<scene::LiveChange> changes_;  ///< of the run up to the last of them
+  std::string footnote_;                    ///< of the first
   std::uint64_t state_hash_ = 0;            ///< of the last of them
 };
 
@@ -267,7 +286,7 @@ StripResult run_strip(const StripJob& job, const RenderOptions& options, Progres
   place_cameras(job, resolved);
   setup::resolve(resolved, timeline.seeded().planned);
   Strip strip(job, resolved, renderer);
-  progress.start(job.run.frames.last);
+  progress.start(job.run.frames.last, scene::number_of(resolved, 0));
   for (const double time : job.times) {
     if (!timeline.go_to(time)) break;
     strip.add(timeline, resolved);

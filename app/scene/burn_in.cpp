@@ -8,6 +8,8 @@
 
 #include "app/advice/suggest.h"
 #include "app/scene/flat.h"
+#include "app/scene/override.h"
+#include "app/scene/presets.h"
 #include "app/support/errors.h"
 #include "app/support/film_rate.h"
 #include "app/support/text.h"
@@ -126,6 +128,97 @@ std::optional<Problem> shot_problem(const Scene& scene) {
       return std::string();
     });
   return found;
+}
+
+namespace {
+
+/// "hardening" of material.snow.hardening, "post center" of collider.post.shape.sphere.center.
+std::string short_name(const std::string& address) {
+  const std::size_t first = address.find('.'), last = address.rfind('.');
+  if (first == std::string::npos) return address;
+  const std::string kind = address.substr(0, first), word = address.substr(last + 1);
+  const bool is_of_one = kind == "body" || kind == "collider" || kind == "emitter" ||
+                         kind == "sink" || kind == "material";
+  const std::size_t second = address.find('.', first + 1);
+  if (!is_of_one || second == std::string::npos) return word;
+  const std::string name = address.substr(first + 1, second - first - 1);
+  return name == "snow" && kind == "material" ? word : name + " " + word;
+}
+
+/// True where nothing is left of an earlier change: its whole table is set or removed after it, or
+/// the preset that sets its number.
+bool replaces(const std::string& later, const std::string& earlier) {
+  if (earlier.starts_with(later + ".")) return true;
+  if (!is_preset_address(later)) return false;
+  const std::vector<std::string> numbers = addresses_set_by(later);
+  return std::find(numbers.begin(), numbers.end(), earlier) != numbers.end();
+}
+
+}  // namespace
+
+std::vector<std::string> override_lines(const std::vector<std::string>& overrides) {
+  std::map<std::string, std::string> by_address;  // the last value of an address counts
+  std::map<std::string, int> named_alike;
+  std::vector<std::string> order;
+  for (const std::string& text : overrides) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string address = text.substr(0, equals);
+    if (!concerns_simulation(address)) continue;
+    std::erase_if(order, [&](const std::string& earlier) {
+      if (!replaces(address, earlier)) return false;
+      --named_alike[short_name(earlier)];
+      return by_address.erase(earlier) > 0;
+    });
+    if (!by_address.contains(address)) {
+      order.push_back(address);
+      ++named_alike[short_name(address)];
+    }
+    by_address[address] = text.substr(equals + 1);
+  }
+  std::vector<std::string> lines;
+  for (const std::string& address : order) {
+    const std::string name = short_name(address);
+    const std::string& value = by_address[address];
+    if (is_object_address(address))
+      lines.push_back((value == "none" ? "removed " : "set ") + address);
+    else
+      lines.push_back((named_alike[name] > 1 ? address : name) + " = " + value);
+  }
+  return lines;
+}
+
+std::vector<std::string> change_lines(const std::vector<LiveChange>& changes) {
+  std::vector<std::string> texts, objects;
+  for (const LiveChange& change : changes) {
+    const std::string step = "step " + std::to_string(change.step);
+    if (is_object_address(change.address))
+      objects.push_back((change.value == "none" ? "removed " : "added ") + change.address + " at " +
+                        step);
+    else
+      texts.push_back(change.address + "=" + change.value + " since " + step);
+  }
+  std::vector<std::string> lines = override_lines(texts);
+  lines.insert(lines.end(), objects.begin(), objects.end());
+  return lines;
+}
+
+void write_changes(const std::vector<std::string>& overrides, Scene& scene) {
+  const std::string name = "{changes}";
+  std::string changes;  // its own braces are none of a value
+  for (const char c : joined(override_lines(overrides), ", "))
+    changes += c == '{' || c == '}' ? std::string(2, c) : std::string(1, c);
+  BurnIn& b = scene.burn_in;
+  for (std::string* text :
+       {&b.top_left, &b.top, &b.top_right, &b.bottom_left, &b.bottom, &b.bottom_right}) {
+    std::size_t at = 0;
+    while ((at = text->find('{', at)) != std::string::npos) {
+      const bool is_name = text->compare(at, name.size(), name) == 0;
+      if (is_name) text->replace(at, name.size(), changes);
+      // One that is meant as a brace is written twice.
+      at += is_name ? changes.size() : text->compare(at, 2, "{{") == 0 ? 2 : 1;
+    }
+  }
 }
 
 }  // namespace neve::app::scene

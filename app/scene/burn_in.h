@@ -4,8 +4,10 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/scene/check.h"
+#include "app/scene/live_change.h"
 #include "app/scene/scene.h"
 
 namespace neve::app::scene {
@@ -20,6 +22,18 @@ struct PictureWords {
 /// The six texts of burn_in with their values, in the order of its parameters. A brace that is
 /// meant as one is written twice.
 std::array<std::string, 6> burnt_in(const Scene& scene, const PictureWords& words);
+
+/// "hardening = 5" for "material.snow.hardening=5", "post center = ..." for a value of a collider;
+/// the whole address where two are named alike. None for other cameras, views and colours: these
+/// are seen; and none of what a later one replaces, with its table say.
+std::vector<std::string> override_lines(const std::vector<std::string>& overrides);
+
+/// "hardening = 5 since step 120", "added collider.ball at step 120".
+std::vector<std::string> change_lines(const std::vector<LiveChange>& changes);
+
+/// The scene of a run that has these changes in it: its {changes} are these, since nothing will
+/// tell it of others.
+void write_changes(const std::vector<std::string>& overrides, Scene& scene);
 
 inline bool has_burn_in(const BurnIn& b) {
   return !(b.top_left + b.top + b.top_right + b.bottom_left + b.bottom + b.bottom_right).empty();

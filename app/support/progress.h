@@ -83,7 +83,7 @@ class Progress {
   ~Progress();
 
   /// @param first_number  of frame 0, in lines and events
-  void start(int last_frame, int first_number = 0);
+  void start(int last_frame, int first_number);
   /// A step was made; cheap.
   void step();
   /// A frame was finished.

@@ -31,9 +31,14 @@ struct CutAway {
   Values<std::uint32_t> id;  ///< these as of Points
   Values<float> value, volume;
   Values<PackedTurn> turn;
+  Values<Vec3f> to_solid;
   Values<float> blur{};
   bool operator==(const CutAway&) const = default;
 };
+
+/// Spacings of snow from what it rests on, up to which the snow surface needs its mirror image:
+/// beyond, its kernel has no weight to speak of.
+inline constexpr float mirror_reach = 2.2f;
 
 /// Spheres. `value` is empty for snow shade, otherwise one number per point, coloured by the map.
 struct Points {
@@ -43,8 +48,10 @@ struct Points {
   Values<float> volume;     ///< m3 as deformed, for the snow surface; empty: that of packed points
   Values<float> blur;       ///< m across the picture while the shutter is open; empty: none moves
   Values<PackedTurn> turn;  ///< turns the grain of the snow surface; empty: none has turned
-  float radius = 0.005f;    ///< m, as drawn
-  float spacing = 0.01f;    ///< m, mean distance of packed points: scale of the light volume
+  Values<Vec3f> to_solid;  ///< m, to a mesh that it rests on, which the snow surface meets; 0: none
+                           ///< is near; empty: nowhere. Grounds need none
+  float radius = 0.005f;   ///< m, as drawn
+  float spacing = 0.01f;   ///< m, mean distance of packed points: scale of the light volume
   ColorMap colormap = ColorMap::viridis;
   float range_min = 0, range_max = 1;
   std::optional<CutAway> cut;  ///< for the snow surface
@@ -145,13 +152,15 @@ struct Light {
   float ambient = 1;
 };
 
-/// A colour bar: title with unit, range and ticks.
+/// A colour bar: title with unit, range and ticks, and a tip at an end beyond which values lie, as
+/// they have the colour of that end.
 struct Legend {
   std::string title;  ///< "speed"
   std::string unit;   ///< "m/s", may be empty
   ColorMap colormap = ColorMap::viridis;
   float min = 0, max = 1;
   std::vector<std::array<std::uint8_t, 3>> colors = {};  ///< sRGB, from min to max, for the map's
+  bool has_lower_values = false, has_higher_values = false;
   bool operator==(const Legend&) const = default;
 };
 
@@ -230,6 +239,7 @@ struct Frame {
   std::vector<TriangleMesh> ghosts;        ///< see-through, without shadow
   std::vector<GroundPlane> ghost_grounds;  ///< likewise
   std::vector<Legend> legends;
+  float legend_width = 0;  ///< px, in which their titles are wrapped; 0: a third of the picture
   std::vector<Plot> plots;
   std::vector<Patch> patches;
   std::vector<Note> notes;

@@ -86,6 +86,16 @@ Rgb8 legend_color(const Legend& legend, float part) {
   return {c[0], c[1], c[2]};
 }
 
+/// A point beyond an end of the bar, in the colour that values beyond it have.
+void draw_tip(const Legend& legend, float part, ImVec2 left_end, float width, float height) {
+  const Rgb8 c = legend_color(legend, part);
+  const ImVec2 right_end(left_end.x + width, left_end.y),
+      point(left_end.x + 0.5f * width, left_end.y + height);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddTriangleFilled(left_end, right_end, point, IM_COL32(c.r, c.g, c.b, 255));
+  list.AddTriangle(left_end, right_end, point, IM_COL32(0, 0, 0, 110));
+}
+
 /// A colour bar with its title above and its numbers to the right.
 void draw_legend(const Legend& legend, const LegendText& text, const ImFont& font,
                  const LegendPlace& place) {
@@ -103,6 +113,9 @@ void draw_legend(const Legend& legend, const LegendText& text, const ImFont& fon
     list.AddRectFilled(ImVec2(left, y), ImVec2(right, y + 1), IM_COL32(c.r, c.g, c.b, 255));
   }
   list.AddRect(ImVec2(left, top), ImVec2(right, bottom), IM_COL32(0, 0, 0, 110));
+  const float tip = std::round(0.5f * font.FontSize);
+  if (legend.has_higher_values) draw_tip(legend, 1, ImVec2(left, top), right - left, -tip);
+  if (legend.has_lower_values) draw_tip(legend, 0, ImVec2(left, bottom), right - left, tip);
   const double range = static_cast<double>(legend.max) - static_cast<double>(legend.min);
   for (const Tick& tick : text.ticks) {
     const double part = range > 0 ? (tick.value - static_cast<double>(legend.min)) / range : 0.5;
@@ -132,7 +145,8 @@ OverlayPass::Limits OverlayPass::draw_legends(const Frame& frame) const {
   float title_width = 0, bars = 0;
   std::size_t lines = 1;
   for (std::size_t k = 0; k < count; ++k) {
-    texts.push_back(text_of(frame.legends[k], font, bar_height, 0.35f * width));
+    const float room_beside = frame.legend_width > 0 ? frame.legend_width : 0.35f * width;
+    texts.push_back(text_of(frame.legends[k], font, bar_height, room_beside));
     title_width = std::max(title_width, texts.back().title_width);
     bars = std::max(bars, texts.back().bar_width);
     lines = std::max(lines, texts.back().title.size());
@@ -231,19 +245,20 @@ void OverlayPass::draw_caption(const Frame& frame, const Limits& limits) const {
   }
 }
 
-void OverlayPass::draw_labels(const Frame& frame, const View& view) const {
+void OverlayPass::draw_labels(const Frame& frame, const View& view, const Limits& limits) const {
   const ImFont& font = *imgui_.text_font();
   const float unit = unit_of(font), margin = 6 * unit;
   for (const Label& label : frame.labels) {
     const Vec3f p = view.project(label.position);
     if (!(p.z > 0)) continue;
     const float height = static_cast<float>(view.height), width = static_cast<float>(view.width);
-    const std::string text = elide(font, label.text, width - 2 * margin);
-    const float text_size = text_width(font, text);
-    // Above its place, and kept on the picture as long as the place itself is.
+    // Above its place, and kept on the picture, off the legends, as long as the place itself is.
     if (p.x < 0 || p.x > width || p.y < 0 || p.y > height) continue;
-    const float left = std::clamp(p.x, margin, std::max(margin, width - text_size - margin));
     const float top = std::max(margin, height - p.y - 1.35f * font.FontSize);
+    const float right = top + font.FontSize > limits.legend_top ? limits.below : width - margin;
+    const std::string text = elide(font, label.text, right - margin);
+    const float text_size = text_width(font, text);
+    const float left = std::clamp(p.x, margin, std::max(margin, right - text_size));
     const float rim = 3 * unit;
     ImGui::GetBackgroundDrawList()->AddRectFilled(
         ImVec2(left - rim, top - 0.5f * rim),
@@ -320,9 +335,9 @@ void OverlayPass::draw(const Frame& frame, const View& view) {
   const int font_size =
       frame.font_size > 0 ? frame.font_size : font_size_for(frame.width, frame.height);
   imgui_.begin(frame.width, frame.height, font_size, all_texts(frame));
-  draw_labels(frame, view);
-  draw_marks(frame, view);
   const Limits limits = draw_legends(frame);
+  draw_labels(frame, view, limits);
+  draw_marks(frame, view);
   draw_caption(frame, limits);
   draw_footnote(frame, draw_plots(frame, *imgui_.text_font(), limits.below), limits.below);
   draw_notes(frame);

@@ -26,7 +26,7 @@ class OverlayPass {
   void draw_caption(const Frame& frame, const Limits& limits) const;
   void draw_footnote(const Frame& frame, float left, float right) const;
   void draw_scale_bar(const ScaleBar& bar, float left, float right, float bottom) const;
-  void draw_labels(const Frame& frame, const View& view) const;
+  void draw_labels(const Frame& frame, const View& view, const Limits& limits) const;
   void draw_notes(const Frame& frame) const;
   void draw_edge_words(const Frame& frame) const;
   void draw_marks(const Frame& frame, const View& view) const;

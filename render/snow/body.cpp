@@ -120,20 +120,26 @@ Points with_cut_away(const Points& points) {
   append(all.volume, points.cut->volume);
   append(all.blur, points.cut->blur);
   append(all.turn, points.cut->turn);
+  append(all.to_solid, points.cut->to_solid);
   return all;
 }
 
-/// Snow near a ground continues below the ground as its mirror image, so that its field does not
-/// thin out there and its sides meet the ground.
-void mirror_in_grounds(std::span<const GroundPlane> grounds, float spacing,
-                       std::vector<Vec3f>& position, std::vector<float>& volume) {
-  constexpr float reach = 2.2f;  // spacings: beyond, the kernel has no weight to speak of
+/// Snow near a ground or a solid continues behind its surface as its mirror image, so that its
+/// field does not thin out there and its sides meet what it lies on.
+void add_mirror_images(std::span<const GroundPlane> grounds, float spacing,
+                       const std::vector<Vec3f>& to_solid, std::vector<Vec3f>& position,
+                       std::vector<float>& volume) {
   const std::size_t count = position.size();
+  for (std::size_t p = 0; p < to_solid.size(); ++p) {
+    if (to_solid[p] == Vec3f{}) continue;
+    position.push_back(position[p] + to_solid[p] * 2.0f);
+    volume.push_back(volume[p]);
+  }
   for (const GroundPlane& ground : grounds) {
     const Vec3f normal = normalized(ground.normal);
     for (std::size_t p = 0; p < count; ++p) {
       const float height = dot(position[p] - ground.point, normal);
-      if (!(height > 0 && height < reach * spacing)) continue;
+      if (!(height > 0 && height < mirror_reach * spacing)) continue;
       position.push_back(position[p] - normal * (2 * height));
       volume.push_back(volume[p]);
     }
@@ -203,7 +209,7 @@ Body make_body(const Points& shown, std::span<const GroundPlane> grounds, Thread
   std::vector<Vec3f> position = points.position;
   std::vector<float> volume = points.volume;
   volume.resize(position.size(), points.spacing * points.spacing * points.spacing);
-  mirror_in_grounds(grounds, points.spacing, position, volume);
+  add_mirror_images(grounds, points.spacing, points.to_solid, position, volume);
   const surface::Kernel kernel{cell_share * points.spacing, kernel_share * points.spacing};
   surface::GrainField made = surface::make_field({position, volume}, kernel, 0, pool);
   body.field = std::move(made.field);

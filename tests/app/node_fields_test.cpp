@@ -201,6 +201,34 @@ TEST(Legends, TwoLayersOfOneQuantityShareALegend) {
   EXPECT_EQ(app::picture::legends_of({}, view).size(), 2u);
 }
 
+/// A colour at an end of the bar stood for any value beyond it without a word.
+TEST(Legends, SayWhereValuesOfTheirPictureLieBeyondTheirRange) {
+  app::scene::View view;
+  view.layers = {app::scene::Layer::particles, app::scene::Layer::heatmap,
+                 app::scene::Layer::arrows};
+  view.particles.color_by = app::scene::ColorBy::J_P;
+  view.particles.range = app::scene::Range{0.8, 1.2};
+  view.slice.scalar_range = app::scene::Range{0, 400};
+  view.slice.range = app::scene::Range{0, 5};
+  render::Frame frame;
+  frame.points.value = {0.8f, 1.2004f};  // is on the bar, to a pixel
+  frame.heat_maps.emplace_back().value = {100, NAN, 500};
+  frame.heat_maps[0].cover = {1, 1, 0.2f};
+  frame.arrows.emplace_back().vector = {{3, 0, 3}};
+  const auto told = [&] {
+    std::string ends;
+    for (const render::Legend& legend : app::picture::legends_of({}, view, frame))
+      ends += std::string(legend.has_lower_values ? "<" : ".") +
+              (legend.has_higher_values ? ">" : ".") + " ";
+    return ends;
+  };
+  EXPECT_EQ(told(), ".. .. .. ");
+  frame.points.value = {0.7f, 1.2f};
+  frame.heat_maps[0].cover = {1, 1, 0.6f};
+  frame.arrows[0].vector = {{3, 4, 3}};
+  EXPECT_EQ(told(), "<. .> .> ");
+}
+
 TEST(Slice, ArrowsKeepTheirDistanceInThePicture) {
   const FieldMoment moment = moment_of(all_fields);
   const app::picture::SlicePlane plane = app::picture::slice_plane(moment.scene.views[2].slice, 0);
@@ -356,6 +384,19 @@ TEST(Extremes, AreMarkedWithNodeAndValue) {
   ASSERT_EQ(frame.lines.size(), 1u);
   EXPECT_EQ(frame.lines[0].ends.size(), 12u) << "two crosses of three lines";
   EXPECT_TRUE(frame.footnote.empty());
+}
+
+/// A picture of the momentum named the largest speed, which was nowhere in it.
+TEST(Extremes, AreOfTheFieldThatStreamlinesShow) {
+  app::scene::View view;
+  view.layers = {app::scene::Layer::streamlines, app::scene::Layer::extremes};
+  view.slice.field = app::scene::VectorField::momentum;
+  app::picture::FieldSamples fields = four_nodes();
+  for (const float speed : fields.scalars[app::scene::ScalarField::speed])
+    fields.vectors[app::scene::VectorField::momentum].push_back({2 * speed, 0, 0});
+  render::Frame frame;
+  app::picture::mark_extremes(view, fields, 0.01, frame);
+  EXPECT_EQ(frame.labels.at(0).text, "largest momentum 14 kg m/s, node -3 1 9");
 }
 
 TEST(Extremes, NodesThatAreNoNumberOrCrossACellInAStepAreRed) {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "app/options/languages.h"
-#include "app/picture/frame_builder.h"
+#include "app/scene/burn_in.h"
 #include "app/support/errors.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
@@ -38,7 +38,7 @@ TEST(Progress, ProgressRewritesItsLineOnlyOnATerminal) {
     std::ostringstream out;
     {
       Progress progress(out, Verbosity::normal, updates);
-      progress.start(4);
+      progress.start(4, 0);
       progress.frame(1, 0.1);
       progress.note("hello");
     }
@@ -50,7 +50,7 @@ TEST(Progress, ProgressRewritesItsLineOnlyOnATerminal) {
 TEST(Progress, QuietRunsPrintOnlyWarnings) {
   std::ostringstream out;
   Progress progress(out, Verbosity::quiet, true);
-  progress.start(4);
+  progress.start(4, 0);
   progress.frame(1, 0.1);
   progress.note("note");
   progress.detail("detail");
@@ -88,7 +88,7 @@ TEST(SizeArguments, SizeArgumentsAreTwoSides) {
 }
 
 TEST(Caption, CaptionNamesOverridesOfTheSnowShortly) {
-  const std::vector<std::string> lines = app::picture::override_lines(
+  const std::vector<std::string> lines = app::scene::override_lines(
       {"material.snow.hardening=5", "body.a.velocity=[0,1,0]", "body.b.velocity=[0,2,0]",
        "camera.fov=20", "material.snow.hardening=6", "view.particles.layers=[\"particles\"]"});
   const std::vector<std::string> expected{"hardening = 6", "a velocity = [0,1,0]",
@@ -98,7 +98,7 @@ TEST(Caption, CaptionNamesOverridesOfTheSnowShortly) {
 
 TEST(Caption, CaptionNamesWhatHoldsAtTheEnd) {
   const auto lines = [](const std::vector<std::string>& overrides) {
-    return joined(app::picture::override_lines(overrides), "; ");
+    return joined(app::scene::override_lines(overrides), "; ");
   };
   EXPECT_EQ(lines({"solver.cfl=0.1", "solver={cell_size=0.05}"}), "solver = {cell_size=0.05}");
   EXPECT_EQ(lines({"solver={cell_size=0.05}", "solver.cfl=0.1"}),

@@ -77,6 +77,15 @@ bottom = "{{{view}}} {changes}"
   EXPECT_EQ(words[4], "{snow} hardening = 7");
 }
 
+TEST(BurnIn, ARunOfASweepHasItsChangesInItsScene) {
+  app::scene::Scene scene =
+      scene_of("[burn_in]\ntop = \"{{changes}} {view}: {changes}\"\nbottom = \"{{{changes}}}\"\n");
+  app::scene::write_changes({"material.snow.hardening=7", "title=a{b}"}, scene);
+  const auto words = app::scene::burnt_in(scene, {0, 0, "snow", "nothing else"});
+  EXPECT_EQ(words[1], "{changes} snow: hardening = 7");
+  EXPECT_EQ(words[4], "{hardening = 7}");
+}
+
 TEST(BurnIn, TimesHaveTheDigitsThatTellFramesApart) {
   const auto time = [](const std::string& fps) {
     const auto scene = scene_of("fps = " + fps + "\n[burn_in]\ntop = \"{time}\"\n");

@@ -209,6 +209,10 @@ TEST(ScaleBar, SaysWhereItHoldsAndIsNoneBehindTheEye) {
   behind.camera = {{0, 0, -3}, {0, 0, -4}, {0, 1, 0}, 30};
   add_scale_bar(view, snapshot, front(), behind);
   EXPECT_FALSE(behind.scale_bar);
+  render::Frame empty;
+  empty.camera = frame.camera;
+  add_scale_bar(view, {}, front(), empty);
+  EXPECT_FALSE(empty.scale_bar) << "there is no snow whose middle it could be at";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/picture/collider_looks.h"
+#include "app/picture/snow_volume.h"
 #include "app/scene/read.h"
 #include "sim/shapes/solid.h"
 #include "tests/support/height_files.h"
@@ -51,6 +52,48 @@ TEST_F(TerrainScene, ACoverLiesWhereItsTerrainIs) {
   const sim::shapes::Surface ground = sim::shapes::surface_at(scene.colliders[0], 0, middle);
   // Half of the depth above the ground, and lifted by the y of its centre.
   EXPECT_NEAR(ground.distance, (0.1 + 0.1) * ground.normal.y(), 1e-12);
+}
+
+/// Snow on terrain and boxes ended ragged above them, by a spacing of particles.
+TEST_F(TerrainScene, SnowKnowsTheWayToWhatItRestsOn) {
+  const std::string box = R"([[collider]]
+name = "box"
+style = "STYLE"
+shape = { box = { center = [0, 5, 0], size = [1, THICK, 1] } }
+)";
+  const auto way = [&](std::string text, const sim::Vec3d& x) {
+    text += "[[body]]\nshape = { sphere = { radius = 0.1 } }\n";
+    const scene::Scene scene = scene::read_scene_text(text, "s.toml", folder_.path().string());
+    render::Points points;
+    points.spacing = 0.02f;
+    points.position = {
+        {static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(x.z())}};
+    picture::find_solids_below(scene, scene.views.front(), 0, points);
+    return points.to_solid.empty() ? Vec3f{0, 1e9f, 0} : points.to_solid[0];
+  };
+  const auto with = [&](const std::string& thick, const std::string& style) {
+    std::string text = box;
+    text.replace(text.find("THICK"), 5, thick);
+    return text.replace(text.find("STYLE"), 5, style);
+  };
+  EXPECT_NEAR(way(with("1", "solid"), {0.1, 5.53, 0.1}).y, -0.03, 1e-6);
+  EXPECT_EQ(way(with("1", "solid"), {0.1, 5.55, 0.1}), Vec3f{}) << "beyond the kernel's reach";
+  EXPECT_EQ(way(with("1", "solid"), {0.1, 5.4, 0.1}), Vec3f{}) << "inside";
+  EXPECT_EQ(way(with("0.05", "solid"), {0.1, 5.055, 0.1}), Vec3f{})
+      << "the mirror image would come out below the plate";
+  EXPECT_EQ(way(with("1", "ghost"), {0.1, 5.53, 0.1}).y, 1e9f) << "its inside is seen";
+  const std::string hills =
+      "[[collider]]\nshape = { terrain = { file = \"hills.asc\", center = [0.5, 1, 0], rotation = "
+      "[0, 30, 0] } }\n";
+  const scene::Scene scene = read("file = \"hills.asc\", center = [0.5, 1, 0]");
+  sim::Vec3d x(0.4, 1, 0.3);
+  x.y() -= sim::shapes::surface_at(scene.colliders[0], 0, x).distance - 0.02;
+  const sim::shapes::Surface ground = sim::shapes::surface_at(scene.colliders[0], 0, x);
+  ASSERT_GT(ground.distance, 0.001);
+  ASSERT_LT(ground.distance, 0.04);
+  const Vec3f to_ground = way(hills, x);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(to_ground[axis], -ground.distance * ground.normal[axis], 1e-5) << axis;
 }
 
 TEST_F(TerrainScene, IsDrawnOnItsSurfaceWithTheNormalsOfContact) {

@@ -117,6 +117,17 @@ TEST_F(Cli, ProgressAsJsonIsOneObjectALine) {
       frames.push_back(event["frame"].get<int>());
   EXPECT_EQ(frames, (std::vector<int>{0, 1, 2}));
   EXPECT_GT(list.back()["text"].get<std::string>().size(), 0u);
+  // Every command counts in the numbers of the shot.
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"dump", "scene.toml", "--at", "0.1"},
+        {"strip", "scene.toml", "--at", "0.1", "--out", "s.png"}}) {
+    std::vector<std::string> words = more;
+    words.insert(words.end(), {"--set", "first_frame=1001", "--progress", "json"});
+    const auto counted = neve(words);
+    ASSERT_EQ(counted.exit_code, 0) << counted.errors;
+    for (const app::Json& event : events(counted.errors))
+      EXPECT_GT(event.value("last_frame", 1006), 1000) << counted.errors;
+  }
   const auto wrong = neve({"render", "none.toml", "--progress=json"});
   EXPECT_EQ(wrong.exit_code, 3);
   EXPECT_EQ(events(wrong.errors).back()["event"], "error");

@@ -139,6 +139,39 @@ TEST_F(Strip, SaysWhatAForkChanged) {
   EXPECT_EQ(render::compare(words("run", "0.05"), words("fork", "0.05")).max, 0);
 }
 
+/// What a picture of the slice says at its lower edge: above the tiles, or in those where it
+/// differs.
+TEST_F(Strip, SaysWhereItsSlicesAre) {
+  folder.write("slices.toml", (falling + 16) + std::string(R"(
+[[view]]
+name = "still"
+layers = ["heatmap"]
+[[view]]
+name = "moving"
+layers = ["heatmap"]
+slice = { motion = [0, 0, 0.4] }
+)"));
+  const auto strip = [&](const char* view) {
+    EXPECT_EQ(neve({"strip", "slices.toml", "--at", "0.05,0.2", "--columns", "1", "--width", "640",
+                    "--view", view, "--out", "s.png"})
+                  .exit_code,
+              0);
+    return picture("s.png");
+  };
+  const render::Image still = strip("still"), moving = strip("moving");
+  const auto light_in = [](const render::Image& image, int left, int top) {
+    int count = 0;
+    for (int y = top; y < top + 16; ++y)
+      for (int x = left; x < left + 60; ++x)
+        count +=
+            image.pixels[static_cast<std::size_t>((y * image.width + x) * image.channels)] > 150;
+    return count;
+  };
+  EXPECT_GT(light_in(still, 80, 20), 4) << "z = 0 m, in the line above the tiles";
+  EXPECT_EQ(light_in(still, 10, 430), 0) << "the second tile has the same plane";
+  EXPECT_GT(light_in(moving, 10, 430), 10) << "z = 0.08 m";
+}
+
 TEST_F(Strip, BurnInsSayWhatWasChanged) {
   const auto drawn = [&](const std::string& more) {
     folder.write("burnt.toml", "title = \"Burnt\"\n" + more + (falling + 16));

@@ -3,6 +3,7 @@
 
 #include "gl_test.h"
 #include "render/frame/colormap.h"
+#include "render/frame/view.h"
 
 namespace neve::render {
 namespace {
@@ -120,6 +121,46 @@ TEST(Legend, LegendShowsTheColoursOfTheMap) {
     EXPECT_TRUE(is_found) << t;
   }
   EXPECT_GT(changed(nothing, image).left, 320);
+}
+
+TEST(Legend, ATipStandsWhereValuesLieBeyondTheBar) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame(640, 360);
+  frame.legends.push_back({.title = "v", .unit = "", .colormap = ColorMap::turbo});
+  const Image bar = renderer.draw(frame);
+  const auto tip = [&](bool lower, bool higher) {
+    frame.legends[0].has_lower_values = lower;
+    frame.legends[0].has_higher_values = higher;
+    return changed(bar, renderer.draw(frame));
+  };
+  // Both are as wide as the bar and half a line high, and nothing else moves.
+  const auto below = tip(true, false), above = tip(false, true);
+  EXPECT_GT(below.top, above.bottom + 60);
+  for (const auto& place : {below, above}) {
+    EXPECT_NEAR(place.right - place.left, 10, 4);
+    EXPECT_NEAR(place.bottom - place.top, 5, 3);
+  }
+}
+
+/// Digits of its number lay under the bar.
+TEST(Legend, LabelsOfPlacesBehindItAreBesideIt) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  Frame frame = small_frame(640, 360);
+  frame.legends.push_back({.title = "v", .unit = "", .colormap = ColorMap::turbo});
+  const Image bar = renderer.draw(frame);
+  const auto place = changed(renderer.draw(small_frame(640, 360)), bar);
+  frame.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30};
+  const View view = make_view(frame.camera, 640, 360);
+  // Somewhere behind the bar.
+  Vec3f at{0, 0, 0};
+  while (view.project(at).x < static_cast<float>(place.left + 4)) at.x += 0.01f;
+  while (360 - view.project(at).y < static_cast<float>(place.bottom - 20)) at.y -= 0.01f;
+  frame.labels.push_back({at, "largest speed 0.0191 m/s, node 0 1 -17"});
+  const auto words = changed(bar, renderer.draw(frame));
+  EXPECT_LT(words.right, place.left);
+  EXPECT_GT(words.right - words.left, 100);
 }
 
 TEST(Legend, InASmallPictureTheBarStandsAtTheEdgeAndTheTitleIsWhole) {

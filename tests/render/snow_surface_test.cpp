@@ -74,7 +74,7 @@ TEST(Snow, SurfaceOfASlabLiesWhereItsParticlesEnd) {
 void cut_open(Vec3f point, Vec3f normal, Points& points) {
   const Points whole = std::exchange(points, Points{});
   points.spacing = whole.spacing;
-  points.cut = CutAway{point, normal, {}, {}, {}, {}, {}};
+  points.cut = CutAway{point, normal, {}, {}, {}, {}, {}, {}};
   for (const Vec3f& p : whole.position)
     (dot(p - point, normal) > 0 ? points.cut->position : points.position).edit().push_back(p);
 }
@@ -148,6 +148,11 @@ TEST(Snow, SidesGoStraightDownToTheGround) {
   const Body alone = snow::make_body(points, {}, nullptr);
   EXPECT_LT(side_at(alone, 0.1f * spacing), middle - 0.5f * spacing);
   EXPECT_NEAR(side_at(body, 19.5f * spacing), side_at(alone, 19.5f * spacing), 1e-4f);
+  // A mesh is met like a ground, where particles know the way to it.
+  for (const Vec3f& p : points.position)
+    points.to_solid.edit().push_back(p.y < mirror_reach * spacing ? Vec3f{0, -p.y, 0} : Vec3f{});
+  const Body on_mesh = snow::make_body(points, {}, nullptr);
+  EXPECT_NEAR(side_at(on_mesh, 0.1f * spacing), middle, 0.15f * spacing);
 }
 
 TEST(Snow, ACutShowsTheValuesInside) {

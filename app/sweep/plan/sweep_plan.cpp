@@ -12,6 +12,7 @@
 #include "app/record/picture_record.h"
 #include "app/run/fork.h"
 #include "app/run/identity.h"
+#include "app/scene/burn_in.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/leaf.h"
 #include "app/scene/read.h"
@@ -72,7 +73,9 @@ class SceneMaker {
   /// @param source  whose scene is varied; without one it is that of the sweep's file
   SceneMaker(const SweepOptions& options, const read::Sweep& sweep,
              const std::optional<run::RenderJob>& source)
-      : options_(options), sweep_(sweep) {
+      : options_(options),
+        sweep_(sweep),
+        is_fork_(options.fork || options.from || !sweep.settings.fork.empty()) {
     if (source)
       at_fork_ = run::scene_before_fork(*source);
     else
@@ -112,11 +115,14 @@ class SceneMaker {
     setup::refuse_followers(scene, all);
     scene::place_in_world(scene, sweep_.scene_file);
     scene::coarsen(scene, coarsening);
+    // A fork is told what it changes.
+    if (!is_fork_ && !settings.empty()) scene::write_changes(scene::texts_of(all), scene);
     return scene;
   }
 
   const SweepOptions& options_;
   const read::Sweep& sweep_;
+  bool is_fork_;
   std::string text_;  ///< of the sweep's scene
   std::optional<scene::Scene> at_fork_;
   std::vector<scene::Override> none_;

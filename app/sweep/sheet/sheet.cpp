@@ -282,6 +282,7 @@ render::Frame SheetMaker::frame_of(const SheetLayout& layout, const std::string&
   words.height = layout.height;
   words.font_size = layout.font_size;
   words.legends = legends_;
+  words.legend_width = 7.5f * static_cast<float>(layout.font_size);
   words.notes = layout.labels;
   words.patches = layout.brackets;
   const auto size = static_cast<float>(layout.font_size);

@@ -58,6 +58,9 @@ function makeScale(c) {
   const isLog = low > 0 && high > 20 * low;
   const to = isLog ? Math.log : x => x, from = isLog ? Math.exp : x => x;
   const a = to(low), width = to(high) - a;
+  // As many as tell one end, and a tenth of the way, from the other.
+  const largest = Math.max(Math.abs(low), Math.abs(high));
+  const digits = Math.min(15, Math.max(3, 2 + Math.ceil(Math.log10(largest / (high - low) || 1))));
   return {isChoice: false, isLog, low, high, count: kinds.length,
           at: x => {
             if (width <= 0) return 0.5;
@@ -65,7 +68,7 @@ function makeScale(c) {
             return Math.max(-0.04, Math.min(1.04, place));
           },
           value: place => from(a + place * width),
-          text: place => roughText(Number(from(a + place * width).toPrecision(3)))};
+          text: place => String(Number(from(a + place * width).toPrecision(digits)))};
 }
 
 function extent(values) {
