@@ -255,7 +255,9 @@ def _frames(frames):
 
 
 def _number(value):
-    """None of JSON is not a number."""
+    """None of JSON is not a number, also as a component of a vector."""
+    if isinstance(value, list):
+        return [_number(component) for component in value]
     return np.nan if value is None else value
 
 
@@ -444,7 +446,7 @@ class Run:
         known = sorted(set().union(*self.json["frames"])) if self.json["frames"] else [name]
         if name not in known:
             raise KeyError(f"frames have no {name!r}; expected one of {', '.join(known)}")
-        return np.array([_number(frame[name]) for frame in self.json["frames"]])
+        return np.array([_number(frame.get(name)) for frame in self.json["frames"]])
 
     def force(self, collider):
         """Force of the snow on a collider in every frame, N; not a number where there was no step."""
@@ -473,9 +475,11 @@ class Run:
 
     def picture(self, frame=None, view=None):
         """Path of a picture: of a frame, or of the last one; of a view, or of the first one."""
+        view = view or self.json["views"][0]
         if frame is None:
-            frame = self.frames[-1]
-        return self.folder / (view or self.json["views"][0]) / f"{int(frame):04d}.png"
+            # A view may have been drawn of some frames alone.
+            frame = (self.json.get("view_frames", {}).get(view) or self.frames)[-1]
+        return self.folder / view / f"{int(frame):04d}.png"
 
     def _repr_png_(self):
         file = self.picture() if len(self.frames) and self.json["views"] else None

@@ -91,6 +91,8 @@ Findings verify_sweep_folder(const fs::path& folder) {
     findings.files += found.files;
     for (const record::Flaw& flaw : found.flaws)
       findings.flaws.push_back({(place / flaw.file).generic_string(), flaw.what});
+    for (const std::string& note : found.notes)
+      findings.notes.push_back((place / note).generic_string());
     if (const std::string other =
             sweep::store::difference_of_record(status, record::read_run_json(folder / place));
         found.flaws.empty() && !other.empty())

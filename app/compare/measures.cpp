@@ -37,7 +37,7 @@ Places places_of(const picture::FieldSamples& a, const picture::FieldSamples& b)
 
 Displacement displacement(const sim::ParticleArrays& a, const sim::ParticleArrays& b) {
   Displacement d;
-  double sum = 0;
+  double sum = 0, largest = 0;
   for (std::size_t p = 0; p < a.x.size(); ++p) {
     const auto other = b.index_of(a.id_of(p));
     if (!other) continue;
@@ -45,11 +45,13 @@ Displacement displacement(const sim::ParticleArrays& a, const sim::ParticleArray
     if (!std::isfinite(distance)) continue;
     ++d.in_both;
     sum += distance;
-    d.largest = std::max(d.largest, distance);
+    largest = std::max(largest, distance);
   }
   d.only_a = a.x.size() - d.in_both;
   d.only_b = b.x.size() - d.in_both;
-  if (d.in_both > 0) d.mean = sum / static_cast<double>(d.in_both);
+  if (d.in_both == 0) return d;
+  d.mean = sum / static_cast<double>(d.in_both);
+  d.largest = largest;
   return d;
 }
 

@@ -137,13 +137,15 @@ std::array<render::Frame, 2> PairPainter::frames_for(Mode mode) const {
   }
   frames[1].legends = {
       {"displacement", "m", render::ColorMap::turbo, 0, static_cast<float>(range_)}};
+  frames[1].legends[0].has_higher_values = displacement_.largest > range_;
   return frames;
 }
 
 std::string PairPainter::line_for(Mode mode) const {
   std::string line = fmt::format("frame {}   t = {}", scene::number_of(a_.scene, a_.snapshot.frame),
                                  time_text(a_.snapshot.time, a_.scene.fps));
-  if (mode == Mode::displacement)
+  if (mode == Mode::displacement && displacement_.in_both == 0) line += "   no snow is in both";
+  if (mode == Mode::displacement && displacement_.in_both > 0)
     line += fmt::format("   displaced by {} m on average, {} m at most",
                         rough_text(displacement_.mean), rough_text(displacement_.largest));
   if (mode == Mode::mass)

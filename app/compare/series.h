@@ -2,6 +2,7 @@
 /// Numbers of two runs over time: as a table, as JSON and as curves.
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ namespace neve::app::compare {
 /// Distances between the particles of one id in two runs.
 struct Displacement {
   std::size_t in_both = 0, only_a = 0, only_b = 0;  ///< particles
-  double mean = 0, largest = 0;                     ///< m, of those in both; 0 without any
+  double mean = NAN, largest = NAN;                 ///< m, of those in both, if there are any
 };
 Displacement displacement(const sim::ParticleArrays& a, const sim::ParticleArrays& b);
 

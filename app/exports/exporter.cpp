@@ -11,6 +11,7 @@
 #include "app/output/temporary.h"
 #include "app/picture/motion.h"
 #include "app/scene/names.h"
+#include "app/support/text.h"
 
 namespace neve::app::exports {
 
@@ -18,13 +19,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Json attributes_json(const Table& columns) {
+/// @param scale  units of the files per metre: lengths and speeds are scaled, all else is in SI
+/// units
+Json attributes_json(const Table& columns, double scale) {
+  const auto unit_of = [&](const Column& column) {
+    const std::string unit = column.unit;
+    const bool is_scaled = scale != 1 && (unit == "m" || unit == "m/s");
+    return is_scaled ? rough_text(1 / scale) + " " + unit : unit;
+  };
   Json list = Json::array();
   for (const Column& column : columns.columns)
     list.push_back({{"name", column.name},
                     {"type", type_name(column)},
                     {"components", column.components},
-                    {"unit", column.unit}});
+                    {"unit", unit_of(column)}});
   return list;
 }
 
@@ -297,11 +305,12 @@ Json Exporter::to_json(const std::string& below) const {
   for (const Job& job : jobs_) {
     const scene::Export& spec = job.spec;
     const std::string series = series_name(spec), folder = below + scene::folder_of(spec) + "/";
-    Json json = {{"name", scene::folder_of(spec)},
-                 {"format", scene::name(spec.format)},
-                 {"up", scene::name(spec.up)},
-                 {"scale", spec.scale},
-                 {"attributes", has_grid(spec) ? Json::array() : attributes_json(job.columns)}};
+    Json json = {
+        {"name", scene::folder_of(spec)},
+        {"format", scene::name(spec.format)},
+        {"up", scene::name(spec.up)},
+        {"scale", spec.scale},
+        {"attributes", has_grid(spec) ? Json::array() : attributes_json(job.columns, spec.scale)}};
     if (spec.dust) json["dust"] = true;
     if (!spec.bodies.empty()) json["bodies"] = spec.bodies;
     json["surface"] = spec.surface ? surface_json(scene_, spec) : Json();

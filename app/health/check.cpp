@@ -9,6 +9,7 @@
 #include "app/health/findings.h"
 #include "app/health/mesh_findings.h"
 #include "app/health/slowness.h"
+#include "app/health/softness.h"
 #include "app/scene/coarsen.h"
 #include "app/setup/auto_ranges.h"
 #include "app/setup/curves.h"
@@ -136,7 +137,7 @@ Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, d
   check.plan = plan;
   check.coarsening = coarsening;
   check.cells = plan.volume / std::pow(scene.solver.cell_size, 3);
-  check.impact_speed = setup::impact_speed(scene);
+  check.impact_speed = load_speed(scene);
   check.hardest = setup::hardest_impact(scene);
   check.dust_steps = dust_steps(scene, check.impact_speed, plan.frames.last);
   int used_threads = 1;

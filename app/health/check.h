@@ -14,7 +14,7 @@ namespace neve::app::health {
 struct Check {
   setup::Plan plan;
   double cells = 0;         ///< that the bodies fill
-  double impact_speed = 0;  ///< m/s, see auto_ranges
+  double impact_speed = 0;  ///< m/s, of the snow, or of a collider that hits it
   setup::Impact hardest;
   sim::StepLimits start;  ///< of the initial state
   double dt_start = 0;    ///< s, of the first step

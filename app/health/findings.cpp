@@ -162,14 +162,15 @@ void check_body_overlaps(const scene::Scene& scene, const setup::SeededScene& se
   }
 }
 
-void check_fixed_steps(const sim::SolverSettings& s, const Check& check,
+/// @param impact  m/s, of the snow's own: colliders have a finding of theirs
+void check_fixed_steps(const sim::SolverSettings& s, double impact, const Check& check,
                        std::vector<Finding>& findings) {
   const double h = s.cell_size;
   // As an explicit step would feel it.
   const double sound_speed = check.start.max_sound_speed / sim::acoustic_stretch(s);
   // One step that keeps both limits: the advice of either finding is enough.
   const double holds = std::min(line(Law::acoustic_cfl) * h / std::max(1e-9, sound_speed),
-                                s.cfl * h / std::max(1e-9, check.impact_speed));
+                                s.cfl * h / std::max(1e-9, impact));
   const auto report = [&](Law law, double cfl, const char* what) {
     if (!(cfl > line(law))) return;
     const bool is_error = cfl > limits_of(law).check_error;
@@ -181,7 +182,7 @@ void check_fixed_steps(const sim::SolverSettings& s, const Check& check,
              " holds, or time_step = \"adaptive\""});
   };
   report(Law::acoustic_cfl, sound_speed * s.dt / h, "sound");
-  report(Law::speed_cfl, check.impact_speed * s.dt / h, "snow at impact");
+  report(Law::speed_cfl, impact * s.dt / h, "snow at impact");
 }
 
 /// Adaptive steps are as long as acoustic_cfl says, also where nothing can hold them.
@@ -423,7 +424,7 @@ double reachable_speed(const scene::Scene& scene) {
 
 void check_steps(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
   if (scene.solver.time_step == sim::TimeStep::fixed)
-    check_fixed_steps(scene.solver, check, findings);
+    check_fixed_steps(scene.solver, setup::impact_speed(scene), check, findings);
   else
     check_adaptive_steps(scene.solver, check, findings);
   check_implicit_steps(scene.solver, check, findings);

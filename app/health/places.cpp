@@ -9,7 +9,7 @@ namespace neve::app::health {
 using sim::Vec3d;
 
 std::vector<Vec3d> places_in(const sim::shapes::Shape& shape) {
-  constexpr int parts = 11;
+  constexpr int parts = 12;  // even: a plane through the middle has a half on either side
   std::vector<Vec3d> places;
   const sim::shapes::Solid solid(shape);
   const sim::shapes::Bounds box = solid.bounds();

@@ -134,10 +134,8 @@ void add_of_motion(const scene::Scene& scene, const Check& check, std::vector<Sl
                     fmt::format("at {} m/s sound sets the steps", rough_text(speed / times))});
   };
   for (const setup::SnowPiece& piece : setup::snow_places(scene)) {
-    const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
     add(piece.address + ".velocity", piece.velocity.norm());
-    add(piece.address + ".angular_velocity",
-        piece.angular_velocity.norm() * 0.5 * (box.max - box.min).norm());
+    add(piece.address + ".angular_velocity", setup::speed_of_spin(piece));
   }
   for (const sim::shapes::Collider& collider : scene.colliders) {
     const double speed = sim::shapes::largest_speed(collider);

@@ -651,7 +651,7 @@ void describe(V& visit, SliceStyle& s) {
   visit("dense_near", s.dense_near, unit::metre, position, live,
         "Point within four cells of which every node has an arrow, a short one.");
   visit("arrow_scale", s.arrow_scale, unit::none, above(0).at_most(1000), live,
-        "Factor on the length of arrows; at 1, the longest is 1.6 times their distance.");
+        "Factor on the length of arrows; at 1, the longest nearly reaches to the next one.");
   visit("isolines", s.isolines, unit::none, between(0, 100), live,
         "Number of bands between isolines of the heat map; 0: no lines.");
   visit("colormap", s.colormap, unit::none, anything, live, "Colours of the arrows.");

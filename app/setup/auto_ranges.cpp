@@ -81,9 +81,7 @@ double half_height(const sim::shapes::Bounds& box, const Vec3d& down) {
 /// Speed of snow when it meets the surface below it, or at the end of the scene when nothing is.
 double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
-  const double radius = 0.5 * (box.max - box.min).norm();
-  const double start =
-      piece.velocity.norm() + piece.angular_velocity.norm() * radius + own_speed(*piece.shape);
+  const double start = piece.velocity.norm() + speed_of_spin(piece) + own_speed(*piece.shape);
   const double g = scene.solver.gravity.norm();
   if (g == 0) return start;
   const Vec3d down = down_in(scene);

@@ -62,6 +62,18 @@ double largest_extent(const scene::Scene& scene) {
   return largest;
 }
 
+double speed_of_spin(const SnowPiece& piece) {
+  const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
+  const sim::Vec3d half = 0.5 * (box.max - box.min);
+  if (std::holds_alternative<sim::shapes::Sphere>(piece.shape->form))
+    return piece.angular_velocity.norm() * half.x();
+  double speed = 0;
+  for (const double y : {half.y(), -half.y()})
+    for (const double z : {half.z(), -half.z()})
+      speed = std::max(speed, piece.angular_velocity.cross(sim::Vec3d(half.x(), y, z)).norm());
+  return speed;
+}
+
 double planned_emission(const scene::Scene& scene, double time) {
   double count = 0;
   for (const sim::seeding::Emitter& emitter : scene.emitters)

@@ -26,6 +26,9 @@ std::vector<SnowPiece> snow_pieces(const scene::Scene& scene);
 /// The same without the values that need a file to be read: volume, particles and mass stay 0.
 std::vector<SnowPiece> snow_places(const scene::Scene& scene);
 
+/// m/s, of the point that the spin of a piece moves fastest, about the middle of its box.
+double speed_of_spin(const SnowPiece& piece);
+
 /// The longest edge of the boxes around bodies and emitters, m.
 double largest_extent(const scene::Scene& scene);
 

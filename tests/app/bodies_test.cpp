@@ -131,7 +131,7 @@ TEST(Bodies, ComparisonsListThemWhereThereAreSome) {
 
 TEST(Comparisons, SnowThatASinkHasTakenHasNoShape) {
   record::FrameRecord some, none;
-  some.summary.particles = 1;
+  some.metrics.particles = 1;
   some.metrics.spread = none.metrics.spread = 0.25;
   const std::string csv =
       compare::series_csv({compare::moment_of(0, scene_with_body(""), {some}, {none})});
@@ -318,8 +318,8 @@ TEST(BodyFindings, OverlapsAreFound) {
   EXPECT_EQ(pair.size(), 1u) << "one of the two tells";
   EXPECT_TRUE(
       tells_of(body_findings(ball_that("density = 900") +
-                             "[[collider]]\nname = \"pin\"\nshape = { sphere = { center = [0.009, "
-                             "0.409, 0.009], radius = 0.004 } }\n"),
+                             "[[collider]]\nname = \"pin\"\nshape = { sphere = { center = [0, "
+                             "0.4, 0], radius = 0.004 } }\n"),
                "collider.ball.shape", "ball and pin overlap at the start"));
 }
 

@@ -356,5 +356,17 @@ shape = { plane = {} }
   EXPECT_NEAR(app::setup::impact_speed(scene), std::sqrt(2 * 9.81 * 0.1), 1e-9);
 }
 
+/// It was taken at the corner of the box around the snow, also of a ball.
+TEST(AutomaticRange, ASpinIsAsFastAsItsOutermostSnow) {
+  const auto speed = [](const std::string& shape) {
+    return app::setup::impact_speed(app::scene::read_scene_text(
+        "solver = { gravity = [0, 0, 0] }\n[[body]]\nangular_velocity = [0, 10, 0]\nshape = { " +
+            shape + " }\n",
+        "spin.toml"));
+  };
+  EXPECT_NEAR(speed("sphere = { center = [0, 1, 0], radius = 0.3 }"), 3, 1e-9);
+  EXPECT_NEAR(speed("box = { center = [0, 1, 0], size = [0.6, 5, 0.8] }"), 5, 1e-9);
+}
+
 }  // namespace
 }  // namespace neve::app

@@ -427,6 +427,11 @@ TEST(Noise, ASweepSaysInWordsWhatItsSeedsTell) {
   EXPECT_EQ(lines[0], "spread: of 3 pairs of points 2 differ, the others are too close to call");
   EXPECT_EQ(lines[1].find("noise here: height"), 0u) << lines[1];
   EXPECT_EQ(lines[2], "1 of 3 points break with some seeds and hold with others");
+  Study without = study;  // a point has no snow left, or its runs did not end
+  for (std::size_t k = 4; k < 8; ++k) without.results[k].metrics.assign(metric_infos().size(), {});
+  EXPECT_TRUE(noise_lines(without.manifest, without.results)[0].ends_with(
+      "the others are too close to call; the runs of 2 more do not tell"))
+      << noise_lines(without.manifest, without.results)[0];
   for (std::size_t k = 0; k < 12; ++k) study.results[k] = study.results[k - k % 4];
   ASSERT_EQ(noise_lines(study.manifest, study.results).size(), 1u) << "lattices without lumps";
   study.manifest.seeds = 1;

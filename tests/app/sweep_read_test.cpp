@@ -368,6 +368,11 @@ TEST(SweepLabels, LabelsHaveTheFewestWordsThatDiffer) {
   EXPECT_EQ(app::sweep::plan::value_text("48000"), "48000");
   EXPECT_EQ(app::sweep::plan::value_text("140000"), "1.4e5");
   EXPECT_EQ(app::sweep::plan::value_text("-1000000"), "-1e6");
+  // As written, so that runs that differ are called differently.
+  EXPECT_EQ(app::sweep::plan::value_text("20240101"), "20240101");
+  EXPECT_EQ(app::sweep::plan::value_text("1400001"), "1400001");
+  EXPECT_EQ(app::sweep::plan::value_text("400.0001"), "400.0001");
+  EXPECT_EQ(app::sweep::plan::value_text("0.31622776601683794"), "0.316228");
   EXPECT_EQ(app::sweep::plan::value_text("\"flip\""), "flip");
   EXPECT_EQ(app::sweep::plan::value_text(R"("a \"b, c\" d")"), R"(a "b, c" d)");
   EXPECT_EQ(app::sweep::plan::value_text("'it is'"), "it is");

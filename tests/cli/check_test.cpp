@@ -324,6 +324,24 @@ TEST_F(Check, CheckFindsSnowThatIsASpeckInThePicture) {
   EXPECT_EQ(with_eye("[0, 0.1, 100]"), Findings{"warning camera"});
 }
 
+/// A layer of the places that it is asked at lay in the surface, and counted as outside.
+TEST_F(Check, HalfOfABallOnAPlaneIsInsideIt) {
+  const auto result =
+      neve({"check", "scene.toml", "-q", "--set",
+            "collider.rock={ shape = { sphere = { center = [2, 0, 0], radius = 0.1 } }, density = "
+            "900 }"});
+  EXPECT_TRUE(contains(result.output, "50 % of rock starts inside floor")) << result.output;
+}
+
+/// Ranges, dust and what softness is advised against knew of the ram; check said 1.7 m/s.
+TEST_F(Check, ARamThatHitsSnowIsAnImpact) {
+  const auto result = neve({"check", "scene.toml", "--json", "--set",
+                            "collider.ram={ shape = { box = { center = [2, 0.2, 0], size = "
+                            "[0.2, 0.2, 0.2] } }, velocity = [-20, 0, 0] }"});
+  EXPECT_NEAR(app::parse_json(std::string_view(result.output))["impact_speed"].get<double>(), 20,
+              1e-9);
+}
+
 /// A floor is likelier turned upside down than snow is buried in it.
 TEST_F(Check, AFloorWhoseNormalPointsDownIsTurnedRound) {
   const auto hint_of = [&](const std::string& normal, const std::string& center) {

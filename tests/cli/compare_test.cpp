@@ -334,6 +334,10 @@ TEST(CompareMeasures, DisplacementIsOfTheSameIds) {
   EXPECT_EQ(d.only_b, 0u);
   EXPECT_DOUBLE_EQ(d.mean, 3.5);
   EXPECT_DOUBLE_EQ(d.largest, 4.0);
+  a.id = {1, 2, 4};
+  const app::compare::Displacement none = app::compare::displacement(a, b);
+  EXPECT_EQ(none.in_both, 0u);
+  EXPECT_TRUE(std::isnan(none.mean) && std::isnan(none.largest)) << "they were 0, as of one state";
 }
 
 TEST(CompareMeasures, MassDifferenceSumsOverBlocksOfBothRuns) {

@@ -89,6 +89,18 @@ TEST_F(Export, EveryFormatHoldsTheStateToTheBit) {
   const auto turned = run_script(*python, "check_formats.py",
                                  {"turned", "5", "state.vtp", "z", "100"}, folder.path());
   EXPECT_EQ(turned.output, "same\n") << turned.errors;
+  const auto units = [&](const std::string& out) {
+    std::string text;
+    const app::Json list = json_of(out + "/export.json");
+    for (const app::Json& item : list["exports"])
+      for (const app::Json& column : item["attributes"])
+        if (const std::string name = column["name"];
+            item["format"] == "npz" && (name == "x" || name == "v" || name == "m"))
+          text += column["unit"].get<std::string>() + " ";
+    return text;
+  };
+  EXPECT_EQ(units("all"), "m m/s kg ");
+  EXPECT_EQ(units("turned"), "0.01 m 0.01 m/s kg ") << "masses are not scaled";
 }
 
 /// The cube is a smaller piece than the smallest, and so it is spray.

@@ -22,6 +22,15 @@ assert np.isnan(run["dt_min"][0]) and run["dt_min"][1] > 0
 assert np.isnan(run.force("floor")[0, 0]) and np.nanmin(run.force("floor")[:, 1]) < 0
 assert neve.Run("out/scene").json == run.json
 
+# Values that not all frames have, and views of which not all frames are drawn.
+run.json["frames"][2]["dust"] = {"particles": 7}
+run.json["frames"][0]["centre_of_mass"] = [None, None, None]
+run.json["view_frames"] = {"smoke": [1, 3]}
+assert run["dust"][2]["particles"] == 7 and np.isnan(run["dust"][0])
+assert np.isnan(run["centre_of_mass"][0, 1]) and run["centre_of_mass"].dtype == "f8"
+assert run.picture(view="smoke").name == "0003.png" and run.picture().name == "0004.png"
+run = neve.Run("out/scene")
+
 # A collider that moves by itself.
 moved = neve.render("scene.toml", out="out/moved", frames=(0, 2), flags=[
     "--no-movie", "--set", "collider.can={ shape = { sphere = { center = "

@@ -46,7 +46,13 @@ std::string value_text(const std::string& value) {
   const double x = *number;
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", x);
-  const std::string plain = scene::toml::number_text(std::strtod(text, nullptr));
+  const double rounded = std::strtod(text, nullptr);
+  // Computed values have all digits that a number can have; those that somebody wrote are kept.
+  constexpr std::ptrdiff_t max_written = 12;
+  const std::string exact = scene::toml::number_text(x);
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (rounded != x && std::ranges::count_if(exact, is_digit) <= max_written) return exact;
+  const std::string plain = scene::toml::number_text(rounded);
   // 1.4e5, not 140000.
   if (plain.size() < 6 || std::abs(x) < 1e5) return plain;
   const int power = static_cast<int>(std::floor(std::log10(std::abs(x))));

@@ -37,11 +37,18 @@ bool draws_nothing(const std::vector<Point>& points) {
   return has_two;
 }
 
-std::size_t differing(const std::vector<Summary>& points) {
-  std::size_t count = 0;
+/// "of 6 pairs of points 2 differ, ...". A pair with a point of less than two runs is neither.
+std::string pairs_text(const std::vector<Summary>& points) {
+  std::size_t count = 0, different = 0;
   for (std::size_t a = 0; a < points.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) count += differ(points[a], points[b]);
-  return count;
+    for (std::size_t b = 0; b < a; ++b) {
+      count += std::min(points[a].count, points[b].count) > 1;
+      different += differ(points[a], points[b]);
+    }
+  const std::size_t all = points.size() * (points.size() - 1) / 2;
+  return fmt::format("of {} pairs of points {} differ, the others are {}", count, different,
+                     close_words) +
+         (count < all ? fmt::format("; the runs of {} more do not tell", all - count) : "");
 }
 
 }  // namespace
@@ -142,10 +149,8 @@ std::vector<std::string> noise_lines(const Manifest& manifest,
   if (telling && verdict_of(manifest, points, *telling) == Verdict::unknown) {
     lines.emplace_back(unknown_words);
   } else if (telling) {
-    const std::vector<Summary> summaries = summaries_of(points, *telling);
-    lines.push_back(fmt::format(
-        "{}: of {} pairs of points {} differ, the others are {}", metric_infos()[*telling].title,
-        points.size() * (points.size() - 1) / 2, differing(summaries), close_words));
+    lines.push_back(fmt::format("{}: {}", metric_infos()[*telling].title,
+                                pairs_text(summaries_of(points, *telling))));
   }
   if (!noise.empty()) lines.push_back("noise here: " + joined(noise, ", "));
   const auto undecided = std::count_if(points.begin(), points.end(), is_undecided);
