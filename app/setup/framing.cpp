@@ -98,7 +98,9 @@ Framing fit(const std::vector<Vec3d>& points, const Vec3d& middle, const Vec3d& 
             const Lens& lens) {
   const Axes axes(towards_eye, lens);
   const double t = lens.slope, aspect = lens.aspect;
-  Framing framing{middle, std::max(2 * box_of(points).diagonal() / t, 1e-3)};
+  // Nearer, a wide lens would have points behind it, and end in one of them.
+  const double least = std::max(0.5 * box_of(points).diagonal(), 1e-3);
+  Framing framing{middle, std::max(2 * box_of(points).diagonal() / t, least)};
   for (int round = 0; round < 30; ++round) {
     auto [left, rightmost, bottom, top] = extent_of(points, {framing, towards_eye}, lens);
     const double reach = t * framing.distance;
@@ -110,7 +112,8 @@ Framing fit(const std::vector<Vec3d>& points, const Vec3d& middle, const Vec3d& 
                                (bottom + top) * reach * axes.up);
     }
     const double share = 0.5 * std::max(rightmost - left, top - bottom);
-    framing.distance *= std::clamp(share / lens.filled, 0.5, 2.0);
+    framing.distance =
+        std::max(framing.distance * std::clamp(share / lens.filled, 0.5, 2.0), least);
   }
   return framing;
 }

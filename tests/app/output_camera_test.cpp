@@ -47,6 +47,25 @@ TEST(AutomaticCamera, AutomaticCameraShowsTheStartAndTheLandingOfTheSnow) {
   EXPECT_GT(largest, 0.4);
 }
 
+/// Where the eye was among the snow, the next step towards it went further in: eye and target ended
+/// in one place, far away, and the pictures of such a run could not be drawn again.
+TEST(AutomaticCamera, AWideLensStaysOutsideTheSnow) {
+  for (const char* fov : {"130", "150", "160", "170"})
+    for (const char* orbit : {"", "orbit = 160\n"}) {
+      SCOPED_TRACE(std::string(fov) + orbit);
+      app::scene::Scene scene = app::scene::read_scene_text(
+          std::string(drop) + "[camera]\nfov = " + fov + "\n" + orbit, "drop.toml");
+      app::setup::resolve(scene, 1000);
+      ASSERT_TRUE(scene.camera && scene.camera->eye);
+      const sim::Vec3d way = *scene.camera->target - *scene.camera->eye;
+      EXPECT_GT(way.norm(), 0.2);
+      for (const double y : {0.0, 0.3, 0.6}) {
+        EXPECT_GT(way.dot(sim::Vec3d(0, y, 0) - *scene.camera->eye), 0) << "it is before the eye";
+        EXPECT_LT(reach(*scene.camera, 16.0 / 9, {0, y, 0}), 1);
+      }
+    }
+}
+
 /// Width of what may be seen of a plane through the target.
 double width_seen(const app::scene::CameraSettings& camera, double aspect) {
   return 2 * aspect * std::tan(camera.fov * std::numbers::pi / 360) *
