@@ -442,11 +442,19 @@ class Run:
         return _exports_in(self.folder, self.json)
 
     def __getitem__(self, name):
-        """A value of every frame, as in run["kinetic_energy"]: a number, a vector, or text."""
+        """A value of every frame, as in run["kinetic_energy"]: a number, a vector, text, or tables."""
         known = sorted(set().union(*self.json["frames"])) if self.json["frames"] else [name]
         if name not in known:
             raise KeyError(f"frames have no {name!r}; expected one of {', '.join(known)}")
-        return np.array([_number(frame.get(name)) for frame in self.json["frames"]])
+        values = [_number(frame.get(name)) for frame in self.json["frames"]]
+        # Of "dust" a frame has a table, of "forces" and "bodies" a list of them.
+        if not any(isinstance(value[0] if value and isinstance(value, list) else value, dict)
+                   for value in values):
+            return np.array(values)
+        rows = np.empty(len(values), dtype=object)
+        for k, value in enumerate(values):
+            rows[k] = value
+        return rows
 
     def force(self, collider):
         """Force of the snow on a collider in every frame, N; not a number where there was no step."""

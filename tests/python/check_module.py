@@ -27,6 +27,7 @@ run.json["frames"][2]["dust"] = {"particles": 7}
 run.json["frames"][0]["centre_of_mass"] = [None, None, None]
 run.json["view_frames"] = {"smoke": [1, 3]}
 assert run["dust"][2]["particles"] == 7 and np.isnan(run["dust"][0])
+assert len(run["forces"][0]) == 0 and run["forces"][1][0]["collider"] == "floor"
 assert np.isnan(run["centre_of_mass"][0, 1]) and run["centre_of_mass"].dtype == "f8"
 assert run.picture(view="smoke").name == "0003.png" and run.picture().name == "0004.png"
 run = neve.Run("out/scene")
