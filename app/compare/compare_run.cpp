@@ -112,7 +112,7 @@ class PairRun {
     else
       list_moments();
     if (target_.has(Mode::metrics)) add_metrics(renderer ? &*renderer : nullptr);
-    for (std::string& warning : target_.add_movies(pair_.a.job.scene.fps))
+    for (std::string& warning : target_.add_movies(pair_.a.job.scene))
       result_.warnings.push_back(std::move(warning));
     target_.finish();
   }

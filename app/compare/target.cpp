@@ -8,6 +8,7 @@
 #include "app/output/sequence.h"
 #include "app/output/temporary.h"
 #include "app/record/earlier.h"
+#include "app/scene/burn_in.h"
 #include "app/support/errors.h"
 #include "app/support/version.h"
 
@@ -178,7 +179,7 @@ void Target::add(Mode mode, int frame, const render::Image& image, const render:
   if (kind_ != TargetKind::movie) files_.push_back(written);
 }
 
-std::vector<std::string> Target::add_movies(double fps) {
+std::vector<std::string> Target::add_movies(const scene::Scene& scene) {
   std::vector<std::string> warnings;
   // One picture is no movie, unless it was asked for.
   const bool has_movie =
@@ -189,7 +190,8 @@ std::vector<std::string> Target::add_movies(double fps) {
     const fs::path file =
         kind_ == TargetKind::movie ? out_ : output::movie_path(out_, name(mode), movie_.format);
     const output::MovieResult movie =
-        output::write_movie({folder_of(mode), file, *first_, last_, fps, false, 0, movie_});
+        output::write_movie({folder_of(mode), file, *first_, last_, scene.fps, false, 0, movie_,
+                             scene::time_code_of_movie(scene, *first_, movie_.fps)});
     if (movie.outcome == output::MovieOutcome::written) {
       files_.push_back({file, output::hash_file(file)});
       continue;

@@ -42,8 +42,9 @@ class Target {
   void begin(const setup::FrameRange& frames);
   /// @param text  what made it
   void add(Mode mode, int frame, const render::Image& image, const render::PngText& text);
-  /// Movies of all modes. @return warnings @throws IoError where a movie alone cannot be made
-  std::vector<std::string> add_movies(double fps);
+  /// Movies of all modes, with rate and time code of a scene. @return warnings @throws IoError
+  /// where a movie alone cannot be made
+  std::vector<std::string> add_movies(const scene::Scene& scene);
   void add_metrics(const std::string& csv, const std::optional<render::Image>& picture,
                    const render::PngText& text);
   /// Lists the files in compare.json, with their hashes; only in a folder.

@@ -207,17 +207,15 @@ void Ledger::write_movie(const std::string& view, const output::MovieStyle& styl
     movies.push_back(file);
     return;
   }
-  output::MovieRequest request{job_.folder / view,
-                               file,
-                               first,
-                               frames.last,
-                               job_.scene.fps,
-                               job_.plate.empty() && has_alpha(job_.scene, view),
-                               0,
-                               style};
-  if (scene::has_time_code(job_.scene))
-    request.time_code =
-        scene::time_code_of(job_.scene, first, style.fps > 0 ? style.fps : job_.scene.fps);
+  const output::MovieRequest request{job_.folder / view,
+                                     file,
+                                     first,
+                                     frames.last,
+                                     job_.scene.fps,
+                                     job_.plate.empty() && has_alpha(job_.scene, view),
+                                     0,
+                                     style,
+                                     scene::time_code_of_movie(job_.scene, first, style.fps)};
   const output::MovieResult movie = output::write_movie(request);
   const std::string failure = no_movie + request.file.string() + ": " + movie.reason;
   switch (movie.outcome) {

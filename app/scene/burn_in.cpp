@@ -88,6 +88,12 @@ std::string time_code_of(const Scene& scene, int number, double fps) {
   return time_code_text(number, fps, false);
 }
 
+std::string time_code_of_movie(const Scene& scene, int first, double movie_fps) {
+  const bool has_one =
+      number_of(scene, 0) != 0 || scene.first_frame != 0 || !scene.shot.time_code.empty();
+  return has_one ? time_code_of(scene, first, movie_fps > 0 ? movie_fps : scene.fps) : "";
+}
+
 void require_time_code(const Scene& scene, double movie_fps) {
   const std::string& code = scene.shot.time_code;
   if (code.empty() || movie_fps == 0 || frames_of_time_code(code, movie_fps)) return;

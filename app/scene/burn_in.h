@@ -53,9 +53,9 @@ std::string time_code_of(const Scene& scene, int number, double fps);
 /// @throws UsageError where shot.time_code is none of a movie at that rate
 void require_time_code(const Scene& scene, double movie_fps);
 
-/// Whether a movie of this scene says its time code.
-inline bool has_time_code(const Scene& scene) {
-  return number_of(scene, 0) != 0 || scene.first_frame != 0 || !scene.shot.time_code.empty();
-}
+/// What a movie of this scene says as its time code; "" where neither its numbers nor its shot do.
+/// @param first      number of its first picture
+/// @param movie_fps  rate that somebody asked for; 0: that of the scene
+std::string time_code_of_movie(const Scene& scene, int first, double movie_fps);
 
 }  // namespace neve::app::scene

@@ -142,12 +142,17 @@ TEST_F(Shots, MoviesHaveSlateAndTimeCode) {
   const auto ffprobe = app::output::find_program("ffprobe");
   if (!ffprobe) GTEST_SKIP() << "ffprobe is not installed";
   run({"render", "shot.toml", "--out", "a", "--quiet"});
-  const auto probed = app::output::run_process(
-      *ffprobe,
-      {"-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
-       "stream=nb_read_frames:stream_tags=timecode", "-of", "csv=p=0", "a/particles.mp4"},
-      folder.path(), 60);
-  EXPECT_EQ(probed.output, "6,00:00:41:15\n") << probed.errors;
+  const auto probed = [&](const std::string& movie) {
+    return app::output::run_process(
+               *ffprobe,
+               {"-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+                "stream=nb_read_frames:stream_tags=timecode", "-of", "csv=p=0", movie},
+               folder.path(), 60)
+        .output;
+  };
+  EXPECT_EQ(probed("a/particles.mp4"), "6,00:00:41:15\n");
+  run({"compare", "a", "a", "--mode", "wipe", "--out", "c.mp4"});
+  EXPECT_EQ(probed("c.mp4"), "5,00:00:41:16\n") << "it has no slate";
 }
 
 TEST_F(Shots, CountBelowZero) {
