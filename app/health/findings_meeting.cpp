@@ -150,9 +150,9 @@ double distance_to(const sim::shapes::Collider& collider, double time, const Box
     const double apart = distance_of_boxes(box, sim::shapes::bounds_at(collider, time));
     if (apart > reach) return apart;
   }
+  const sim::shapes::ColliderAt at(collider, time);
   double least = never_met;
-  for (const Vec3d& x : places)
-    least = std::min(least, sim::shapes::surface_at(collider, time, x).distance);
+  for (const Vec3d& x : places) least = std::min(least, at.surface(x).distance);
   return least;
 }
 

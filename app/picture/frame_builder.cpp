@@ -139,13 +139,10 @@ render::Frame FrameBuilder::build(const scene::View& wanted, const Snapshot& sna
     frame.plots = make_plots(view.plots, !scene_.colliders.empty(), snapshot.history, snapshot.time,
                              1 / scene_.fps, std::max(scene::duration(scene_), snapshot.time));
   frame.caption = words(view, snapshot);
-  if (scene::has_burn_in(scene_.burn_in)) {
-    std::vector<std::string> changes = scene::override_lines(options_.overrides);
-    for (std::string& line : scene::change_lines(snapshot.changes))
-      changes.push_back(std::move(line));
-    frame.edge_words =
-        scene::burnt_in(scene_, {snapshot.frame, snapshot.time, view.name, joined(changes, ", ")});
-  }
+  if (scene::has_burn_in(scene_.burn_in))
+    frame.edge_words = scene::burnt_in(
+        scene_, {snapshot.frame, snapshot.time, view.name,
+                 joined(scene::change_lines(options_.overrides, snapshot.changes), ", ")});
   return frame;
 }
 
@@ -368,9 +365,8 @@ std::vector<std::string> FrameBuilder::caption(const Snapshot& snapshot) const {
     lines.push_back(curves);
   if (snapshot.warnings.rules_ignored > 0) lines.push_back(ignored_rule_text(snapshot.warnings));
   lines.insert(lines.end(), options_.prediction.begin(), options_.prediction.end());
-  std::vector<std::string> different = scene::override_lines(options_.overrides);
-  for (std::string& line : scene::change_lines(snapshot.changes))
-    different.push_back(std::move(line));
+  const std::vector<std::string> different =
+      scene::change_lines(options_.overrides, snapshot.changes);
   const std::size_t shown = std::min(different.size(), max_override_lines);
   lines.insert(lines.end(), different.begin(),
                different.begin() + static_cast<std::ptrdiff_t>(shown));

@@ -3,13 +3,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "app/picture/collider_looks.h"
 #include "app/picture/to_float.h"
 #include "sim/shapes/collider.h"
-#include "sim/shapes/height_field.h"
 
 namespace neve::app::picture {
 
@@ -21,49 +19,35 @@ constexpr double loosest = 2;
 
 using sim::Vec3d;
 
-/// A collider at a moment.
+/// What snow may rest on.
 class Solid {
  public:
   /// @param reach  m, from where it matters
   Solid(const scene::Collider& collider, double time, double reach)
-      : collider_(collider),
-        time_(time),
-        reach_(reach),
+      : at_(collider, time),
         box_(sim::shapes::bounds_at(collider, time)),
-        pose_(sim::shapes::pose_at(collider, time)) {
-    if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form))
-      field_ = sim::shapes::height_field(*terrain);
-  }
+        is_terrain_(std::holds_alternative<sim::shapes::Terrain>(collider.shape.form)),
+        reach_(reach) {}
 
   /// m, from a place near it to its surface; 0: it is far, inside, or its mirror image would not be
-  /// as deep in the solid as the place is above it.
+  /// as deep in the solid as the place is above it. Terrain has any depth, beyond its posts too.
   Vec3d way_from(const Vec3d& x) const {
-    if (field_) return way_to_terrain(x);
-    if (((box_.min - x).array() > reach_).any() || ((x - box_.max).array() > reach_).any())
-      return Vec3d::Zero();
-    const sim::shapes::Surface surface = sim::shapes::surface_at(collider_, time_, x);
+    const bool is_beyond_box =
+        ((box_.min - x).array() > reach_).any() || ((x - box_.max).array() > reach_).any();
+    if (is_beyond_box && !is_terrain_) return Vec3d::Zero();
+    const sim::shapes::Surface surface = at_.surface(x);
     if (!(surface.distance > 0 && surface.distance < reach_)) return Vec3d::Zero();
     const Vec3d way = -surface.distance * surface.normal;
     constexpr double as_deep = 0.98;
-    return sim::shapes::signed_distance(collider_, time_, x + 2 * way) < -as_deep * way.norm()
-               ? way
-               : Vec3d::Zero();
+    return is_terrain_ || at_.surface(x + 2 * way).distance < -as_deep * way.norm() ? way
+                                                                                    : Vec3d::Zero();
   }
 
  private:
-  Vec3d way_to_terrain(const Vec3d& x) const {
-    const Vec3d y = pose_.rotation.transpose() * (x - pose_.point);
-    const auto place = field_->at(y.x(), y.z());
-    const double distance = place ? (y.y() - place->height) * place->normal.y() : -1;
-    if (!(distance > 0 && distance < reach_)) return Vec3d::Zero();
-    return pose_.rotation * (-distance * place->normal);
-  }
-
-  const scene::Collider& collider_;
-  double time_, reach_;
+  sim::shapes::ColliderAt at_;
   sim::shapes::Bounds box_;
-  sim::shapes::Pose pose_;
-  std::shared_ptr<const sim::shapes::HeightField> field_;  ///< of a terrain
+  bool is_terrain_;
+  double reach_;
 };
 
 /// The nearest of several.

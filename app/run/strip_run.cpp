@@ -81,9 +81,8 @@ std::vector<std::string> words_of(const StripJob& job,
   const scene::Scene& scene = job.run.scene;
   std::vector<std::string> lines{scene.title.empty() ? job.run.scene_file : scene.title};
   std::string line = "view " + scene.views.front().name;
-  for (const std::string& change : scene::override_lines(job.run.overrides))
+  for (const std::string& change : scene::change_lines(job.run.overrides, changes))
     line += "   \u00b7   " + change;
-  for (const std::string& change : scene::change_lines(changes)) line += "   \u00b7   " + change;
   if (job.run.coarsening > 1)
     line += "   \u00b7   coarsened " + rough_text(job.run.coarsening) + "x";
   if (!footnote.empty()) line += "   \u00b7   " + footnote;

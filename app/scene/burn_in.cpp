@@ -209,6 +209,13 @@ std::vector<std::string> change_lines(const std::vector<LiveChange>& changes) {
   return lines;
 }
 
+std::vector<std::string> change_lines(const std::vector<std::string>& overrides,
+                                      const std::vector<LiveChange>& changes) {
+  std::vector<std::string> lines = override_lines(overrides);
+  for (std::string& line : change_lines(changes)) lines.push_back(std::move(line));
+  return lines;
+}
+
 void write_changes(const std::vector<std::string>& overrides, Scene& scene) {
   const std::string name = "{changes}";
   std::string changes;  // its own braces are none of a value

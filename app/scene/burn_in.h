@@ -31,6 +31,10 @@ std::vector<std::string> override_lines(const std::vector<std::string>& override
 /// "hardening = 5 since step 120", "added collider.ball at step 120".
 std::vector<std::string> change_lines(const std::vector<LiveChange>& changes);
 
+/// All changes of a picture: those from the start, then those of a run.
+std::vector<std::string> change_lines(const std::vector<std::string>& overrides,
+                                      const std::vector<LiveChange>& changes);
+
 /// The scene of a run that has these changes in it: its {changes} are these, since nothing will
 /// tell it of others.
 void write_changes(const std::vector<std::string>& overrides, Scene& scene);

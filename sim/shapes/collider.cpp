@@ -85,63 +85,13 @@ Touch touch(const Torus& torus, const Vec3d& y) {
   return {r - torus.minor_radius, normal};
 }
 
-Touch touch(const Mesh& mesh, const Vec3d& y) {
-  const std::shared_ptr<const MeshSurface> surface = mesh_surface(mesh);
-  return {surface->signed_distance(y), surface->normal(y)};
-}
-
-Touch touch(const MeshSequence& sequence, double time, const Vec3d& y) {
-  const std::shared_ptr<const MeshSurface> surface = surface_at(sequence, time);
-  const std::shared_ptr<const DeformingMesh> mesh = deforming_mesh(sequence);
-  const DeformingMesh::Moment now = mesh->moment(time);
-  Touch out{surface->signed_distance(y), surface->normal(y)};
-  if (!now.moves) return out;
-  const MeshSurface::Place nearest = surface->nearest_place(y);
-  out.velocity = mesh->velocity(now.interval, surface->mesh(), nearest.triangle, nearest.point);
-  return out;
-}
-
 Touch touch(const Points&, const Vec3d&) {
   throw std::invalid_argument("points have no surface: they cannot be a collider");
-}
-
-Touch touch(const Terrain& terrain, const Vec3d& y) {
-  const std::shared_ptr<const HeightField> field = height_field(terrain);
-  const auto place = field->at(y.x(), y.z());
-  return {field->distance(y), place ? place->normal : Vec3d(Vec3d::UnitY())};
 }
 
 Touch touch(const Cover&, const Vec3d&) {
   throw std::invalid_argument("a cover is snow: it cannot be a collider");
 }
-
-/// The other forms in the world: the middle of a sphere looks up however it has turned.
-struct TouchInWorld {
-  const Shape& shape;
-  const Pose& pose;
-  double time;  ///< s, see shape_time
-  const Vec3d& x;
-
-  Touch operator()(const Plane& plane) const {
-    const Vec3d normal = pose.rotation * plane.normal.normalized();
-    return {normal.dot(x - pose.point), normal};
-  }
-  Touch operator()(const Sphere& sphere) const {
-    const Vec3d d = x - pose.point;
-    const double r = d.norm();
-    return {r - sphere.radius, r > 0 ? Vec3d(d / r) : Vec3d(Vec3d::UnitY())};
-  }
-  Touch operator()(const MeshSequence& sequence) const {
-    const Touch own = touch(sequence, time, pose.rotation.transpose() * (x - pose.point));
-    return {own.distance, pose.rotation * own.normal, pose.rotation * own.velocity};
-  }
-  template <class Form>
-  Touch operator()(const Form& form) const {
-    const Mat3d axes = pose.rotation * form_axes(shape);
-    const Touch own = touch(form, axes.transpose() * (x - pose.point));
-    return {own.distance, axes * own.normal};
-  }
-};
 
 /// False for a plane, of which only the surface moves.
 bool turns(const Collider& collider) {
@@ -283,11 +233,70 @@ double largest_speed(const Collider& collider) {
   return sequence ? speed + deforming_mesh(*sequence)->fastest() : speed;
 }
 
+/// What touches a place of the world. The middle of a sphere looks up however it has turned.
+struct ColliderAt::Touching {
+  const ColliderAt& at;
+  const Vec3d& x;
+
+  Touch operator()(const Plane& plane) const {
+    const Vec3d normal = at.pose_.rotation * plane.normal.normalized();
+    return {normal.dot(x - at.pose_.point), normal};
+  }
+  Touch operator()(const Sphere& sphere) const {
+    const Vec3d d = x - at.pose_.point;
+    const double r = d.norm();
+    return {r - sphere.radius, r > 0 ? Vec3d(d / r) : Vec3d(Vec3d::UnitY())};
+  }
+  Touch operator()(const MeshSequence&) const {
+    const Mat3d& rotation = at.pose_.rotation;
+    const Vec3d y = rotation.transpose() * (x - at.pose_.point);
+    Touch out{at.mesh_->signed_distance(y), rotation * at.mesh_->normal(y)};
+    const DeformingMesh::Moment now = at.deforming_->moment(at.time_);
+    if (!now.moves) return out;
+    const MeshSurface::Place nearest = at.mesh_->nearest_place(y);
+    out.velocity = rotation * at.deforming_->velocity(now.interval, at.mesh_->mesh(),
+                                                      nearest.triangle, nearest.point);
+    return out;
+  }
+  template <class Form>
+  Touch operator()(const Form& form) const {
+    const Mat3d axes = at.pose_.rotation * form_axes(at.shape_);
+    const Touch own = touch_of(form, axes.transpose() * (x - at.pose_.point));
+    return {own.distance, axes * own.normal};
+  }
+
+ private:
+  Touch touch_of(const Mesh&, const Vec3d& y) const {
+    return {at.mesh_->signed_distance(y), at.mesh_->normal(y)};
+  }
+  Touch touch_of(const Terrain&, const Vec3d& y) const {
+    const auto place = at.field_->at(y.x(), y.z());
+    return {at.field_->distance(y), place ? place->normal : Vec3d(Vec3d::UnitY())};
+  }
+  template <class Form>
+  Touch touch_of(const Form& form, const Vec3d& y) const {
+    return touch(form, y);
+  }
+};
+
+ColliderAt::ColliderAt(const Collider& collider, double time)
+    : shape_(collider.shape), pose_(pose_at(collider, time)), time_(shape_time(collider, time)) {
+  if (const auto* mesh = std::get_if<Mesh>(&shape_.form)) mesh_ = mesh_surface(*mesh);
+  if (const auto* terrain = std::get_if<Terrain>(&shape_.form)) field_ = height_field(*terrain);
+  if (const auto* sequence = std::get_if<MeshSequence>(&shape_.form)) {
+    mesh_ = shapes::surface_at(*sequence, time_);
+    deforming_ = deforming_mesh(*sequence);
+  }
+}
+
+Surface ColliderAt::surface(const Vec3d& x) const {
+  const auto [distance, normal, velocity] = std::visit(Touching{*this, x}, shape_.form);
+  return {distance, normal,
+          pose_.velocity + pose_.angular_velocity.cross(x - pose_.point) + velocity};
+}
+
 Surface surface_at(const Collider& collider, double time, const Vec3d& x) {
-  const Pose pose = pose_at(collider, time);
-  const TouchInWorld touch_in_world{collider.shape, pose, shape_time(collider, time), x};
-  const auto [distance, normal, velocity] = std::visit(touch_in_world, collider.shape.form);
-  return {distance, normal, pose.velocity + pose.angular_velocity.cross(x - pose.point) + velocity};
+  return ColliderAt(collider, time).surface(x);
 }
 
 double signed_distance(const Collider& collider, double time, const Vec3d& x) {

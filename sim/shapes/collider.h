@@ -3,6 +3,7 @@
 /// law.
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -111,9 +112,32 @@ struct Surface {
                    ///< nearest place
 };
 
-/// For the host: tests, warnings, planning. The solver's kernels have their own; of a mesh this is
+class MeshSurface;
+class DeformingMesh;
+class HeightField;
+
+/// A collider at a moment, for many places: where it is and what its files hold is found once. For
+/// the host: tests, warnings, pictures. The solver's kernels have their own; of a mesh this is
 /// exact, theirs is interpolated (sim/shapes/distance_field.h).
-/// @throws ShapeError when a mesh cannot be read or is open
+class ColliderAt {
+ public:
+  /// @param collider  outlives this
+  /// @throws ShapeError when a mesh cannot be read or is open
+  ColliderAt(const Collider& collider, double time);
+  Surface surface(const Vec3d& x) const;
+
+ private:
+  struct Touching;
+
+  const Shape& shape_;
+  Pose pose_;
+  double time_;                                       ///< s, see shape_time
+  std::shared_ptr<const MeshSurface> mesh_{};         ///< of a mesh, also of one that deforms
+  std::shared_ptr<const DeformingMesh> deforming_{};  ///< of that one
+  std::shared_ptr<const HeightField> field_{};        ///< of a terrain
+};
+
+/// The same at one place.
 Surface surface_at(const Collider& collider, double time, const Vec3d& x);
 double signed_distance(const Collider& collider, double time, const Vec3d& x);
 

@@ -68,14 +68,17 @@ void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::
   scene.mosaics.clear();
 }
 
+/// Whether runs branch off a common beginning, and do not have their values from the start.
+bool is_forked(const SweepOptions& options, const read::Sweep& sweep) {
+  return options.fork || options.from || !sweep.settings.fork.empty();
+}
+
 class SceneMaker {
  public:
   /// @param source  whose scene is varied; without one it is that of the sweep's file
   SceneMaker(const SweepOptions& options, const read::Sweep& sweep,
              const std::optional<run::RenderJob>& source)
-      : options_(options),
-        sweep_(sweep),
-        is_fork_(options.fork || options.from || !sweep.settings.fork.empty()) {
+      : options_(options), sweep_(sweep) {
     if (source)
       at_fork_ = run::scene_before_fork(*source);
     else
@@ -116,13 +119,13 @@ class SceneMaker {
     scene::place_in_world(scene, sweep_.scene_file);
     scene::coarsen(scene, coarsening);
     // A fork is told what it changes.
-    if (!is_fork_ && !settings.empty()) scene::write_changes(scene::texts_of(all), scene);
+    if (!is_forked(options_, sweep_) && !settings.empty())
+      scene::write_changes(scene::texts_of(all), scene);
     return scene;
   }
 
   const SweepOptions& options_;
   const read::Sweep& sweep_;
-  bool is_fork_;
   std::string text_;  ///< of the sweep's scene
   std::optional<scene::Scene> at_fork_;
   std::vector<scene::Override> none_;
@@ -177,11 +180,11 @@ forecast::FastLook take_fast_look(const SweepOptions& options, const scene::Scen
   return look;
 }
 
-/// The time of the fork; empty if each run has its values from the start.
+/// The time of the fork; empty where there is none, see is_forked.
 std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& sweep) {
+  if (!is_forked(options, sweep)) return std::nullopt;
   if (options.fork) return options.fork;
   if (options.from) return options.from;
-  if (sweep.settings.fork.empty()) return std::nullopt;
   if (options.predicts)
     sweep.fail("sweep.fork", "sweep.fork cannot be combined with --predict",
                "copies are simulated from the start: remove one of them");
