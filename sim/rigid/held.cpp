@@ -125,11 +125,12 @@ double hinge_angle(const Vec3d& axis, const Mat3d& turned, double near) {
 }
 
 Held::Held(btRigidBody& body, const shapes::Collider& collider, const MassProperties& mass,
-           const Mat3d& rotation)
+           const Mat3d& rotation, double unit)
     : btTypedConstraint(D6_CONSTRAINT_TYPE, body),
       held_(collider.body),
       mass_(mass.mass),
       size_(std::sqrt(0.5 * mass.inertia.trace() / mass.mass)),
+      unit_(unit),
       start_(shapes::center(collider.shape) + rotation * mass.centre),
       rotation_(rotation),
       arm_(rotation.transpose() * (collider.body.joint_point - start_)),
@@ -236,12 +237,16 @@ void Held::getInfo1(btConstraintInfo1* info) {
 void Held::getInfo2(btConstraintInfo2* info) {
   int at = 0;
   for (const Row& row : rows()) {
+    const bool is_turn = row.along.isZero(0);
+    // Ways and arms of a row are lengths, a turn is none.
+    const double unit = is_turn ? 1 : unit_;
     for (int x = 0; x < 3; ++x) {
       info->m_J1linearAxis[at + x] = row.along[x];
-      info->m_J1angularAxis[at + x] = row.about[x];
+      info->m_J1angularAxis[at + x] = row.about[x] / unit;
     }
-    const double limit = recovery * (row.along.isZero(0) ? 1 : std::max(size_, arm_.norm()));
-    info->m_constraintError[at] = std::clamp(info->fps * info->erp * row.error, -limit, limit);
+    const double limit = recovery * (is_turn ? 1 : std::max(size_, arm_.norm()));
+    info->m_constraintError[at] =
+        std::clamp(info->fps * info->erp * row.error, -limit, limit) / unit;
     at += info->rowskip;
   }
 }

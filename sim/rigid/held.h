@@ -17,8 +17,9 @@ double hinge_angle(const Vec3d& axis, const Mat3d& turned, double near);
 class Held final : public btTypedConstraint {
  public:
   /// @param rotation  of the pose of the collider in the scene, times the axes of its form
+  /// @param unit  m, Bullet's unit of length
   Held(btRigidBody& body, const shapes::Collider& collider, const MassProperties& mass,
-       const Mat3d& rotation);
+       const Mat3d& rotation, double unit);
   /// False where nothing holds the body: it has no row.
   static bool holds(const shapes::RigidBody& body);
   /// True where no row is about a turn.
@@ -55,10 +56,11 @@ class Held final : public btTypedConstraint {
 
   const shapes::RigidBody held_;
   const double mass_, size_;  ///< m, the radius of gyration
-  Vec3d start_;               ///< m, of the centre of mass
-  Mat3d rotation_;            ///< in the scene
-  Vec3d arm_;   ///< of the joint's point, in the axes of the form from the centre of mass
-  Vec3d axis_;  ///< of the joint, in the axes of the world
+  const double unit_;
+  Vec3d start_;     ///< m, of the centre of mass
+  Mat3d rotation_;  ///< in the scene
+  Vec3d arm_;       ///< of the joint's point, in the axes of the form from the centre of mass
+  Vec3d axis_;      ///< of the joint, in the axes of the world
   Vec3d centre_;
   Mat3d now_;
   double angle_ = 0;

@@ -23,8 +23,15 @@ namespace {
 
 /// Bodies are few and a step is short: contact is solved to the end.
 constexpr int iterations = 50;
-/// Around the first axis of a contact, Bullet looks for more points of it in so many directions.
+/// Where a body with edges touches a plane, Bullet looks for more points beside the first one in so
+/// many directions, turned by 0.02 units over its size. Other pairs with edges are clipped face
+/// against face (rigid_shape.cpp). Round ones have one point: further ones, a little beside it,
+/// would let a cylinder that lies still roll away, and turn one that comes down on its edge round
+/// the vertical by 90 degrees.
 constexpr int perturbations = 8, wanted_points = 4;
+/// No body is larger in Bullet's units, and the largest no smaller than half of it: some of its
+/// lengths are absolute, and small and large bodies are to move alike.
+constexpr double largest_in_units = 0.2;
 /// What holds a body in place has no slack, and what overlaps is moved apart, by this share a step.
 constexpr double taken_back = 0.2;
 /// What gravity drives together in so many steps does not bounce: it lies.
@@ -61,9 +68,9 @@ btRigidBody::btRigidBodyConstructionInfo construction(double mass, btCollisionSh
 /// A rigid body of Bullet and what it needs; a collider that the scene moves has no mass there.
 class RigidBodies::World {
  public:
-  World(const std::vector<Body>& bodies, const std::vector<shapes::Collider>& colliders) {
+  World(const std::vector<Body>& bodies, const std::vector<shapes::Collider>& colliders)
+      : unit_(unit_of_length(bodies)) {
     for (const Body& body : bodies) heaviest_ = std::max(heaviest_, body.mass.mass);
-    configuration_.setConvexConvexMultipointIterations(perturbations, wanted_points);
     configuration_.setPlaneConvexMultipointIterations(perturbations, wanted_points);
     auto next = bodies.begin();
     for (std::size_t k = 0; k < colliders.size(); ++k) {
@@ -95,7 +102,7 @@ class RigidBodies::World {
       reset(bodies[b], things_[moving_[b]]);
       push(bodies[b], things_[moving_[b]], dt, gravity, pushes[b]);
     }
-    const double slowest = resting_steps * dt * gravity.norm();
+    const double slowest = resting_steps * dt * gravity.norm() / unit_;
     if (any_bounces_) set_bounces(dt, slowest);
     solve(dt);
     for (std::size_t b = 0; b < bodies.size(); ++b) read(things_[moving_[b]], bodies[b]);
@@ -112,22 +119,33 @@ class RigidBodies::World {
     Deforming* deforming = nullptr;
     const btRigidBody* meets = nullptr;  ///< the only body that it touches; null: all
     std::unique_ptr<btRigidBody> body;
-    Mat3d axes = Mat3d::Identity();       ///< of the form
-    Mat3d principal = Mat3d::Identity();  ///< in the axes of the form
+    btVector3 pushed{0, 0, 0}, pushed_spin{0, 0, 0};  ///< velocities that pushes give in a step
+    Mat3d axes = Mat3d::Identity();                   ///< of the form
+    Mat3d principal = Mat3d::Identity();              ///< in the axes of the form
     std::unique_ptr<Held> held;
     std::vector<std::size_t>
         joined;  ///< colliders that it overlaps where it is joined to the world
   };
 
-  static Thing fixed_thing(const shapes::Collider& collider) {
+  static double unit_of_length(const std::vector<Body>& bodies) {
+    double furthest = 0;
+    for (const Body& body : bodies) furthest = std::max(furthest, body.furthest);
+    return furthest > 0 ? std::exp2(std::ceil(std::log2(furthest / largest_in_units))) : 1;
+  }
+
+  /// A length or a velocity.
+  btVector3 in_units(const Vec3d& v) const { return to_bullet(Vec3d(v / unit_)); }
+  Vec3d in_metres(const btVector3& v) const { return unit_ * from_bullet(v); }
+
+  Thing fixed_thing(const shapes::Collider& collider) const {
     Thing out;
     out.axes = shapes::form_axes(collider.shape);
     if (const auto* sequence = std::get_if<shapes::MeshSequence>(&collider.shape.form)) {
-      auto shape = std::make_shared<Deforming>(*sequence);
+      auto shape = std::make_shared<Deforming>(*sequence, unit_);
       out.deforming = shape.get();
       out.shape = std::move(shape);
     } else {
-      out.shape = fixed_shape(collider.shape);
+      out.shape = fixed_shape(collider.shape, unit_);
     }
     give_fixed_body(collider, out);
     return out;
@@ -164,9 +182,10 @@ class RigidBodies::World {
     out.moves = true;
     out.axes = body.axes;
     out.principal = principal_axes(body.mass.inertia);
-    out.shape = body_shape(collider.shape, body.mass, out.principal, body.is_convex);
+    out.shape = body_shape(collider.shape, body.mass, out.principal, body.is_convex, unit_);
     const Vec3d inertia =
-        (out.principal.transpose() * body.mass.inertia * out.principal).diagonal() / heaviest_;
+        (out.principal.transpose() * body.mass.inertia * out.principal).diagonal() /
+        (heaviest_ * unit_ * unit_);
     out.body = std::make_unique<btRigidBody>(
         construction(body.mass.mass / heaviest_, out.shape->get(), to_bullet(inertia)));
     out.body->setFriction(bullet_friction(collider));
@@ -175,16 +194,16 @@ class RigidBodies::World {
     if (Held::turns_freely(collider.body)) out.body->setFlags(0);
     if (Held::holds(collider.body)) {
       const Mat3d turned = rotation_from_degrees(collider.shape.rotation) * body.axes;
-      out.held = std::make_unique<Held>(*out.body, collider, body.mass, turned);
+      out.held = std::make_unique<Held>(*out.body, collider, body.mass, turned, unit_);
     }
     return out;
   }
 
-  static void place_fixed(Thing& thing, const shapes::Collider& collider, double time) {
+  void place_fixed(Thing& thing, const shapes::Collider& collider, double time) const {
     const shapes::Pose pose = shapes::pose_at(collider, time);
     thing.body->setWorldTransform(
-        btTransform(to_bullet(Mat3d(pose.rotation * thing.axes)), to_bullet(pose.point)));
-    thing.body->setLinearVelocity(to_bullet(pose.velocity));
+        btTransform(to_bullet(Mat3d(pose.rotation * thing.axes)), in_units(pose.point)));
+    thing.body->setLinearVelocity(in_units(pose.velocity));
     thing.body->setAngularVelocity(to_bullet(pose.angular_velocity));
     if (thing.deforming) thing.deforming->move_to(shapes::shape_time(collider, time));
   }
@@ -198,7 +217,7 @@ class RigidBodies::World {
       const bool is_first = manifold.getBody0() == thing.body.get();
       if (!is_first && manifold.getBody1() != thing.body.get()) return;
       const Vec3d place =
-          from_bullet(is_first ? point.getPositionWorldOnA() : point.getPositionWorldOnB());
+          in_metres(is_first ? point.getPositionWorldOnA() : point.getPositionWorldOnB());
       const Vec3d arm = place - pose.point;
       const int triangle = is_first ? point.m_index0 : point.m_index1;
       places.push_back(place);
@@ -207,22 +226,22 @@ class RigidBodies::World {
     });
     if (places.empty()) return;
     const Twist twist = twist_of(places, velocities, pose.point);
-    thing.body->setLinearVelocity(to_bullet(twist.velocity));
+    thing.body->setLinearVelocity(in_units(twist.velocity));
     thing.body->setAngularVelocity(to_bullet(twist.spin));
   }
 
   /// As it was before the step.
-  static void reset(const Body& body, Thing& thing) {
+  void reset(const Body& body, Thing& thing) const {
     const Mat3d form = body.before.rotation * thing.axes;
     thing.body->setWorldTransform(
-        btTransform(to_bullet(Mat3d(form * thing.principal)), to_bullet(body.before.centre)));
+        btTransform(to_bullet(Mat3d(form * thing.principal)), in_units(body.before.centre)));
     thing.body->updateInertiaTensor();
-    thing.body->setLinearVelocity(to_bullet(body.before.velocity));
+    thing.body->setLinearVelocity(in_units(body.before.velocity));
     thing.body->setAngularVelocity(to_bullet(body.before.spin));
     if (thing.held) thing.held->set_place(body.before.centre, form, body.joint_angle);
   }
 
-  static void push(Body& body, Thing& thing, double dt, const Vec3d& gravity, const Push& push) {
+  void push(Body& body, Thing& thing, double dt, const Vec3d& gravity, const Push& push) const {
     const Mat3d form = body.before.rotation * thing.axes;
     const Mat3d inertia = form * body.mass.inertia * form.transpose();
     Vec3d impulse = push.impulse + body.mass.mass * dt * gravity, moment = push.moment;
@@ -237,17 +256,19 @@ class RigidBodies::World {
     }
     const Vec3d velocity = body.before.velocity + impulse / body.mass.mass;
     const Vec3d spin = body.before.spin + inertia.ldlt().solve(moment);
-    thing.body->setLinearVelocity(to_bullet(velocity));
+    thing.body->setLinearVelocity(in_units(velocity));
     thing.body->setAngularVelocity(to_bullet(spin));
+    thing.pushed = in_units(velocity - body.before.velocity);
+    thing.pushed_spin = to_bullet(Vec3d(spin - body.before.spin));
   }
 
   /// Bullet has taken apart what overlapped.
-  static void read(const Thing& thing, Body& body) {
+  void read(const Thing& thing, Body& body) const {
     const btTransform& at = thing.body->getWorldTransform();
-    body.after.centre = from_bullet(at.getOrigin());
+    body.after.centre = in_metres(at.getOrigin());
     body.after.rotation =
         from_bullet(at.getBasis()) * thing.principal.transpose() * thing.axes.transpose();
-    body.after.velocity = from_bullet(thing.body->getLinearVelocity());
+    body.after.velocity = in_metres(thing.body->getLinearVelocity());
     body.after.spin = from_bullet(thing.body->getAngularVelocity());
   }
 
@@ -285,8 +306,9 @@ class RigidBodies::World {
 
   /// Bullet stops in one step what will touch at its end, and bounces it by what is left in the
   /// next: the rebound would be too slow. Here a point that would touch in the step bounces at its
-  /// start, and all others wait.
-  /// @param slowest  m/s, that bounces
+  /// start, and all others wait. It leaves with its share of the speed that it came with: with a
+  /// share of what pushes give in this step as well, a ball would rise higher each time.
+  /// @param slowest  in Bullet's units, that bounces
   void set_bounces(double dt, double slowest) {
     auto distance = distances_.begin();
     each_point([&](const btPersistentManifold& manifold, btManifoldPoint& point) {
@@ -300,10 +322,17 @@ class RigidBodies::World {
         const btVector3 arm = place - thing.body->getWorldTransform().getOrigin();
         return thing.body->getVelocityInLocalPoint(arm).dot(point.m_normalWorldOnB);
       };
-      const double closing =
-          speed(b, point.getPositionWorldOnB()) - speed(a, point.getPositionWorldOnA());
+      const auto pushed = [&](const Thing& thing, const btVector3& place) {
+        const btVector3 arm = place - thing.body->getWorldTransform().getOrigin();
+        return (thing.pushed + thing.pushed_spin.cross(arm)).dot(point.m_normalWorldOnB);
+      };
+      const btVector3 &at_a = point.getPositionWorldOnA(), &at_b = point.getPositionWorldOnB();
+      const double closing = speed(b, at_b) - speed(a, at_a),
+                   gained = pushed(b, at_b) - pushed(a, at_a);
       const bool bounces = closing > slowest && gap < closing * dt;
-      point.m_combinedRestitution = bounces ? std::max(a.restitution, b.restitution) : 0;
+      const double restitution = std::max(a.restitution, b.restitution);
+      point.m_combinedRestitution =
+          bounces ? std::max(0.0, restitution * (closing - gained) / closing) : 0;
       const bool is_early = point.m_combinedRestitution > 0 && gap > 0;
       point.setDistance(is_early ? 0 : gap);
     });
@@ -384,9 +413,11 @@ class RigidBodies::World {
 
   /// kg. Bullet's impulses have a largest size: its unit of mass is that of the heaviest body.
   double heaviest_ = 0;
+  /// m. A power of two, which rounds nothing.
+  const double unit_;
   std::vector<Thing> things_;        ///< per collider, and further ones of those that deform
   std::vector<std::size_t> moving_;  ///< per body: its thing
-  std::vector<double> distances_;    ///< m, per point of contact, as they were found
+  std::vector<double> distances_;    ///< per point of contact, as they were found
   bool any_bounces_ = false;
   btDefaultCollisionConfiguration configuration_;
   std::unique_ptr<Dispatcher> dispatcher_;

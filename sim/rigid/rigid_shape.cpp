@@ -18,6 +18,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <type_traits>
 
 #include "sim/rigid/triangles.h"
 #include "sim/shapes/height_field.h"
@@ -40,6 +41,12 @@ constexpr double flat = 1e-4;
 /// Of a torus, which is made of capsules.
 constexpr int pieces_of_ring = 32;
 
+/// Faces are clipped against those of other shapes and against triangles: they touch in all corners
+/// of what they share. A plate that touched a mesh in one point of each triangle sank through it.
+void tell_faces(btPolyhedralConvexShape& shape) {
+  shape.initializePolyhedralFeatures();
+}
+
 /// A shape that has memory of its own.
 template <class Shape>
 class Single final : public RigidShape {
@@ -47,6 +54,7 @@ class Single final : public RigidShape {
   template <class... Args>
   explicit Single(double smallest, Args&&... args) : shape_(std::forward<Args>(args)...) {
     if (smallest > 0) shape_.setMargin(rounding * smallest);
+    if constexpr (std::is_same_v<Shape, btBoxShape>) tell_faces(shape_);
   }
   btCollisionShape* get() override { return &shape_; }
 
@@ -73,20 +81,21 @@ class Posts final : public btHeightfieldTerrainShape {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
-  /// @param heights  kept by the caller
-  Posts(const files::HeightGrid& grid, const std::vector<double>& heights, double low, double high)
+  /// @param heights  kept by the caller, in Bullet's unit, as `low` and `high`
+  Posts(const files::HeightGrid& grid, const std::vector<double>& heights, double low, double high,
+        double unit)
       : btHeightfieldTerrainShape(static_cast<int>(grid.columns), static_cast<int>(grid.rows),
                                   heights.data(), low, high, 1, false),
-        spacing_(grid.spacing),
+        spacing_(grid.spacing / unit),
+        reach_(shapes::no_ground / unit),
         last_{static_cast<double>(grid.columns - 1), static_cast<double>(grid.rows - 1)} {
-    setLocalScaling(btVector3(grid.spacing, 1, grid.spacing));
+    setLocalScaling(btVector3(spacing_, 1, spacing_));
   }
 
   void getAabb(const btTransform& place, btVector3& low, btVector3& high) const override {
     btHeightfieldTerrainShape::getAabb(place, low, high);
     const btMatrix3x3 axes = place.getBasis().absolute();
-    const btVector3 beyond =
-        btVector3(shapes::no_ground, 0, shapes::no_ground).dot3(axes[0], axes[1], axes[2]);
+    const btVector3 beyond = btVector3(reach_, 0, reach_).dot3(axes[0], axes[1], axes[2]);
     low -= beyond;
     high += beyond;
   }
@@ -141,27 +150,28 @@ class Posts final : public btHeightfieldTerrainShape {
     return at + btVector3(spacing_ * (x - column), 0, spacing_ * (z - row));
   }
 
-  const double spacing_, last_[2];
+  const double spacing_, reach_, last_[2];
 };
 
 /// Holes are so deep that nothing stands in them.
 class Ground final : public RigidShape {
  public:
-  explicit Ground(const shapes::HeightField& field) {
+  Ground(const shapes::HeightField& field, double unit) {
     const files::HeightGrid& grid = field.grid();
     const shapes::Bounds& box = field.bounds();
     const double deep = box.min.y() - (box.max - box.min).norm();
     for (std::size_t row = 0; row < grid.rows; ++row)
       for (std::size_t column = 0; column < grid.columns; ++column) {
         const double height = field.height_of(column, row);
-        heights_.push_back(std::isfinite(height) ? height : deep);
+        heights_.push_back((std::isfinite(height) ? height : deep) / unit);
       }
     const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
-    auto shape = std::make_unique<Posts>(grid, heights_, *low, *high);
+    auto shape = std::make_unique<Posts>(grid, heights_, *low, *high, unit);
     // Bullet has the middle of its box at the origin.
     const auto middle = [](double first, double last) { return 0.5 * (first + last); };
-    const btVector3 to(middle(field.x_of(0), field.x_of(grid.columns - 1)), middle(*low, *high),
-                       middle(field.z_of(0), field.z_of(grid.rows - 1)));
+    const btVector3 to(middle(field.x_of(0), field.x_of(grid.columns - 1)) / unit,
+                       middle(*low, *high),
+                       middle(field.z_of(0), field.z_of(grid.rows - 1)) / unit);
     shape_.addChildShape(btTransform(btMatrix3x3::getIdentity(), to), shape.get());
     field_ = std::move(shape);
   }
@@ -227,7 +237,7 @@ double thickness_of_plate(const shapes::MeshSurface& surface, const Vec3d& middl
 /// A body with hollows: its faces, as plates that reach into it. Bullet's own shape for such bodies
 /// (GImpact, its faces alone) rattles where it lies: a ring on a peg moves at 0.1 to 0.2 m/s for
 /// ever.
-std::unique_ptr<RigidShape> plates(const shapes::MeshSurface& surface) {
+std::unique_ptr<RigidShape> plates(const shapes::MeshSurface& surface, double unit) {
   auto out = std::make_unique<Compound>();
   const std::vector<Vec3d>& vertices = surface.mesh().vertices;
   const double least = (surface.bounds().max - surface.bounds().min).minCoeff();
@@ -242,23 +252,24 @@ std::unique_ptr<RigidShape> plates(const shapes::MeshSurface& surface) {
     auto plate = std::make_unique<Single<btConvexHullShape>>(0.0);
     auto* shape = static_cast<btConvexHullShape*>(plate->get());
     for (const std::uint32_t v : t) {
-      shape->addPoint(to_bullet(vertices[v]), false);
-      shape->addPoint(to_bullet(Vec3d(vertices[v] + inward)), false);
+      shape->addPoint(to_bullet(Vec3d(vertices[v] / unit)), false);
+      shape->addPoint(to_bullet(Vec3d((vertices[v] + inward) / unit)), false);
     }
     shape->recalcLocalAabb();
-    shape->setMargin(beyond_hull * least);
+    shape->setMargin(beyond_hull * least / unit);
+    tell_faces(*shape);
     out->add(std::move(plate), btTransform::getIdentity());
   }
   return out;
 }
 
 /// Capsules from point to point of the ring.
-std::unique_ptr<RigidShape> ring(const shapes::Torus& s) {
+std::unique_ptr<RigidShape> ring(double major_radius, double minor_radius) {
   auto out = std::make_unique<Compound>();
   const double turn = 2 * std::numbers::pi / pieces_of_ring;
   // As far inside of the ring in their middles as outside of it at their ends.
-  const double middle = s.major_radius * 0.5 * (1 + std::cos(0.5 * turn));
-  const double length = 2 * s.major_radius * std::sin(0.5 * turn);
+  const double middle = major_radius * 0.5 * (1 + std::cos(0.5 * turn));
+  const double length = 2 * major_radius * std::sin(0.5 * turn);
   for (int k = 0; k < pieces_of_ring; ++k) {
     const double angle = turn * k;
     const btVector3 outward(std::cos(angle), 0, std::sin(angle)), up(0, 1, 0);
@@ -266,31 +277,36 @@ std::unique_ptr<RigidShape> ring(const shapes::Torus& s) {
     // Capsules lie along y.
     const btMatrix3x3 axes(outward.x(), along.x(), up.x(), outward.y(), along.y(), up.y(),
                            outward.z(), along.z(), up.z());
-    out->add(single<btCapsuleShape>(0, s.minor_radius, length),
-             btTransform(axes, middle * outward));
+    out->add(single<btCapsuleShape>(0, minor_radius, length), btTransform(axes, middle * outward));
   }
   return out;
 }
 
 /// Forms that are the same whether they stand or move.
 struct MakeForm {
+  double unit;  ///< m, Bullet's unit of length
+
   std::unique_ptr<RigidShape> operator()(const shapes::Sphere& s) const {
-    return single<btSphereShape>(0, s.radius);
+    return single<btSphereShape>(0, s.radius / unit);
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Box& s) const {
-    return single<btBoxShape>(0.5 * s.size.minCoeff(), to_bullet(Vec3d(0.5 * s.size)));
+    return single<btBoxShape>(0.5 * s.size.minCoeff() / unit,
+                              to_bullet(Vec3d(0.5 * s.size / unit)));
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Capsule& s) const {
-    return single<btCapsuleShape>(0, s.radius, (s.b - s.a).norm());
+    return single<btCapsuleShape>(0, s.radius / unit, (s.b - s.a).norm() / unit);
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Cylinder& s) const {
-    const double half = 0.5 * s.height;
-    return single<btCylinderShape>(std::min(s.radius, half), btVector3(s.radius, half, s.radius));
+    const double radius = s.radius / unit, half = 0.5 * s.height / unit;
+    return single<btCylinderShape>(std::min(radius, half), btVector3(radius, half, radius));
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Cone& s) const {
-    return single<btConeShape>(std::min(s.radius, 0.5 * s.height), s.radius, s.height);
+    const double radius = s.radius / unit, height = s.height / unit;
+    return single<btConeShape>(std::min(radius, 0.5 * height), radius, height);
   }
-  std::unique_ptr<RigidShape> operator()(const shapes::Torus& s) const { return ring(s); }
+  std::unique_ptr<RigidShape> operator()(const shapes::Torus& s) const {
+    return ring(s.major_radius / unit, s.minor_radius / unit);
+  }
   template <class Form>
   std::unique_ptr<RigidShape> operator()(const Form&) const {
     throw std::invalid_argument("bodies that move cannot meet this kind of shape");
@@ -304,10 +320,10 @@ struct MakeFixed : MakeForm {
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Mesh& s) const {
     const auto surface = shapes::mesh_surface(s);
-    return std::make_unique<Triangles>(surface->mesh(), surface->bounds());
+    return std::make_unique<Triangles>(surface->mesh(), surface->bounds(), unit);
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Terrain& s) const {
-    return std::make_unique<Ground>(*shapes::height_field(s));
+    return std::make_unique<Ground>(*shapes::height_field(s), unit);
   }
 };
 
@@ -317,10 +333,11 @@ struct MakeBody : MakeForm {
   using MakeForm::operator();
   std::unique_ptr<RigidShape> operator()(const shapes::Mesh& s) const {
     const std::shared_ptr<const shapes::MeshSurface> surface = shapes::mesh_surface(s);
-    if (!is_convex) return plates(*surface);
+    if (!is_convex) return plates(*surface, unit);
     const std::vector<Vec3d>& vertices = surface->mesh().vertices;
     std::vector<double> numbers;
-    for (const Vec3d& x : vertices) numbers.insert(numbers.end(), {x[0], x[1], x[2]});
+    for (const Vec3d& x : vertices)
+      numbers.insert(numbers.end(), {x[0] / unit, x[1] / unit, x[2] / unit});
     btConvexHullComputer hull;
     hull.compute(numbers.data(), 3 * sizeof(double), static_cast<int>(vertices.size()), 0, 0);
     auto out = std::make_unique<Single<btConvexHullShape>>(0.0);
@@ -331,14 +348,15 @@ struct MakeBody : MakeForm {
     shape->getAabb(btTransform::getIdentity(), low, high);
     // Beyond the hull.
     shape->setMargin(beyond_hull * (high - low)[(high - low).minAxis()]);
+    tell_faces(*shape);
     return out;
   }
 };
 
 }  // namespace
 
-std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape) {
-  return std::visit(MakeFixed{}, shape.form);
+std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape, double unit) {
+  return std::visit(MakeFixed{{unit}}, shape.form);
 }
 
 bool is_convex(const shapes::Shape& shape) {
@@ -355,12 +373,13 @@ bool is_convex(const shapes::Shape& shape) {
 }
 
 std::unique_ptr<RigidShape> body_shape(const shapes::Shape& shape, const MassProperties& mass,
-                                       const Mat3d& principal, bool is_convex) {
-  std::unique_ptr<RigidShape> form = std::visit(MakeBody{{}, is_convex}, shape.form);
+                                       const Mat3d& principal, bool is_convex, double unit) {
+  std::unique_ptr<RigidShape> form = std::visit(MakeBody{{unit}, is_convex}, shape.form);
   if (principal.isIdentity(0) && mass.centre.isZero(0)) return form;
   auto out = std::make_unique<Compound>();
   const Mat3d axes = principal.transpose();
-  out->add(std::move(form), btTransform(to_bullet(axes), to_bullet(Vec3d(-axes * mass.centre))));
+  out->add(std::move(form),
+           btTransform(to_bullet(axes), to_bullet(Vec3d(-axes * mass.centre / unit))));
   return out;
 }
 

@@ -18,8 +18,9 @@ class RigidShape {
 
 /// A collider that the scene moves, in the axes of its form about the shape's centre. Meshes and
 /// terrain are their triangles.
+/// @param unit  m, Bullet's unit of length
 /// @throws ShapeError, std::invalid_argument for points and for what deforms (triangles.h)
-std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape);
+std::unique_ptr<RigidShape> fixed_shape(const shapes::Shape& shape, double unit);
 
 /// True unless a body of it has hollows: a mesh that is not convex.
 /// @throws ShapeError for one with hollows and more faces than a step has time for: each is a shape
@@ -29,8 +30,9 @@ bool is_convex(const shapes::Shape& shape);
 /// faces.
 /// @param principal  columns are those axes in the axes of the form
 /// @param is_convex  as is_convex() says, which looks at all faces of a mesh
+/// @param unit  m, Bullet's unit of length
 std::unique_ptr<RigidShape> body_shape(const shapes::Shape& shape, const MassProperties& mass,
-                                       const Mat3d& principal, bool is_convex);
+                                       const Mat3d& principal, bool is_convex, double unit);
 
 btVector3 to_bullet(const Vec3d& v);
 btMatrix3x3 to_bullet(const Mat3d& m);

@@ -6,8 +6,8 @@
 
 namespace neve::sim::rigid {
 
-Triangles::Triangles(const shapes::SolidMesh& mesh, const shapes::Bounds& all)
-    : min_(to_bullet(all.min)), max_(to_bullet(all.max)) {
+Triangles::Triangles(const shapes::SolidMesh& mesh, const shapes::Bounds& all, double unit)
+    : unit_(unit), min_(to_bullet(Vec3d(all.min / unit))), max_(to_bullet(Vec3d(all.max / unit))) {
   for (const auto& t : mesh.triangles)
     for (const std::uint32_t v : t) corners_.push_back(static_cast<int>(v));
   vertices_.resize(3 * mesh.vertices.size());
@@ -23,7 +23,7 @@ Triangles::Triangles(const shapes::SolidMesh& mesh, const shapes::Bounds& all)
 void Triangles::write(const std::vector<Vec3d>& vertices) {
   for (std::size_t v = 0; v < vertices.size(); ++v)
     for (std::size_t x = 0; x < 3; ++x)
-      vertices_[3 * v + x] = vertices[v][static_cast<Eigen::Index>(x)];
+      vertices_[3 * v + x] = vertices[v][static_cast<Eigen::Index>(x)] / unit_;
 }
 
 void Triangles::move(const std::vector<Vec3d>& vertices) {
@@ -31,8 +31,8 @@ void Triangles::move(const std::vector<Vec3d>& vertices) {
   shape_->refitTree(min_, max_);
 }
 
-Deforming::Deforming(std::shared_ptr<const shapes::DeformingMesh> mesh)
-    : Triangles(mesh->mesh(0, 0), mesh->bounds()),
+Deforming::Deforming(std::shared_ptr<const shapes::DeformingMesh> mesh, double unit)
+    : Triangles(mesh->mesh(0, 0), mesh->bounds(), unit),
       mesh_(std::move(mesh)),
       now_(mesh_->mesh(0, 0)) {}
 

@@ -16,7 +16,8 @@ namespace neve::sim::rigid {
 class Triangles : public RigidShape {
  public:
   /// @param all  bounds of all places where its vertices will ever be
-  Triangles(const shapes::SolidMesh& mesh, const shapes::Bounds& all);
+  /// @param unit  m, Bullet's unit of length
+  Triangles(const shapes::SolidMesh& mesh, const shapes::Bounds& all, double unit);
   btCollisionShape* get() override { return shape_.get(); }
 
  protected:
@@ -27,6 +28,7 @@ class Triangles : public RigidShape {
  private:
   void write(const std::vector<Vec3d>& vertices);
 
+  const double unit_;
   btVector3 min_, max_;
   std::vector<double> vertices_;
   std::vector<int> corners_;
@@ -36,9 +38,9 @@ class Triangles : public RigidShape {
 
 class Deforming final : public Triangles {
  public:
-  /// @throws ShapeError
-  explicit Deforming(const shapes::MeshSequence& sequence)
-      : Deforming(shapes::deforming_mesh(sequence)) {}
+  /// @param unit  m, Bullet's unit of length @throws ShapeError
+  Deforming(const shapes::MeshSequence& sequence, double unit)
+      : Deforming(shapes::deforming_mesh(sequence), unit) {}
 
   /// @param time  s, of its shape
   void move_to(double time);
@@ -46,7 +48,7 @@ class Deforming final : public Triangles {
   Vec3d velocity(int triangle, const Vec3d& place) const;
 
  private:
-  explicit Deforming(std::shared_ptr<const shapes::DeformingMesh> mesh);
+  Deforming(std::shared_ptr<const shapes::DeformingMesh> mesh, double unit);
 
   std::shared_ptr<const shapes::DeformingMesh> mesh_;
   shapes::DeformingMesh::Moment moment_{};
