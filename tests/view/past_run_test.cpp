@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/support/errors.h"
 #include "app/timeline/timeline.h"
 #include "tests/view/view_support.h"
@@ -137,6 +138,27 @@ TEST_F(PastRun, WhatARunWasMadeFromCannotBeSet) {
   render({"scene.toml", "--out", "a"});
   EXPECT_THROW(view::session::open_document((folder / "a").string(), {"seed=2"}, 1), UsageError);
   EXPECT_THROW(view::session::open_document((folder / "a").string(), {}, 2), UsageError);
+}
+
+/// A scene that lies beside a run or a picture is another one.
+TEST_F(PastRun, OnlyASceneThatWasNamedIsWrittenOverAndReadAgain) {
+  render({"scene.toml", "--out", "a"});
+  const std::filesystem::path beside = folder.write("a.toml", "# mine\n");
+  view::session::Workbench bench = open("a");
+  std::filesystem::last_write_time(
+      beside, std::filesystem::last_write_time(beside) + std::chrono::seconds(2));
+  EXPECT_FALSE(bench.may_save_over_file());
+  EXPECT_FALSE(bench.has_file_changed());
+  const auto opened = [&](const std::string& named) {
+    return view::session::open_document(named, {}, 1).document;
+  };
+  EXPECT_FALSE(opened((folder / "a/particles/0002.png").string()).has_file());
+  EXPECT_TRUE(opened((folder / "scene.toml").string()).has_own_file());
+  const view::session::Document shipped = opened("");
+  EXPECT_FALSE(shipped.has_own_file());
+  EXPECT_TRUE(std::filesystem::exists(shipped.file()));
+  EXPECT_FALSE(scene::is_lasting_file("/dev/stdin"));
+  EXPECT_FALSE(scene::is_lasting_file("/dev/fd/63"));
 }
 
 TEST_F(PastRun, AScriptGoesBackInTimeAndSavesThePictureOfTheRun) {

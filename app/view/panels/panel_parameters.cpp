@@ -182,7 +182,9 @@ void draw_parameters(ViewerState& state) {
 void draw_changes(ViewerState& state) {
   const std::vector<session::ChangedValue> changes = state.bench.document().changes();
   if (changes.empty()) {
-    dim_text("Nothing differs from " + state.bench.document().file() + ".");
+    const session::Document& document = state.bench.document();
+    dim_text("Nothing differs from " +
+             (document.has_file() ? document.file() : "the scene as it was opened") + ".");
     return;
   }
   if (labelled_button("Restore all")) state.bench.forget("");

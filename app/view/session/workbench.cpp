@@ -62,7 +62,8 @@ Opened open_run(const std::string& folder, const timeline::Edits& edits) {
   const timeline::Origin origin = timeline::Origin::of(folder, edits);
   const std::string beside =
       origin.scene_file.substr(0, folder.find_last_not_of('/') + 1) + ".toml";
-  Opened opened{Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1),
+  Opened opened{Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1,
+                         Source::no_file),
                 origin.overrides};
   timeline::Moments moments;
   moments.add_run(origin.run);
@@ -85,8 +86,16 @@ Opened open_document(const std::string& file, const std::vector<std::string>& ov
     return open_run(file, edits);
   }
   std::vector<scene::Override> parsed = scene::parse_overrides(overrides);
+  if (file.empty()) {
+    const std::string shipped = default_scene().string();
+    return {Document(shipped, scene::read_toml_file(shipped), std::move(parsed), coarsening,
+                     Source::shipped_file),
+            overrides};
+  }
   if (!record::is_picture(file))
-    return {Document(file, scene::read_toml_file(file), std::move(parsed), coarsening), overrides};
+    return {Document(file, scene::read_toml_file(file), std::move(parsed), coarsening,
+                     scene::is_lasting_file(file) ? Source::own_file : Source::no_file),
+            overrides};
   // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
   const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
   timeline::Edits edits{overrides};
@@ -94,7 +103,8 @@ Opened open_document(const std::string& file, const std::vector<std::string>& ov
   edits.agreement = agreement;
   edits.is_start_only = true;
   const timeline::Origin origin = timeline::Origin::of(file, edits);
-  return {Document(beside, origin.picture->scene, std::move(parsed), coarsening), overrides};
+  return {Document(beside, origin.picture->scene, std::move(parsed), coarsening, Source::no_file),
+          overrides};
 }
 
 Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
@@ -363,6 +373,7 @@ scene::Scene Workbench::display_scene(const LiveFrame& live) const {
 }
 
 bool Workbench::has_file_changed() const {
+  if (!document_.has_file()) return false;
   const auto now = time_of(document_.file());
   return now != std::filesystem::file_time_type{} && now != file_time_;
 }

@@ -77,7 +77,7 @@ class Workbench {
   /// pictures alone.
   scene::Scene display_scene(const LiveFrame& live) const;
 
-  /// True if the file on disk differs from the one read or saved last.
+  /// True if the scene has a file, and that on disk differs from the one read or saved last.
   bool has_file_changed() const;
   /// Reads the file again and starts again. If it is not a scene, everything stays, and the file
   /// still counts as changed.
@@ -92,7 +92,7 @@ class Workbench {
   /// Into the folder, in the place of no file but an earlier copy of this session, or of one with
   /// the same text. @return its name; "" after an error
   std::filesystem::path save_copy();
-  bool may_save_over_file() const { return !options_.is_remote; }
+  bool may_save_over_file() const { return !options_.is_remote && document_.has_own_file(); }
   std::filesystem::path sweep_around(const std::string& address);
   /// Values around that of a parameter, as -p takes them; "" if none can be chosen.
   static std::string values_around(const scene::FlatParam& param);
@@ -162,7 +162,7 @@ struct Opened {
   std::optional<Past> past{};          ///< of a run with moments to start from
 };
 
-/// @param file       a scene, a picture or the folder of a run; the views in it
+/// @param file       a scene, a picture or the folder of a run; empty: the default scene
 /// @param agreement  to what a picture that came alone costs and reads
 /// @throws SceneError, UsageError, IoError, Error
 Opened open_document(const std::string& file, const std::vector<std::string>& overrides,
