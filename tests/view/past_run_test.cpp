@@ -161,6 +161,27 @@ TEST_F(PastRun, OnlyASceneThatWasNamedIsWrittenOverAndReadAgain) {
   EXPECT_FALSE(scene::is_lasting_file("/dev/fd/63"));
 }
 
+/// The command and the sweep are of the scene of the run, whatever lies beside its folder.
+TEST_F(PastRun, TheCommandAndTheSweepOfARunNameItsOwnScene) {
+  render({"scene.toml", "--out", "a", "--coarsen", "1.25", "--set", "material.snow.hardening=8"});
+  folder.write("a.toml", tiny_scene);
+  view::session::Workbench bench = open("a");
+  bench.set("solver.cfl", "0.3");
+  const std::string command = bench.command(), file = (folder / "view" / "a_opened.toml").string();
+  EXPECT_TRUE(contains(command, file + " --set solver.cfl=0.3")) << command;
+  EXPECT_TRUE(contains(bench.messages().back().text, command)) << bench.messages().back().text;
+  const scene::Scene named = scene::read_scene_file(file);
+  EXPECT_DOUBLE_EQ(named.solver.cell_size, 0.05);
+  EXPECT_EQ(named.materials[0].hardening, 8);
+  EXPECT_EQ(named.solver.cfl, 0.4) << "the change is in the command";
+  const std::filesystem::path sweep = bench.sweep_around("solver.cfl");
+  EXPECT_TRUE(contains(read_text(sweep), "scene = \"a_opened.toml\"")) << read_text(sweep);
+  // Its file was written once, and the run of the command is that of the folder.
+  EXPECT_FALSE(std::filesystem::exists(folder / "view" / "a_opened_2.toml"));
+  render({file, "--out", "again"});
+  EXPECT_EQ(hashes("again"), hashes("a"));
+}
+
 TEST_F(PastRun, AScriptGoesBackInTimeAndSavesThePictureOfTheRun) {
   render({"scene.toml", "--out", "a", "--keep-states"});
   folder.write("clicks.json", R"([

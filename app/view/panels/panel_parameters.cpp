@@ -189,7 +189,7 @@ void draw_changes(ViewerState& state) {
   }
   if (labelled_button("Restore all")) state.bench.forget("");
   ImGui::SameLine();
-  if (labelled_button("Copy the command")) state.copy(state.bench.command());
+  if (labelled_button("Copy the command")) copy_command(state);
   ImGui::BeginChild("changes");
   for (const session::ChangedValue& change : changes) {
     ImGui::PushID(change.address.c_str());

@@ -62,9 +62,9 @@ Opened open_run(const std::string& folder, const timeline::Edits& edits) {
   const timeline::Origin origin = timeline::Origin::of(folder, edits);
   const std::string beside =
       origin.scene_file.substr(0, folder.find_last_not_of('/') + 1) + ".toml";
-  Opened opened{Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1,
-                         Source::no_file),
-                origin.overrides};
+  Opened opened{
+      Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1, Source::no_file),
+      origin.overrides};
   timeline::Moments moments;
   moments.add_run(origin.run);
   Past past{origin.run, origin.changes, origin.run_frames, moments.find_newest(origin.scene.fps)};
@@ -407,26 +407,44 @@ std::string Workbench::saved_text() const {
                                 scene::base_dir_of(document_.file()));
 }
 
-/// Such a file is not replaced by another: a script that is run again leaves no second copy.
-bool Workbench::has_saved_text(const std::filesystem::path& file) const {
-  try {
-    const std::vector<std::uint8_t> bytes = output::read_file(file);
-    return std::string(bytes.begin(), bytes.end()) == saved_text();
-  } catch (const std::exception&) {
-    return false;
+/// The name of a scene in the folder, "STEM.toml" or "STEM_2.toml" and so on. A file that was there
+/// before may be anyone's, and the scene itself. One with the same text has the name already: a
+/// script that is run again leaves no second copy.
+std::filesystem::path Workbench::free_name(const std::string& stem, const TextIn& text_in) const {
+  const auto has_the_text = [&](const std::filesystem::path& file) {
+    try {
+      const std::vector<std::uint8_t> bytes = output::read_file(file);
+      return std::string(bytes.begin(), bytes.end()) == text_in(file);
+    } catch (const std::exception&) {
+      return false;
+    }
+  };
+  for (int k = 1;; ++k) {
+    const std::filesystem::path file =
+        options_.folder / (stem + (k == 1 ? "" : "_" + std::to_string(k)) + ".toml");
+    std::error_code error;
+    if (!std::filesystem::exists(file, error) || has_the_text(file)) return file;
   }
 }
 
-std::filesystem::path Workbench::save_copy() {
-  std::error_code error;
-  const auto name = [this](int k) {
-    return options_.folder / (k == 1 ? "scene.toml" : "scene_" + std::to_string(k) + ".toml");
+/// The scene that commands and sweeps name: its own file, or one that is written now, with the text
+/// as it was opened. Later changes leave that as it is, so that an earlier command stays true.
+/// @throws IoError
+std::string Workbench::file_of_scene() const {
+  if (document_.has_file()) return document_.file();
+  const TextIn text_in = [this](const std::filesystem::path& file) {
+    return scene::changed_scene_text(document_.text(), {}, document_.file(), file.string());
   };
-  // One that was there before may be anyone's, and the scene itself.
-  for (int k = 1; copy_.empty() ||
-                  (is_copy_new_ && std::filesystem::exists(copy_, error) && !has_saved_text(copy_));
-       ++k)
-    copy_ = name(k);
+  const std::filesystem::path file =
+      free_name(scene::name_of_scene(document_.file()) + "_opened", text_in);
+  output::make_folder(options_.folder);
+  output::write_named_file(file, text_in(file));
+  return file.string();
+}
+
+std::filesystem::path Workbench::save_copy() {
+  if (is_copy_new_)
+    copy_ = free_name("scene", [this](const std::filesystem::path&) { return saved_text(); });
   if (!save_scene(copy_)) return {};
   is_copy_new_ = false;
   return copy_;
@@ -491,7 +509,7 @@ std::filesystem::path Workbench::sweep_around(const std::string& address) {
     const std::filesystem::path file =
         options_.folder / ("sweep_" + plain_file_name(address) + ".toml");
     const std::vector<std::string> later = changed_while_running();
-    write_sweep_around(file, document_, address, later);
+    write_sweep_around(file, document_, file_of_scene(), address, later);
     std::string text = "wrote " + file.string() + "; " +
                        sweep::plan::sweep_command(file.string(), document_.coarsening()) +
                        " makes its runs";
@@ -554,8 +572,15 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
   }
 }
 
-std::string Workbench::command() const {
-  return render_command(document_);
+std::string Workbench::command() {
+  try {
+    const std::string command = render_command(document_, file_of_scene());
+    say(Message::Kind::note, "copied: " + command);
+    return command;
+  } catch (const std::exception& error) {
+    say_not_saved("no command: " + text_of(error));
+    return {};
+  }
 }
 
 record::PictureRecord Workbench::picture_record(const LiveFrame& live,

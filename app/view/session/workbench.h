@@ -100,7 +100,9 @@ class Workbench {
   /// @return why it did not start; "" if it did
   std::string vary_from_here(const StudyRequest& request, const scene::View& view);
   Study& study() { return study_; }
-  std::string command() const;
+  /// The command that renders the scene as it is now, for the clipboard. Where the scene has no
+  /// file, one is written into the folder. @return "" after an error
+  std::string command();
   /// Record that a picture of this moment needs to be made again.
   record::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
 
@@ -128,7 +130,10 @@ class Workbench {
   const Start& newest_start() const;
   Start& newest_start() { return const_cast<Start&>(std::as_const(*this).newest_start()); }
   std::string saved_text() const;
-  bool has_saved_text(const std::filesystem::path& file) const;
+  /// A text for the file that it will be in: it names other files as seen from there.
+  using TextIn = std::function<std::string(const std::filesystem::path&)>;
+  std::filesystem::path free_name(const std::string& stem, const TextIn& text_in) const;
+  std::string file_of_scene() const;
   void require_allowed(const std::string& address, const std::string& value) const;
   void take_over(const std::vector<scene::Override>& before);
   std::vector<std::string> changed_while_running() const;
