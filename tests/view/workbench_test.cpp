@@ -417,6 +417,23 @@ TEST(Workbench, ACopyOfTheSceneReplacesNoFileButAnEarlierCopy) {
   EXPECT_TRUE(contains(read_text(folder / "scene_2.toml"), "hardening = 18"));
 }
 
+TEST(Workbench, ACopyOfTheSceneFindsItsFiles) {
+  const TemporaryFolder folder;
+  folder.write("grains.ply", grains);
+  view::session::Workbench bench = bench_for(folder, "# mine" + std::string(from_points));
+  bench.set("body.grains.velocity", "[0, 2, 0]");
+  const std::filesystem::path copy = bench.save_copy();
+  ASSERT_EQ(copy, folder / "out" / "scene.toml") << bench.messages().back().text;
+  const scene::Scene saved = scene::read_scene_file(copy.string());
+  EXPECT_EQ(saved.bodies[0].velocity.y(), 2);
+  EXPECT_EQ(bench.save_copy(), copy) << "the same text again";
+  // From its own folder the words of the scene find them.
+  ASSERT_TRUE(bench.save_scene(folder / "scene.toml"));
+  const std::string text = read_text(folder / "scene.toml");
+  EXPECT_TRUE(text.starts_with("# mine") && contains(text, "\"grains.ply\"")) << text;
+  EXPECT_FALSE(bench.has_file_changed());
+}
+
 TEST(Workbench, WorkbenchReportsRefusedValues) {
   Working work;
   work.bench.edit(

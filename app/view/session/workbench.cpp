@@ -402,9 +402,19 @@ void Workbench::keep_file() {
   file_time_ = time_of(document_.file());
 }
 
-std::string Workbench::saved_text() const {
-  return scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
-                                scene::base_dir_of(document_.file()));
+bool Workbench::is_file_of_scene(const std::filesystem::path& file) const {
+  std::error_code error;
+  return document_.has_own_file() && std::filesystem::equivalent(file, document_.file(), error);
+}
+
+/// The scene with its changes, for this file. That of the user keeps its words, or is refused; a
+/// copy in another folder finds the files of the scene from there.
+std::string Workbench::saved_text(const std::filesystem::path& file) const {
+  const std::vector<scene::Override> changes = document_.all_overrides();
+  if (is_file_of_scene(file))
+    return scene::edit_scene_text(document_.text(), changes, document_.file(),
+                                  scene::base_dir_of(document_.file()));
+  return scene::changed_scene_text(document_.text(), changes, document_.file(), file.string());
 }
 
 /// The name of a scene in the folder, "STEM.toml" or "STEM_2.toml" and so on. A file that was there
@@ -444,7 +454,8 @@ std::string Workbench::file_of_scene() const {
 
 std::filesystem::path Workbench::save_copy() {
   if (is_copy_new_)
-    copy_ = free_name("scene", [this](const std::filesystem::path&) { return saved_text(); });
+    copy_ =
+        free_name("scene", [this](const std::filesystem::path& file) { return saved_text(file); });
   if (!save_scene(copy_)) return {};
   is_copy_new_ = false;
   return copy_;
@@ -455,12 +466,10 @@ bool Workbench::save_scene(const std::filesystem::path& file) {
     if (options_.is_remote && file.parent_path() != options_.folder)
       throw UsageError(
           "", "over the web, files are written into " + options_.folder.string() + " alone");
-    const std::string text = saved_text();
+    const std::string text = saved_text(file);
     output::make_folder(file.parent_path());
     output::write_named_file(file, text);
-    std::error_code error;
-    if (std::filesystem::equivalent(file, document_.file(), error))
-      file_time_ = time_of(document_.file());
+    if (is_file_of_scene(file)) file_time_ = time_of(document_.file());
     say(Message::Kind::note,
         "saved the scene with its changes as " + file.string() + added_while_running());
     return true;

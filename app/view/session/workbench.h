@@ -129,7 +129,8 @@ class Workbench {
   std::shared_ptr<const scene::Scene> pictured(const LiveFrame& live) const;
   const Start& newest_start() const;
   Start& newest_start() { return const_cast<Start&>(std::as_const(*this).newest_start()); }
-  std::string saved_text() const;
+  bool is_file_of_scene(const std::filesystem::path& file) const;
+  std::string saved_text(const std::filesystem::path& file) const;
   /// A text for the file that it will be in: it names other files as seen from there.
   using TextIn = std::function<std::string(const std::filesystem::path&)>;
   std::filesystem::path free_name(const std::string& stem, const TextIn& text_in) const;
