@@ -612,6 +612,21 @@ record::PictureRecord Workbench::picture_record(const LiveFrame& live,
   return record;
 }
 
+void Workbench::say_saved_picture(const std::filesystem::path& file, const LiveFrame& live,
+                                  bool was_between) {
+  const std::string frame = "frame " + std::to_string(scene::number_of(*live.scene, live.frame)),
+                    render = "; neve render " + shell_path(file.string()) + " makes ";
+  std::string text = "saved " + file.string();
+  if (!live.is_frame_end)  // the run diverged there: any other goes on to its next frame
+    text += "; it shows step " + std::to_string(live.steps) +
+            ", where the run diverged, and only whole frames can be made again" + render + frame;
+  else
+    text += render + "it again";
+  if (was_between && live.is_frame_end)
+    text += "; it shows " + frame + ", the next one: only whole frames can be made again";
+  say(Message::Kind::note, std::move(text));
+}
+
 void Workbench::say_not_saved(std::string text) {
   if (not_saved_.empty()) not_saved_ = text;
   say(Message::Kind::error, std::move(text));

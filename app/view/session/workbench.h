@@ -105,6 +105,10 @@ class Workbench {
   std::string command();
   /// Record that a picture of this moment needs to be made again.
   record::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
+  /// Says that one was saved, and what makes it again.
+  /// @param was_between  it was asked for between two frames, and shows the next
+  void say_saved_picture(const std::filesystem::path& file, const LiveFrame& live,
+                         bool was_between);
 
   void say(Message::Kind kind, std::string text);
   /// Says the error. A script of clicks ends with it.
