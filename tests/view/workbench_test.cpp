@@ -313,6 +313,25 @@ TEST(Workbench, ASweepSaysWhatWasChangedWhileItRan) {
   EXPECT_TRUE(contains(work.bench.messages().back().text, "material.snow.youngs_modulus"));
 }
 
+TEST(Workbench, ASavedSceneAndACommandSayWhatWasChangedWhileItRan) {
+  Working work;
+  work.bench.set("material.snow.hardening", "5");  // before the first step
+  ASSERT_TRUE(work.bench.save_scene(work.folder / "out" / "early.toml"));
+  EXPECT_FALSE(contains(work.bench.messages().back().text, "during the run"));
+  work.go_to(1);
+  work.bench.set("material.snow.youngs_modulus", "30000");
+  ASSERT_TRUE(work.bench.save_scene(work.folder / "out" / "late.toml"));
+  const std::string saved = work.bench.messages().back().text;
+  EXPECT_TRUE(contains(saved,
+                       "; material.snow.youngs_modulus changed during the run, and the saved scene "
+                       "has it from the start: a picture that is saved makes the run again"))
+      << saved;
+  EXPECT_FALSE(work.bench.command().empty());
+  const std::string copied = work.bench.messages().back().text;
+  EXPECT_TRUE(contains(copied, "youngs_modulus changed during the run, and its run has it"))
+      << copied;
+}
+
 TEST(Workbench, WorkbenchNoticesAChangedFile) {
   Working work;
   EXPECT_FALSE(work.bench.has_file_changed());

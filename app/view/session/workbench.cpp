@@ -470,8 +470,8 @@ bool Workbench::save_scene(const std::filesystem::path& file) {
     output::make_folder(file.parent_path());
     output::write_named_file(file, text);
     if (is_file_of_scene(file)) file_time_ = time_of(document_.file());
-    say(Message::Kind::note,
-        "saved the scene with its changes as " + file.string() + added_while_running());
+    say(Message::Kind::note, "saved the scene with its changes as " + file.string() +
+                                 changes_too_early("the saved scene"));
     return true;
   } catch (const std::exception& error) {
     say_not_saved("the scene was not saved: " + text_of(error));
@@ -479,18 +479,25 @@ bool Workbench::save_scene(const std::filesystem::path& file) {
   }
 }
 
-/// A scene has its colliders from its start on; only a picture knows when others came.
-std::string Workbench::added_while_running() const {
-  const std::shared_ptr<const LiveFrame> live = session_->latest();
-  std::vector<std::string> added;
-  for (const scene::LiveChange& change : live->snapshot.changes)
-    if (change.step > 0 && scene::is_object_address(change.address) && change.value != "none" &&
-        document_.is_changed(change.address))
-      added.push_back(change.address);
-  if (added.empty()) return "";
-  return "; " + joined(added, ", ") +
-         " came during the run, and the saved scene begins with it: a picture that is saved makes "
-         "the run again";
+/// A scene has all of its values and objects from its start on; only a picture knows when they
+/// came.
+/// @param what  that is made of the document: "the saved scene"
+std::string Workbench::changes_too_early(const std::string& what) const {
+  std::vector<std::string> came, changed;
+  for (const std::string& address : changed_while_running()) {
+    const std::vector<scene::Override>& edits = document_.edits();
+    const bool is_added = scene::is_object_address(address) &&
+                          std::any_of(edits.begin(), edits.end(), [&](const auto& edit) {
+                            return edit.address == address && edit.value != "none";
+                          });
+    (is_added ? came : changed).push_back(address);
+  }
+  if (came.empty() && changed.empty()) return "";
+  std::string text = "; ";
+  if (!came.empty()) text += joined(came, ", ") + " came during the run, ";
+  if (!changed.empty()) text += joined(changed, ", ") + " changed during the run, ";
+  return text + "and " + what + " has " + (came.size() + changed.size() == 1 ? "it" : "them") +
+         " from the start: a picture that is saved makes the run again";
 }
 
 /// Addresses changed after the first step.
@@ -498,6 +505,7 @@ std::vector<std::string> Workbench::changed_while_running() const {
   const Start& start = newest_start();
   std::vector<std::string> changed = Document::difference(start.at_start, start.running);
   const std::shared_ptr<const LiveFrame> live = session_->latest();
+  if (live->steps == 0 && live->head == 0 && !live->is_older) return {};  // there was none
   const auto was_before_the_first_step = [&](const std::string& address) {
     bool is_told = false, is_later = false;
     for (const scene::LiveChange& change : live->snapshot.changes) {
@@ -584,7 +592,7 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
 std::string Workbench::command() {
   try {
     const std::string command = render_command(document_, file_of_scene());
-    say(Message::Kind::note, "copied: " + command);
+    say(Message::Kind::note, "copied: " + command + changes_too_early("its run"));
     return command;
   } catch (const std::exception& error) {
     say_not_saved("no command: " + text_of(error));
