@@ -161,6 +161,25 @@ TEST_F(PastRun, OnlyASceneThatWasNamedIsWrittenOverAndReadAgain) {
   EXPECT_FALSE(scene::is_lasting_file("/dev/fd/63"));
 }
 
+/// Captions and saved pictures say how coarse a run is and what was set, whoever opens it.
+TEST_F(PastRun, PicturesOfAnOpenedCoarseRunSayThatItIs) {
+  render({"scene.toml", "--out", "a", "--coarsen", "1.25", "--set", "material.snow.hardening=8"});
+  for (const char* named : {"a", "a/particles/0000.png"}) {
+    view::session::Opened opened = view::session::open_document((folder / named).string(), {}, 1);
+    view::session::WorkbenchOptions options;
+    options.overrides = opened.overrides;
+    view::session::Workbench bench(std::move(opened.document), options, {});
+    const auto live = bench.session().latest();
+    const record::PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+    EXPECT_EQ(record.coarsening, 1.25) << named;
+    EXPECT_EQ(record.overrides,
+              (std::vector<std::string>{"material.snow.hardening=8", "solver.threshold_cell=0.04"}))
+        << named;
+    EXPECT_DOUBLE_EQ(scene::read_scene_text(record.scene, "record").solver.cell_size, 0.05)
+        << "not coarsened twice";
+  }
+}
+
 /// The command and the sweep are of the scene of the run, whatever lies beside its folder.
 TEST_F(PastRun, TheCommandAndTheSweepOfARunNameItsOwnScene) {
   render({"scene.toml", "--out", "a", "--coarsen", "1.25", "--set", "material.snow.hardening=8"});

@@ -100,11 +100,12 @@ Effect effect_of(const std::string& address) {
 }
 
 Document::Document(std::string file, std::string text, std::vector<scene::Override> overrides,
-                   double coarsening, Source source)
+                   double coarsening, Source source, double coarsened)
     : file_(std::move(file)),
       text_(std::move(text)),
       overrides_(std::move(overrides)),
       coarsening_(coarsening),
+      coarsened_(coarsened),
       source_(source) {
   scene_ = read(text_, {}, &set_by_coarsening_);
   setup::refuse_followers(*scene_, overrides_);

@@ -40,10 +40,11 @@ enum class Source {
 class Document {
  public:
   /// Every view that the scene has or could have has a camera and ranges.
-  /// @param overrides of the command line
+  /// @param overrides of the command line @param coarsening  that is done to the text
+  /// @param coarsened  that was done to it before: it has the cells of a coarse run
   /// @throws the errors of read_scene_text
   Document(std::string file, std::string text, std::vector<scene::Override> overrides,
-           double coarsening, Source source = Source::own_file);
+           double coarsening, Source source = Source::own_file, double coarsened = 1);
 
   /// The name of the text: relative paths start from its folder. Only has_file() says that there is
   /// such a file.
@@ -54,6 +55,8 @@ class Document {
   const std::string& text() const { return text_; }
   const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
   double coarsening() const { return coarsening_; }
+  /// Of its cells, for captions and records: that of a run or a picture that was opened included.
+  double whole_coarsening() const { return coarsened_ * coarsening_; }
   /// What --coarsen sets in the scene beside lengths and times, as --set would.
   const std::vector<std::string>& set_by_coarsening() const { return set_by_coarsening_; }
   /// The overrides of the command line, then the edits.
@@ -115,7 +118,7 @@ class Document {
 
   std::string file_, text_;
   std::vector<scene::Override> overrides_;
-  double coarsening_;
+  double coarsening_, coarsened_;
   Source source_;
   std::vector<std::string> set_by_coarsening_;
   std::vector<scene::Override> edits_;

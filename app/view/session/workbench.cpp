@@ -62,9 +62,9 @@ Opened open_run(const std::string& folder, const timeline::Edits& edits) {
   const timeline::Origin origin = timeline::Origin::of(folder, edits);
   const std::string beside =
       origin.scene_file.substr(0, folder.find_last_not_of('/') + 1) + ".toml";
-  Opened opened{
-      Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1, Source::no_file),
-      origin.overrides};
+  Opened opened{Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1,
+                         Source::no_file, origin.coarsening),
+                origin.overrides};
   timeline::Moments moments;
   moments.add_run(origin.run);
   Past past{origin.run, origin.changes, origin.run_frames, moments.find_newest(origin.scene.fps)};
@@ -96,15 +96,19 @@ Opened open_document(const std::string& file, const std::vector<std::string>& ov
     return {Document(file, scene::read_toml_file(file), std::move(parsed), coarsening,
                      scene::is_lasting_file(file) ? Source::own_file : Source::no_file),
             overrides};
-  // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
+  // The picture holds the scene as it was drawn: coarsened already.
   const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
   timeline::Edits edits{overrides};
   if (coarsening > 1) edits.coarsening = coarsening;
   edits.agreement = agreement;
   edits.is_start_only = true;
   const timeline::Origin origin = timeline::Origin::of(file, edits);
-  return {Document(beside, origin.picture->scene, std::move(parsed), coarsening, Source::no_file),
-          overrides};
+  const record::PictureRecord& picture = *origin.picture;
+  std::vector<std::string> all = picture.overrides;
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return {Document(beside, picture.scene, std::move(parsed), coarsening, Source::no_file,
+                   picture.coarsening),
+          std::move(all)};
 }
 
 Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
@@ -608,7 +612,7 @@ record::PictureRecord Workbench::picture_record(const LiveFrame& live,
   record::PictureRecord record;
   record.scene = scene::write_scene(scene);
   record.overrides = overrides(live);
-  record.coarsening = document_.coarsening();
+  record.coarsening = document_.whole_coarsening();
   record.seed = scene.seed;
   record.version = version;
   record.build = build_text(live.simd);
