@@ -313,6 +313,24 @@ TEST(Workbench, ASweepSaysWhatWasChangedWhileItRan) {
   EXPECT_TRUE(contains(work.bench.messages().back().text, "material.snow.youngs_modulus"));
 }
 
+TEST(Document, ReadAgainItHasTheAutomaticCameraOfTheNewText) {
+  std::string text = tiny_scene;
+  text.replace(text.find("radius = 0.08"), 13, "radius = 0.24");
+  const auto eye = [](const view::session::Document& document) {
+    return *document.scene()->camera->eye;
+  };
+  view::session::Document document("scene.toml", tiny_scene, {}, 1);
+  document.set("material.snow.hardening", "5");
+  document.reload(text);
+  EXPECT_EQ(eye(document), eye(view::session::Document("scene.toml", text, {}, 1)));
+  // Edits and their undo stay, and so does everything where the text is no scene.
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 5);
+  EXPECT_THROW(document.reload("[nonsense\n"), std::exception);
+  EXPECT_TRUE(document.is_changed("material.snow.hardening"));
+  document.undo();
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 10);
+}
+
 TEST(Workbench, ASavedSceneAndACommandSayWhatWasChangedWhileItRan) {
   Working work;
   work.bench.set("material.snow.hardening", "5");  // before the first step

@@ -292,8 +292,12 @@ std::optional<std::string> Document::default_of(const std::string& address) cons
 }
 
 void Document::reload(std::string text) {
-  scene_ = read(text, edits_, &set_by_coarsening_);
-  text_ = std::move(text);
+  // The automatic cameras are of the new text, too.
+  Document fresh(file_, std::move(text), overrides_, coarsening_, source_, coarsened_);
+  fresh.become(edits_);
+  fresh.done_ = std::move(done_);
+  fresh.undone_ = std::move(undone_);
+  *this = std::move(fresh);
 }
 
 }  // namespace neve::app::view::session
