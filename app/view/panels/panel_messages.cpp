@@ -132,7 +132,7 @@ void draw_question(ViewerState& state, ImVec2 at) {
         ((first == start + live.head ? fmt::format("Continuing here drops frame {}", first)
                                      : fmt::format("Continuing here drops the frames {} to {}",
                                                    first, start + live.head)) +
-         ".\nValues that were changed in later frames count from here on.")
+         ".\nValues that were changed in later frames take effect from here on.")
             .c_str());
     if (labelled_button("Drop them and continue")) {
       state.asks_to_continue = false;
