@@ -463,6 +463,7 @@ TEST(Workbench, ACopyOfTheSceneFindsItsFiles) {
   ASSERT_EQ(copy, folder / "out" / "scene.toml") << bench.messages().back().text;
   const scene::Scene saved = scene::read_scene_file(copy.string());
   EXPECT_EQ(saved.bodies[0].velocity.y(), 2);
+  EXPECT_TRUE(read_text(copy).starts_with("# mine"));
   EXPECT_EQ(bench.save_copy(), copy) << "the same text again";
   // From its own folder the words of the scene find them.
   ASSERT_TRUE(bench.save_scene(folder / "scene.toml"));
