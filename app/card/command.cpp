@@ -115,7 +115,7 @@ int run(const CardOptions& options) {
   render::Renderer renderer(*context, {}, &pool);
   const Json json = json_of(cards);
   const std::vector<std::uint8_t> png = render::encode_png(draw_cards(cards, renderer), texts);
-  if (picture.has_parent_path()) output::make_folder(picture.parent_path());
+  output::make_folder(picture.parent_path());
   const std::string text = to_text(json) + "\n";
   output::write_together(
       {{numbers, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}},

@@ -110,7 +110,7 @@ int run_view(const view::ViewOptions& given) {
   // A scene that cannot be read is told before a window opens.
   std::optional<NothingToKeep> reading(std::in_place);
   std::optional<view::session::Opened> opened = view::session::open_document(
-      file, options.run.overrides, options.run.coarsening.value_or(1),
+      options.run.scene, options.run.overrides, options.run.coarsening.value_or(1),
       options.run.is_agreed ? timeline::Agreement::given : timeline::Agreement::asked);
   if (timeline::is_folder(file) && !opened->past)
     std::cerr

@@ -155,9 +155,9 @@ void Target::refuse_loss(const Json& earlier, const setup::FrameRange& frames) c
 
 void Target::begin(const setup::FrameRange& frames) {
   if (kind_ != TargetKind::folder) {
-    if (!out_.parent_path().empty()) output::make_folder(out_.parent_path());
+    output::make_folder(out_.parent_path());
     if (kind_ == TargetKind::movie) scratch_ = output::temporary_name(out_);
-    if (!scratch_.empty()) output::make_folder(scratch_);
+    output::make_folder(scratch_);
     return;
   }
   output::make_folder(out_);

@@ -182,6 +182,7 @@ void sync_folder(const std::filesystem::path& folder) {
 }
 
 void make_folder(const std::filesystem::path& path) {
+  if (path.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(path, error);
   std::error_code ignored;

@@ -47,7 +47,7 @@ void replace_file(const std::filesystem::path& path, std::span<const std::uint8_
 /// any case. @throws IoError, also where a link, device or folder has the name
 void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
-/// Creates a folder and those above it. @throws IoError
+/// Creates a folder and those above it; "", the one of a bare name, is there. @throws IoError
 void make_folder(const std::filesystem::path& path);
 
 /// The same of a folder whose name the program chooses, inside one that a person named: a link in

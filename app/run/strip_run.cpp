@@ -293,7 +293,7 @@ StripResult run_strip(const StripJob& job, const RenderOptions& options, Progres
   progress.clear();
   StripResult result{strip.count(), timeline.simulation().divergence()};
   if (result.tiles > 0) {
-    if (job.file.has_parent_path()) output::make_folder(job.file.parent_path());
+    output::make_folder(job.file.parent_path());
     const record::PictureRecord record =
         strip.record(scene::write_scene(resolved), timeline.simulation().simd());
     output::write_among_others(job.file,

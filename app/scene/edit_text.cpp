@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "app/scene/flat.h"
 #include "app/scene/params.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
@@ -422,11 +423,19 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
 std::string changed_scene_text(const std::string& text, const std::vector<Override>& changes,
                                const std::string& file, const std::string& out) {
   const std::string from = base_dir_of(file);
-  const std::string whole = write_scene(read_scene_text(text, file, from, changes));
-  try {
-    std::string edited = edit_scene_text(text, changes, file, from);
-    if (write_scene(read_scene_text(edited, out, base_dir_of(out))) == whole) return edited;
-  } catch (const Error&) {
+  const Scene scene = read_scene_text(text, file, from, changes);
+  const std::string whole = write_scene(scene);
+  std::vector<Override> with_paths = changes;  // for a place from where its words find no files
+  for (const FlatParam& param : flatten(scene))
+    if (param.valid.is_path() && param.value)
+      with_paths.push_back({param.address, toml::toml_literal(*param.value)});
+  for (const std::vector<Override>& all : {changes, with_paths}) {
+    try {
+      std::string edited = edit_scene_text(text, all, file, from);
+      if (write_scene(read_scene_text(edited, out, base_dir_of(out))) == whole) return edited;
+    } catch (const toml::SceneError&) {
+    } catch (const UsageError&) {  // the text cannot take the changes
+    }
   }
   return whole;
 }

@@ -23,8 +23,8 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
                             const std::string& name = "the scene",
                             const std::string& base_dir = {});
 
-/// The same for another file: with the words of the scene where these can take the changes and find
-/// their files from there, otherwise with every number written out.
+/// The same for another file: with whole paths where the scene's own do not find its files from
+/// there, and with every number written out where its words cannot take the changes.
 /// @param file  that the text is of @param out  file that the result is for
 /// @throws SceneError for the text, UsageError for the changes
 std::string changed_scene_text(const std::string& text, const std::vector<Override>& changes,

@@ -32,6 +32,11 @@ bool is_open_file(const fs::path& file) {
   return folder == "/dev/fd" || folder == "/proc/self/fd";
 }
 
+/// Whatever is behind it: `< FILE` makes a file of standard input.
+bool is_stream(const std::string& file) {
+  return file == standard_input || is_open_file(file);
+}
+
 /// The scene in a folder whose name is nearest; empty: none is near.
 fs::path nearest_scene(const fs::path& folder, const std::string& stem) {
   std::vector<std::string> names;
@@ -152,8 +157,12 @@ std::string path_of_scene(const std::string& typed) {
 }
 
 std::string base_dir_of(const std::string& file) {
-  if (file == standard_input || is_open_file(file)) return {};
-  return fs::path(file).parent_path().string();
+  return is_stream(file) ? std::string() : fs::path(file).parent_path().string();
+}
+
+bool is_lasting_file(const std::string& file) {
+  std::error_code error;
+  return !is_stream(file) && fs::is_regular_file(file, error);
 }
 
 std::string name_of_scene(const std::string& file) {

@@ -14,6 +14,10 @@ std::string path_of_scene(const std::string& typed);
 /// a pipe.
 std::string base_dir_of(const std::string& file);
 
+/// True for a file that stays: it can be read again, named in a command and written over. False for
+/// standard input, pipes, and where nothing is.
+bool is_lasting_file(const std::string& file);
+
 /// The name of what is made of a scene: "drop" of "scenes/drop.toml", "stdin", or "pipe" of a
 /// `<(command)`.
 std::string name_of_scene(const std::string& file);

@@ -74,12 +74,7 @@ void Viewer::save_picture() {
     output::make_folder(bench_.folder());
     output::remove_abandoned(bench_.folder());
     output::write_file(file, render::encode_png(picture.image, picture.text));
-    bench_.say(session::Message::Kind::note,
-               "saved " + file.string() + "; neve render " + file.string() + " makes it again" +
-                   (was_between ? "; it shows frame " +
-                                      std::to_string(scene::number_of(*live.scene, live.frame)) +
-                                      ", the next one: only whole frames can be made again"
-                                : ""));
+    bench_.say_saved_picture(file, live, was_between);
     if (state_.is_picture_downloaded) download(file);
   } catch (const std::exception& error) {
     bench_.say_not_saved(std::string("no picture: ") + error.what());

@@ -181,7 +181,7 @@ render::Frame Viewer::picture_frame(const scene::View& view) {
   const scene::Scene scene = bench_.display_scene(live);
   const picture::FrameBuilder builder(
       scene, *live.seeded,
-      {setup::Quality::preview, bench_.overrides(live), bench_.document().coarsening()});
+      {setup::Quality::preview, bench_.overrides(live), bench_.document().whole_coarsening()});
   std::optional<render::Points> points;
   if (points_of_ == state_key()) points = std::move(points_);
   points_of_.reset();

@@ -270,6 +270,27 @@ TEST(EditText, EveryParameterOfEverySceneCanBeSaved) {
   EXPECT_GT(edits, 500);
 }
 
+TEST(EditText, ForAnotherFolderATextFindsItsFiles) {
+  const test::TemporaryFolder folder;
+  folder.write("grains.csv", "x,y,z,volume\n0,0.1,0,1e-6\n0,0.2,0,1e-6\n");
+  const std::string text =
+      "# mine\nframes = 3\n[solver]\ncell_size = 0.1\n[[body]]\nname = \"grains\"\n"
+      "shape = { points = { file = \"grains.csv\" } }\n";
+  const std::string file = folder.write("scene.toml", text).string();
+  const auto changed = [&](const fs::path& out) {
+    const std::string made = app::scene::changed_scene_text(
+        text, app::scene::parse_overrides({"frames=7"}), file, out.string());
+    const app::scene::Scene scene =
+        app::scene::read_scene_text(made, out.string(), out.parent_path().string());
+    EXPECT_EQ(scene.frames, 7);
+    return made;
+  };
+  EXPECT_TRUE(changed(folder / "other.toml").starts_with("# mine"));
+  const std::string there = changed(folder / "shots" / "scene.toml");
+  EXPECT_TRUE(there.starts_with("# mine")) << there;
+  EXPECT_NE(there.find((folder / "grains.csv").string()), std::string::npos) << there;
+}
+
 /// Any bytes lead to an error or to a text that reads back, never to a crash.
 TEST(EditText, HostileFilesAreRefusedOrEditedRightly) {
   int refused = 0;

@@ -67,6 +67,24 @@ std::shared_ptr<const LiveFrame> wait_for_ignored(view::session::Session& sessio
   });
 }
 
+/// neve render makes whole frames, and this is none.
+TEST(ContinueAnyway, APictureOfABrokenStepSaysThatItIsNotMadeAgain) {
+  Broken run;
+  ASSERT_FALSE(run.broken->is_frame_end);
+  const std::string frame = std::to_string(run.broken->frame);
+  run.bench.say_saved_picture("a b.png", *run.broken, false);
+  EXPECT_EQ(run.bench.messages().back().text,
+            "saved a b.png; it shows step " + std::to_string(run.broken->steps) +
+                ", where the run diverged, and only whole frames can be made again; neve render "
+                "'a b.png' makes frame " +
+                frame);
+  run.bench.session().show_frame(0);
+  const auto whole =
+      wait_for(run.bench.session(), [](const LiveFrame& live) { return live.is_older; });
+  run.bench.say_saved_picture("c.png", *whole, false);
+  EXPECT_EQ(run.bench.messages().back().text, "saved c.png; neve render c.png makes it again");
+}
+
 TEST(ContinueAnyway, ARunContinuesPastItsBrokenRuleAndItsPicturesSaySo) {
   Broken run;
   run.bench.continue_anyway();

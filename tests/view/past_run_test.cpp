@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/support/errors.h"
 #include "app/timeline/timeline.h"
 #include "tests/view/view_support.h"
@@ -137,6 +138,67 @@ TEST_F(PastRun, WhatARunWasMadeFromCannotBeSet) {
   render({"scene.toml", "--out", "a"});
   EXPECT_THROW(view::session::open_document((folder / "a").string(), {"seed=2"}, 1), UsageError);
   EXPECT_THROW(view::session::open_document((folder / "a").string(), {}, 2), UsageError);
+}
+
+/// A scene that lies beside a run or a picture is another one.
+TEST_F(PastRun, OnlyASceneThatWasNamedIsWrittenOverAndReadAgain) {
+  render({"scene.toml", "--out", "a"});
+  const std::filesystem::path beside = folder.write("a.toml", "# mine\n");
+  view::session::Workbench bench = open("a");
+  std::filesystem::last_write_time(
+      beside, std::filesystem::last_write_time(beside) + std::chrono::seconds(2));
+  EXPECT_FALSE(bench.may_save_over_file());
+  EXPECT_FALSE(bench.has_file_changed());
+  const auto opened = [&](const std::string& named) {
+    return view::session::open_document(named, {}, 1).document;
+  };
+  EXPECT_FALSE(opened((folder / "a/particles/0002.png").string()).has_file());
+  EXPECT_TRUE(opened((folder / "scene.toml").string()).has_own_file());
+  const view::session::Document shipped = opened("");
+  EXPECT_FALSE(shipped.has_own_file());
+  EXPECT_TRUE(std::filesystem::exists(shipped.file()));
+  EXPECT_FALSE(scene::is_lasting_file("/dev/stdin"));
+  EXPECT_FALSE(scene::is_lasting_file("/dev/fd/63"));
+}
+
+/// Captions and saved pictures say how coarse a run is and what was set, whoever opens it.
+TEST_F(PastRun, PicturesOfAnOpenedCoarseRunSayThatItIs) {
+  render({"scene.toml", "--out", "a", "--coarsen", "1.25", "--set", "material.snow.hardening=8"});
+  for (const char* named : {"a", "a/particles/0000.png"}) {
+    view::session::Opened opened = view::session::open_document((folder / named).string(), {}, 1);
+    view::session::WorkbenchOptions options;
+    options.overrides = opened.overrides;
+    view::session::Workbench bench(std::move(opened.document), options, {});
+    const auto live = bench.session().latest();
+    const record::PictureRecord record = bench.picture_record(*live, live->scene->views.front());
+    EXPECT_EQ(record.coarsening, 1.25) << named;
+    EXPECT_EQ(record.overrides,
+              (std::vector<std::string>{"material.snow.hardening=8", "solver.threshold_cell=0.04"}))
+        << named;
+    EXPECT_DOUBLE_EQ(scene::read_scene_text(record.scene, "record").solver.cell_size, 0.05)
+        << "not coarsened twice";
+  }
+}
+
+/// The command and the sweep are of the scene of the run, whatever lies beside its folder.
+TEST_F(PastRun, TheCommandAndTheSweepOfARunNameItsOwnScene) {
+  render({"scene.toml", "--out", "a", "--coarsen", "1.25", "--set", "material.snow.hardening=8"});
+  folder.write("a.toml", tiny_scene);
+  view::session::Workbench bench = open("a");
+  bench.set("solver.cfl", "0.3");
+  const std::string command = bench.command(), file = (folder / "view" / "a_opened.toml").string();
+  EXPECT_TRUE(contains(command, file + " --set solver.cfl=0.3")) << command;
+  EXPECT_TRUE(contains(bench.messages().back().text, command)) << bench.messages().back().text;
+  const scene::Scene named = scene::read_scene_file(file);
+  EXPECT_DOUBLE_EQ(named.solver.cell_size, 0.05);
+  EXPECT_EQ(named.materials[0].hardening, 8);
+  EXPECT_EQ(named.solver.cfl, 0.4) << "the change is in the command";
+  const std::filesystem::path sweep = bench.sweep_around("solver.cfl");
+  EXPECT_TRUE(contains(read_text(sweep), "scene = \"a_opened.toml\"")) << read_text(sweep);
+  // Its file was written once, and the run of the command is that of the folder.
+  EXPECT_FALSE(std::filesystem::exists(folder / "view" / "a_opened_2.toml"));
+  render({file, "--out", "again"});
+  EXPECT_EQ(hashes("again"), hashes("a"));
 }
 
 TEST_F(PastRun, AScriptGoesBackInTimeAndSavesThePictureOfTheRun) {

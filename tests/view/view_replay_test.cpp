@@ -40,6 +40,19 @@ TEST_F(ViewByScript, AParameterIsFoundChangedSimulatedWithAndSaved) {
   EXPECT_TRUE(contains(info.output, "material.snow.hardening")) << info.output;
 }
 
+TEST_F(ViewByScript, ASceneInThisFolderIsSavedOverItsFile) {
+  folder.write("scene.toml", "# mine\n" + std::string(tiny_scene));
+  const auto result = view(R"([
+    {"click": "find a parameter"}, {"type": "hardening"},
+    {"click": "material.snow.hardening", "ctrl": true}, {"type": "17"}, {"key": "enter"},
+    {"click": "Save ..."}, {"wait_for": "label Scene with the changes, over its file"},
+    {"click": "Scene with the changes, over its file"}, {"wait": 3}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const std::string text = read_text(folder / "scene.toml");
+  EXPECT_TRUE(text.starts_with("# mine") && contains(text, "hardening = 17")) << text;
+}
+
 TEST_F(ViewByScript, VaryFromHereMakesASweepOfTheFrameThatIsShown) {
   const auto result = view(R"([
     {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait_for": "simulation paused"},

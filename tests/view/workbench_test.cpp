@@ -313,6 +313,43 @@ TEST(Workbench, ASweepSaysWhatWasChangedWhileItRan) {
   EXPECT_TRUE(contains(work.bench.messages().back().text, "material.snow.youngs_modulus"));
 }
 
+TEST(Document, ReadAgainItHasTheAutomaticCameraOfTheNewText) {
+  std::string text = tiny_scene;
+  text.replace(text.find("radius = 0.08"), 13, "radius = 0.24");
+  const auto eye = [](const view::session::Document& document) {
+    return *document.scene()->camera->eye;
+  };
+  view::session::Document document("scene.toml", tiny_scene, {}, 1);
+  document.set("material.snow.hardening", "5");
+  document.reload(text);
+  EXPECT_EQ(eye(document), eye(view::session::Document("scene.toml", text, {}, 1)));
+  // Edits and their undo stay, and so does everything where the text is no scene.
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 5);
+  EXPECT_THROW(document.reload("[nonsense\n"), std::exception);
+  EXPECT_TRUE(document.is_changed("material.snow.hardening"));
+  document.undo();
+  EXPECT_DOUBLE_EQ(document.scene()->materials[0].hardening, 10);
+}
+
+TEST(Workbench, ASavedSceneAndACommandSayWhatWasChangedWhileItRan) {
+  Working work;
+  work.bench.set("material.snow.hardening", "5");  // before the first step
+  ASSERT_TRUE(work.bench.save_scene(work.folder / "out" / "early.toml"));
+  EXPECT_FALSE(contains(work.bench.messages().back().text, "during the run"));
+  work.go_to(1);
+  work.bench.set("material.snow.youngs_modulus", "30000");
+  ASSERT_TRUE(work.bench.save_scene(work.folder / "out" / "late.toml"));
+  const std::string saved = work.bench.messages().back().text;
+  EXPECT_TRUE(contains(saved,
+                       "; material.snow.youngs_modulus changed during the run, and the saved scene "
+                       "has it from the start: a picture that is saved makes the run again"))
+      << saved;
+  EXPECT_FALSE(work.bench.command().empty());
+  const std::string copied = work.bench.messages().back().text;
+  EXPECT_TRUE(contains(copied, "youngs_modulus changed during the run, and its run has it"))
+      << copied;
+}
+
 TEST(Workbench, WorkbenchNoticesAChangedFile) {
   Working work;
   EXPECT_FALSE(work.bench.has_file_changed());
@@ -415,6 +452,24 @@ TEST(Workbench, ACopyOfTheSceneReplacesNoFileButAnEarlierCopy) {
   bench.set("material.snow.hardening", "18");
   EXPECT_EQ(bench.save_copy(), folder / "scene_2.toml");
   EXPECT_TRUE(contains(read_text(folder / "scene_2.toml"), "hardening = 18"));
+}
+
+TEST(Workbench, ACopyOfTheSceneFindsItsFiles) {
+  const TemporaryFolder folder;
+  folder.write("grains.ply", grains);
+  view::session::Workbench bench = bench_for(folder, "# mine" + std::string(from_points));
+  bench.set("body.grains.velocity", "[0, 2, 0]");
+  const std::filesystem::path copy = bench.save_copy();
+  ASSERT_EQ(copy, folder / "out" / "scene.toml") << bench.messages().back().text;
+  const scene::Scene saved = scene::read_scene_file(copy.string());
+  EXPECT_EQ(saved.bodies[0].velocity.y(), 2);
+  EXPECT_TRUE(read_text(copy).starts_with("# mine"));
+  EXPECT_EQ(bench.save_copy(), copy) << "the same text again";
+  // From its own folder the words of the scene find them.
+  ASSERT_TRUE(bench.save_scene(folder / "scene.toml"));
+  const std::string text = read_text(folder / "scene.toml");
+  EXPECT_TRUE(text.starts_with("# mine") && contains(text, "\"grains.ply\"")) << text;
+  EXPECT_FALSE(bench.has_file_changed());
 }
 
 TEST(Workbench, WorkbenchReportsRefusedValues) {

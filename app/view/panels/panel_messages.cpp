@@ -129,11 +129,10 @@ void draw_question(ViewerState& state, ImVec2 at) {
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
     ImGui::TextUnformatted(
-        (first == start + live.head
-             ? fmt::format("Continuing here drops frame {}, and the changes made in it.", first)
-             : fmt::format(
-                   "Continuing here drops the frames {} to {}, and the changes made in them.",
-                   first, start + live.head))
+        ((first == start + live.head ? fmt::format("Continuing here drops frame {}", first)
+                                     : fmt::format("Continuing here drops the frames {} to {}",
+                                                   first, start + live.head)) +
+         ".\nValues that were changed in later frames take effect from here on.")
             .c_str());
     if (labelled_button("Drop them and continue")) {
       state.asks_to_continue = false;

@@ -182,12 +182,14 @@ void draw_parameters(ViewerState& state) {
 void draw_changes(ViewerState& state) {
   const std::vector<session::ChangedValue> changes = state.bench.document().changes();
   if (changes.empty()) {
-    dim_text("Nothing differs from " + state.bench.document().file() + ".");
+    const session::Document& document = state.bench.document();
+    dim_text("Nothing differs from " +
+             (document.has_file() ? document.file() : "the scene as it was opened") + ".");
     return;
   }
   if (labelled_button("Restore all")) state.bench.forget("");
   ImGui::SameLine();
-  if (labelled_button("Copy the command")) state.copy(state.bench.command());
+  if (labelled_button("Copy the command")) copy_command(state);
   ImGui::BeginChild("changes");
   for (const session::ChangedValue& change : changes) {
     ImGui::PushID(change.address.c_str());

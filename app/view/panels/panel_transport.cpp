@@ -77,10 +77,7 @@ void draw_out_menu(ViewerState& state) {
   if (state.bench.may_save_over_file() && item("Scene with the changes, over its file"))
     state.bench.save_scene(state.bench.document().file());
   if (state.download) draw_download_items(state);
-  if (item("Copy the command line")) {
-    state.copy(state.bench.command());
-    state.bench.say(session::Message::Kind::note, "copied: " + state.bench.command());
-  }
+  if (item("Copy the command line")) copy_command(state);
   ImGui::EndPopup();
 }
 

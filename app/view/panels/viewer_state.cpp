@@ -74,6 +74,10 @@ scene::View view_to_keep(const ViewerState& state) {
   return view;
 }
 
+void copy_command(ViewerState& state) {
+  if (const std::string command = state.bench.command(); !command.empty()) state.copy(command);
+}
+
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe) {
   state.probe = probe;
   state.trace = {state.trace.quantity, {}, probe};

@@ -131,6 +131,8 @@ void toggle_run(ViewerState& state);
 void frame_all(ViewerState& state);
 /// Frames the probed or selected object; everything if there is none.
 void frame_selection(ViewerState& state);
+/// Copies the command that renders the scene as it is now.
+void copy_command(ViewerState& state);
 /// Brings the culprits of the broken rule into the picture.
 void show_incident(ViewerState& state);
 

@@ -406,7 +406,7 @@ void ReplayFrontend::show(render::Screen& screen) {
     picture = cut(picture, x, y, width, height);
   }
   const std::filesystem::path path = options_.folder / step.text;
-  output::make_folder(path.has_parent_path() ? path.parent_path() : ".");
+  output::make_folder(path.parent_path());
   output::write_file(path, render::encode_png(picture));
 }
 

@@ -100,11 +100,13 @@ Effect effect_of(const std::string& address) {
 }
 
 Document::Document(std::string file, std::string text, std::vector<scene::Override> overrides,
-                   double coarsening)
+                   double coarsening, Source source, double coarsened)
     : file_(std::move(file)),
       text_(std::move(text)),
       overrides_(std::move(overrides)),
-      coarsening_(coarsening) {
+      coarsening_(coarsening),
+      coarsened_(coarsened),
+      source_(source) {
   scene_ = read(text_, {}, &set_by_coarsening_);
   setup::refuse_followers(*scene_, overrides_);
   scene::Scene placed = *scene_;
@@ -290,8 +292,12 @@ std::optional<std::string> Document::default_of(const std::string& address) cons
 }
 
 void Document::reload(std::string text) {
-  scene_ = read(text, edits_, &set_by_coarsening_);
-  text_ = std::move(text);
+  // The automatic cameras are of the new text, too.
+  Document fresh(file_, std::move(text), overrides_, coarsening_, source_, coarsened_);
+  fresh.become(edits_);
+  fresh.done_ = std::move(done_);
+  fresh.undone_ = std::move(undone_);
+  *this = std::move(fresh);
 }
 
 }  // namespace neve::app::view::session

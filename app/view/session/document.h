@@ -30,18 +30,33 @@ struct ChangedValue {
   std::string in_file;  ///< TOML; empty: the file has none, and a default counts
 };
 
+/// Where the text of a document is beside the document.
+enum class Source {
+  own_file,      ///< in a file of the user
+  shipped_file,  ///< in one that came with the program, which nobody named
+  no_file        ///< in no scene file: it comes from a run, a picture or standard input
+};
+
 class Document {
  public:
   /// Every view that the scene has or could have has a camera and ranges.
-  /// @param overrides of the command line
+  /// @param overrides of the command line @param coarsening  that is done to the text
+  /// @param coarsened  that was done to it before: it has the cells of a coarse run
   /// @throws the errors of read_scene_text
   Document(std::string file, std::string text, std::vector<scene::Override> overrides,
-           double coarsening);
+           double coarsening, Source source = Source::own_file, double coarsened = 1);
 
+  /// The name of the text: relative paths start from its folder. Only has_file() says that there is
+  /// such a file.
   const std::string& file() const { return file_; }
+  bool has_file() const { return source_ != Source::no_file; }
+  /// That file may be written over.
+  bool has_own_file() const { return source_ == Source::own_file; }
   const std::string& text() const { return text_; }
   const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
   double coarsening() const { return coarsening_; }
+  /// Of its cells, for captions and records: that of a run or a picture that was opened included.
+  double whole_coarsening() const { return coarsened_ * coarsening_; }
   /// What --coarsen sets in the scene beside lengths and times, as --set would.
   const std::vector<std::string>& set_by_coarsening() const { return set_by_coarsening_; }
   /// The overrides of the command line, then the edits.
@@ -103,7 +118,8 @@ class Document {
 
   std::string file_, text_;
   std::vector<scene::Override> overrides_;
-  double coarsening_;
+  double coarsening_, coarsened_;
+  Source source_;
   std::vector<std::string> set_by_coarsening_;
   std::vector<scene::Override> edits_;
   std::vector<std::vector<scene::Override>> done_, undone_;

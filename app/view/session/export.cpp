@@ -67,9 +67,9 @@ std::string plain_file_name(const std::string& address) {
   return name;
 }
 
-std::string render_command(const Document& document) {
+std::string render_command(const Document& document, const std::string& scene_file) {
   run::RenderOptions options;
-  options.scene = document.file();
+  options.scene = scene_file;
   options.overrides =
       scene::texts_of(setup::without_followers(*document.scene(), document.all_overrides()));
   if (document.coarsening() > 1) options.coarsening = document.coarsening();
@@ -77,13 +77,14 @@ std::string render_command(const Document& document) {
 }
 
 void write_sweep_around(const std::filesystem::path& file, const Document& document,
-                        const std::string& address, const std::vector<std::string>& set_later) {
+                        const std::string& scene_file, const std::string& address,
+                        const std::vector<std::string>& set_later) {
   for (scene::FlatParam& param : with_presets(*document.scene())) {
     if (param.address != address) continue;
     take_finer_value(param, document);
     output::make_folder(file.parent_path());
-    output::write_among_others(file, sweep::plan::sweep_around(document.file(), file.string(),
-                                                               param, set_in_all(document, address),
+    output::write_among_others(file, sweep::plan::sweep_around(scene_file, file.string(), param,
+                                                               set_in_all(document, address),
                                                                document.coarsening(), set_later));
     return;
   }

@@ -13,13 +13,15 @@ namespace neve::app::view::session {
 std::string plain_file_name(const std::string& address);
 
 /// The command that renders the document as it is now.
-std::string render_command(const Document& document);
+/// @param scene_file  with the text of the document, see Workbench::file_of_scene()
+std::string render_command(const Document& document, const std::string& scene_file);
 
 /// Writes a sweep file with values around the present one of a parameter; the rest of the document
 /// is as it is now.
-/// @param set_later see sweep_around()
+/// @param scene_file  as for render_command() @param set_later  see sweep_around()
 /// @throws IoError, UsageError
 void write_sweep_around(const std::filesystem::path& file, const Document& document,
-                        const std::string& address, const std::vector<std::string>& set_later);
+                        const std::string& scene_file, const std::string& address,
+                        const std::vector<std::string>& set_later);
 
 }  // namespace neve::app::view::session

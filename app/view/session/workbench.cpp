@@ -62,7 +62,8 @@ Opened open_run(const std::string& folder, const timeline::Edits& edits) {
   const timeline::Origin origin = timeline::Origin::of(folder, edits);
   const std::string beside =
       origin.scene_file.substr(0, folder.find_last_not_of('/') + 1) + ".toml";
-  Opened opened{Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1),
+  Opened opened{Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1,
+                         Source::no_file, origin.coarsening),
                 origin.overrides};
   timeline::Moments moments;
   moments.add_run(origin.run);
@@ -85,16 +86,29 @@ Opened open_document(const std::string& file, const std::vector<std::string>& ov
     return open_run(file, edits);
   }
   std::vector<scene::Override> parsed = scene::parse_overrides(overrides);
+  if (file.empty()) {
+    const std::string shipped = default_scene().string();
+    return {Document(shipped, scene::read_toml_file(shipped), std::move(parsed), coarsening,
+                     Source::shipped_file),
+            overrides};
+  }
   if (!record::is_picture(file))
-    return {Document(file, scene::read_toml_file(file), std::move(parsed), coarsening), overrides};
-  // Saved, it lies beside the picture, which holds the scene as it was drawn: coarsened already.
+    return {Document(file, scene::read_toml_file(file), std::move(parsed), coarsening,
+                     scene::is_lasting_file(file) ? Source::own_file : Source::no_file),
+            overrides};
+  // The picture holds the scene as it was drawn: coarsened already.
   const std::string beside = std::filesystem::path(file).replace_extension(".toml").string();
   timeline::Edits edits{overrides};
   if (coarsening > 1) edits.coarsening = coarsening;
   edits.agreement = agreement;
   edits.is_start_only = true;
   const timeline::Origin origin = timeline::Origin::of(file, edits);
-  return {Document(beside, origin.picture->scene, std::move(parsed), coarsening), overrides};
+  const record::PictureRecord& picture = *origin.picture;
+  std::vector<std::string> all = picture.overrides;
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return {Document(beside, picture.scene, std::move(parsed), coarsening, Source::no_file,
+                   picture.coarsening),
+          std::move(all)};
 }
 
 Workbench::Workbench(Document document, WorkbenchOptions options, std::function<void()> wake)
@@ -363,6 +377,7 @@ scene::Scene Workbench::display_scene(const LiveFrame& live) const {
 }
 
 bool Workbench::has_file_changed() const {
+  if (!document_.has_file()) return false;
   const auto now = time_of(document_.file());
   return now != std::filesystem::file_time_type{} && now != file_time_;
 }
@@ -391,31 +406,60 @@ void Workbench::keep_file() {
   file_time_ = time_of(document_.file());
 }
 
-std::string Workbench::saved_text() const {
-  return scene::edit_scene_text(document_.text(), document_.all_overrides(), document_.file(),
-                                scene::base_dir_of(document_.file()));
+bool Workbench::is_file_of_scene(const std::filesystem::path& file) const {
+  std::error_code error;
+  return document_.has_own_file() && std::filesystem::equivalent(file, document_.file(), error);
 }
 
-/// Such a file is not replaced by another: a script that is run again leaves no second copy.
-bool Workbench::has_saved_text(const std::filesystem::path& file) const {
-  try {
-    const std::vector<std::uint8_t> bytes = output::read_file(file);
-    return std::string(bytes.begin(), bytes.end()) == saved_text();
-  } catch (const std::exception&) {
-    return false;
+/// The scene with its changes, for this file. That of the user keeps its words, or is refused; a
+/// copy in another folder finds the files of the scene from there.
+std::string Workbench::saved_text(const std::filesystem::path& file) const {
+  const std::vector<scene::Override> changes = document_.all_overrides();
+  if (is_file_of_scene(file))
+    return scene::edit_scene_text(document_.text(), changes, document_.file(),
+                                  scene::base_dir_of(document_.file()));
+  return scene::changed_scene_text(document_.text(), changes, document_.file(), file.string());
+}
+
+/// The name of a scene in the folder, "STEM.toml" or "STEM_2.toml" and so on. A file that was there
+/// before may be anyone's, and the scene itself. One with the same text has the name already: a
+/// script that is run again leaves no second copy.
+std::filesystem::path Workbench::free_name(const std::string& stem, const TextIn& text_in) const {
+  const auto has_the_text = [&](const std::filesystem::path& file) {
+    try {
+      const std::vector<std::uint8_t> bytes = output::read_file(file);
+      return std::string(bytes.begin(), bytes.end()) == text_in(file);
+    } catch (const std::exception&) {
+      return false;
+    }
+  };
+  for (int k = 1;; ++k) {
+    const std::filesystem::path file =
+        options_.folder / (stem + (k == 1 ? "" : "_" + std::to_string(k)) + ".toml");
+    std::error_code error;
+    if (!std::filesystem::exists(file, error) || has_the_text(file)) return file;
   }
 }
 
-std::filesystem::path Workbench::save_copy() {
-  std::error_code error;
-  const auto name = [this](int k) {
-    return options_.folder / (k == 1 ? "scene.toml" : "scene_" + std::to_string(k) + ".toml");
+/// The scene that commands and sweeps name: its own file, or one that is written now, with the text
+/// as it was opened. Later changes leave that as it is, so that an earlier command stays true.
+/// @throws IoError
+std::string Workbench::file_of_scene() const {
+  if (document_.has_file()) return document_.file();
+  const TextIn text_in = [this](const std::filesystem::path& file) {
+    return scene::changed_scene_text(document_.text(), {}, document_.file(), file.string());
   };
-  // One that was there before may be anyone's, and the scene itself.
-  for (int k = 1; copy_.empty() ||
-                  (is_copy_new_ && std::filesystem::exists(copy_, error) && !has_saved_text(copy_));
-       ++k)
-    copy_ = name(k);
+  const std::filesystem::path file =
+      free_name(scene::name_of_scene(document_.file()) + "_opened", text_in);
+  output::make_folder(options_.folder);
+  output::write_named_file(file, text_in(file));
+  return file.string();
+}
+
+std::filesystem::path Workbench::save_copy() {
+  if (is_copy_new_)
+    copy_ =
+        free_name("scene", [this](const std::filesystem::path& file) { return saved_text(file); });
   if (!save_scene(copy_)) return {};
   is_copy_new_ = false;
   return copy_;
@@ -426,14 +470,12 @@ bool Workbench::save_scene(const std::filesystem::path& file) {
     if (options_.is_remote && file.parent_path() != options_.folder)
       throw UsageError(
           "", "over the web, files are written into " + options_.folder.string() + " alone");
-    const std::string text = saved_text();
+    const std::string text = saved_text(file);
     output::make_folder(file.parent_path());
     output::write_named_file(file, text);
-    std::error_code error;
-    if (std::filesystem::equivalent(file, document_.file(), error))
-      file_time_ = time_of(document_.file());
-    say(Message::Kind::note,
-        "saved the scene with its changes as " + file.string() + added_while_running());
+    if (is_file_of_scene(file)) file_time_ = time_of(document_.file());
+    say(Message::Kind::note, "saved the scene with its changes as " + file.string() +
+                                 changes_too_early("the saved scene"));
     return true;
   } catch (const std::exception& error) {
     say_not_saved("the scene was not saved: " + text_of(error));
@@ -441,18 +483,25 @@ bool Workbench::save_scene(const std::filesystem::path& file) {
   }
 }
 
-/// A scene has its colliders from its start on; only a picture knows when others came.
-std::string Workbench::added_while_running() const {
-  const std::shared_ptr<const LiveFrame> live = session_->latest();
-  std::vector<std::string> added;
-  for (const scene::LiveChange& change : live->snapshot.changes)
-    if (change.step > 0 && scene::is_object_address(change.address) && change.value != "none" &&
-        document_.is_changed(change.address))
-      added.push_back(change.address);
-  if (added.empty()) return "";
-  return "; " + joined(added, ", ") +
-         " came during the run, and the saved scene begins with it: a picture that is saved makes "
-         "the run again";
+/// A scene has all of its values and objects from its start on; only a picture knows when they
+/// came.
+/// @param what  that is made of the document: "the saved scene"
+std::string Workbench::changes_too_early(const std::string& what) const {
+  std::vector<std::string> came, changed;
+  for (const std::string& address : changed_while_running()) {
+    const std::vector<scene::Override>& edits = document_.edits();
+    const bool is_added = scene::is_object_address(address) &&
+                          std::any_of(edits.begin(), edits.end(), [&](const auto& edit) {
+                            return edit.address == address && edit.value != "none";
+                          });
+    (is_added ? came : changed).push_back(address);
+  }
+  if (came.empty() && changed.empty()) return "";
+  std::string text = "; ";
+  if (!came.empty()) text += joined(came, ", ") + " came during the run, ";
+  if (!changed.empty()) text += joined(changed, ", ") + " changed during the run, ";
+  return text + "and " + what + " has " + (came.size() + changed.size() == 1 ? "it" : "them") +
+         " from the start: a picture that is saved makes the run again";
 }
 
 /// Addresses changed after the first step.
@@ -460,6 +509,7 @@ std::vector<std::string> Workbench::changed_while_running() const {
   const Start& start = newest_start();
   std::vector<std::string> changed = Document::difference(start.at_start, start.running);
   const std::shared_ptr<const LiveFrame> live = session_->latest();
+  if (live->steps == 0 && live->head == 0 && !live->is_older) return {};  // there was none
   const auto was_before_the_first_step = [&](const std::string& address) {
     bool is_told = false, is_later = false;
     for (const scene::LiveChange& change : live->snapshot.changes) {
@@ -480,7 +530,7 @@ std::filesystem::path Workbench::sweep_around(const std::string& address) {
     const std::filesystem::path file =
         options_.folder / ("sweep_" + plain_file_name(address) + ".toml");
     const std::vector<std::string> later = changed_while_running();
-    write_sweep_around(file, document_, address, later);
+    write_sweep_around(file, document_, file_of_scene(), address, later);
     std::string text = "wrote " + file.string() + "; " +
                        sweep::plan::sweep_command(file.string(), document_.coarsening()) +
                        " makes its runs";
@@ -543,8 +593,15 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
   }
 }
 
-std::string Workbench::command() const {
-  return render_command(document_);
+std::string Workbench::command() {
+  try {
+    const std::string command = render_command(document_, file_of_scene());
+    say(Message::Kind::note, "copied: " + command + changes_too_early("its run"));
+    return command;
+  } catch (const std::exception& error) {
+    say_not_saved("no command: " + text_of(error));
+    return {};
+  }
 }
 
 record::PictureRecord Workbench::picture_record(const LiveFrame& live,
@@ -555,7 +612,7 @@ record::PictureRecord Workbench::picture_record(const LiveFrame& live,
   record::PictureRecord record;
   record.scene = scene::write_scene(scene);
   record.overrides = overrides(live);
-  record.coarsening = document_.coarsening();
+  record.coarsening = document_.whole_coarsening();
   record.seed = scene.seed;
   record.version = version;
   record.build = build_text(live.simd);
@@ -565,6 +622,21 @@ record::PictureRecord Workbench::picture_record(const LiveFrame& live,
   record.files = record::hash_files(scene, live.snapshot.changes);
   record.changes = live.snapshot.changes;
   return record;
+}
+
+void Workbench::say_saved_picture(const std::filesystem::path& file, const LiveFrame& live,
+                                  bool was_between) {
+  const std::string frame = "frame " + std::to_string(scene::number_of(*live.scene, live.frame)),
+                    render = "; neve render " + shell_path(file.string()) + " makes ";
+  std::string text = "saved " + file.string();
+  if (!live.is_frame_end)  // the run diverged there: any other goes on to its next frame
+    text += "; it shows step " + std::to_string(live.steps) +
+            ", where the run diverged, and only whole frames can be made again" + render + frame;
+  else
+    text += render + "it again";
+  if (was_between && live.is_frame_end)
+    text += "; it shows " + frame + ", the next one: only whole frames can be made again";
+  say(Message::Kind::note, std::move(text));
 }
 
 void Workbench::say_not_saved(std::string text) {

@@ -77,7 +77,7 @@ class Workbench {
   /// pictures alone.
   scene::Scene display_scene(const LiveFrame& live) const;
 
-  /// True if the file on disk differs from the one read or saved last.
+  /// True if the scene has a file, and that on disk differs from the one read or saved last.
   bool has_file_changed() const;
   /// Reads the file again and starts again. If it is not a scene, everything stays, and the file
   /// still counts as changed.
@@ -92,7 +92,7 @@ class Workbench {
   /// Into the folder, in the place of no file but an earlier copy of this session, or of one with
   /// the same text. @return its name; "" after an error
   std::filesystem::path save_copy();
-  bool may_save_over_file() const { return !options_.is_remote; }
+  bool may_save_over_file() const { return !options_.is_remote && document_.has_own_file(); }
   std::filesystem::path sweep_around(const std::string& address);
   /// Values around that of a parameter, as -p takes them; "" if none can be chosen.
   static std::string values_around(const scene::FlatParam& param);
@@ -100,9 +100,15 @@ class Workbench {
   /// @return why it did not start; "" if it did
   std::string vary_from_here(const StudyRequest& request, const scene::View& view);
   Study& study() { return study_; }
-  std::string command() const;
+  /// The command that renders the scene as it is now, for the clipboard. Where the scene has no
+  /// file, one is written into the folder. @return "" after an error
+  std::string command();
   /// Record that a picture of this moment needs to be made again.
   record::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
+  /// Says that one was saved, and what makes it again.
+  /// @param was_between  it was asked for between two frames, and shows the next
+  void say_saved_picture(const std::filesystem::path& file, const LiveFrame& live,
+                         bool was_between);
 
   void say(Message::Kind kind, std::string text);
   /// Says the error. A script of clicks ends with it.
@@ -127,12 +133,16 @@ class Workbench {
   std::shared_ptr<const scene::Scene> pictured(const LiveFrame& live) const;
   const Start& newest_start() const;
   Start& newest_start() { return const_cast<Start&>(std::as_const(*this).newest_start()); }
-  std::string saved_text() const;
-  bool has_saved_text(const std::filesystem::path& file) const;
+  bool is_file_of_scene(const std::filesystem::path& file) const;
+  std::string saved_text(const std::filesystem::path& file) const;
+  /// A text for the file that it will be in: it names other files as seen from there.
+  using TextIn = std::function<std::string(const std::filesystem::path&)>;
+  std::filesystem::path free_name(const std::string& stem, const TextIn& text_in) const;
+  std::string file_of_scene() const;
   void require_allowed(const std::string& address, const std::string& value) const;
   void take_over(const std::vector<scene::Override>& before);
   std::vector<std::string> changed_while_running() const;
-  std::string added_while_running() const;
+  std::string changes_too_early(const std::string& what) const;
   void apply_running();
   bool waits_with_its_object(const std::string& address) const;
   bool lacks_its_object(const std::vector<scene::Override>& edits,
@@ -162,7 +172,7 @@ struct Opened {
   std::optional<Past> past{};          ///< of a run with moments to start from
 };
 
-/// @param file       a scene, a picture or the folder of a run; the views in it
+/// @param file       a scene, a picture or the folder of a run; empty: the default scene
 /// @param agreement  to what a picture that came alone costs and reads
 /// @throws SceneError, UsageError, IoError, Error
 Opened open_document(const std::string& file, const std::vector<std::string>& overrides,
