@@ -32,7 +32,8 @@ Viewer::Viewer(session::Workbench& bench, frontend::Frontend& front, render::Scr
       renderer_(renderer),
       options_(options),
       input_((screen.select_panels(), front)),
-      state_{.bench = bench} {
+      state_{.bench = bench},
+      take_{.folder = bench.folder()} {
   state_.view = options.view.value_or(bench.document().scene()->views.front().name);
   state_.copy = [this](const std::string& text) { front_.set_clipboard(text); };
   if (front_.takes_files())
@@ -93,6 +94,7 @@ void Viewer::take_live_frame() {
   if (state_.live && live->number == state_.live->number) return;
   record_due();
   state_.live = live;
+  follow_run();
   if (live->probe) {
     panels::ProbeTrace& trace = state_.trace;
     if (trace.quantity.empty() && !live->probe->rows.empty())

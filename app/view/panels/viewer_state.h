@@ -92,7 +92,7 @@ struct ViewerState {
   bool is_playing = false;        ///< kept frames, one after the other
   double play_clock = 0;          ///< s since the last one
   bool is_recording = false;
-  int recorded = 0;  ///< frames of the sequence so far
+  int recorded = 0;  ///< pictures of it so far
   bool wants_picture = false;
   std::size_t tab = 0;                     ///< of the right column
   std::optional<std::size_t> go_to_tab{};  ///< opens this one

@@ -87,6 +87,8 @@ struct LiveFrame {
   std::uint64_t number = 0;                   ///< number of published frames
   std::uint64_t start = 0;                    ///< that its run began with; 0: the first one
   std::uint64_t newest_start = 0;             ///< that was tried, `start` too if it succeeded
+  std::uint64_t forks = 0;                    ///< times that a run left later frames behind
+  int forked_at = 0;                          ///< frame where the last one did
   std::shared_ptr<const scene::Scene> scene;  ///< that is simulated, colliders where they are
   picture::Snapshot snapshot;
   std::vector<picture::PlotSample> history;  ///< one per frame; snapshot.history shows these
