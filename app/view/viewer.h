@@ -1,7 +1,6 @@
 #pragma once
 /// The loop of `neve view`: input, panels, pictures.
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -42,8 +41,7 @@ struct StateKey {
 struct PictureKey {
   StateKey state;
   int width = 0, height = 0;
-  sim::Vec3d eye, target;
-  double fov = 0;
+  panels::Orbit camera;
   bool is_camera_of_scene = false;
   bool operator==(const PictureKey&) const = default;
 };
@@ -55,7 +53,7 @@ struct RecordedKey {
   std::shared_ptr<const scene::Scene> scene;  ///< as it is edited
   std::string view;
   bool shows_incident = false;
-  std::optional<std::array<double, 7>> camera;  ///< of the viewport; none: the scene's own
+  std::optional<panels::Orbit> camera;  ///< of the viewport; none: the scene's own
   bool operator==(const RecordedKey&) const = default;
 };
 

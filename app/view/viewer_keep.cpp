@@ -102,10 +102,7 @@ RecordedKey Viewer::recorded_key() const {
   const session::LiveFrame& live = *state_.live;
   RecordedKey key{live.start,  live.state_hash,       live.frame,  bench_.document().scene(),
                   state_.view, state_.shows_incident, std::nullopt};
-  const sim::Vec3d eye = state_.orbit.eye(), target = state_.orbit.target();
-  if (!state_.is_camera_of_scene)
-    key.camera = {eye.x(),    eye.y(),    eye.z(),           target.x(),
-                  target.y(), target.z(), state_.orbit.fov()};
+  if (!state_.is_camera_of_scene) key.camera = state_.orbit;
   return key;
 }
 

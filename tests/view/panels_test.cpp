@@ -4,13 +4,17 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/support/text.h"
 #include "app/view/panels/labels.h"
+#include "app/view/panels/orbit.h"
 #include "app/view/panels/slider_scale.h"
 #include "app/view/panels/tip.h"
+#include "app/view/panels/viewer_state.h"
 #include "app/view/panels/viewport.h"
 #include "app/view/panels/widgets.h"
 #include "app/view/panels/words.h"
@@ -304,6 +308,28 @@ shape = { box = { center = [0, -500, 0], size = [900, 900, 900] } }
   EXPECT_NEAR(box.max.x(), 0.3, 1e-9);
   live.snapshot.particles.x.clear();
   EXPECT_NEAR(app::view::panels::bounds_of_all(live).max.x(), 450, 1e-6) << "no snow: all things";
+}
+
+TEST(Orbit, OrbitIsAsLevelAsTheCameraOfTheSceneUntilItIsTurned) {
+  using app::view::panels::Orbit;
+  const sim::Vec3d eye(0.3, 0.4, 2), target(0, 0.1, 0), tilted(1, 1, 0.2);
+  Orbit orbit(eye, target, tilted, 30);
+  EXPECT_TRUE(orbit.eye().isApprox(eye, 1e-12));
+  const sim::Vec3d along = orbit.forward(),
+                   in_picture = (tilted - tilted.dot(along) * along).normalized();
+  EXPECT_TRUE(orbit.up().isApprox(in_picture, 1e-12)) << orbit.up().transpose();
+  EXPECT_TRUE(orbit.right().isApprox(along.cross(in_picture), 1e-12));
+  EXPECT_TRUE(orbit.settings().up.isApprox(in_picture, 1e-12)) << "so is the picture";
+  // What is projected is where a ray meets it.
+  const sim::Vec3d place = orbit.eye() + 1.5 * orbit.ray(0.2, -0.1), seen = orbit.project(place);
+  EXPECT_NEAR(seen.x(), 0.2, 1e-12);
+  EXPECT_NEAR(seen.y(), -0.1, 1e-12);
+  orbit.pan(0.1, 0);
+  EXPECT_TRUE(orbit.up().isApprox(in_picture, 1e-12));
+  orbit.turn(0.01, 0);
+  EXPECT_NEAR(orbit.right().y(), 0, 1e-12);
+  EXPECT_EQ(orbit.settings().up, sim::Vec3d(0, 1, 0));
+  EXPECT_EQ(Orbit(eye, target, {0, 1, 0}, 30).settings().up, sim::Vec3d(0, 1, 0));
 }
 
 }  // namespace

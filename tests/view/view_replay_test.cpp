@@ -407,5 +407,21 @@ TEST_F(ViewByScript, APhoneHeldUprightHasThePanelsBelow) {
   EXPECT_EQ(size_of("alone.png"), std::pair(390, 844));
 }
 
+/// The picture on the screen is the one that is saved, whatever is up in it.
+TEST_F(ViewByScript, ThePictureOnTheScreenIsTiltedAsTheCameraOfTheScene) {
+  const auto shown = [&](const std::string& up, const char* name) {
+    const auto result = view(std::string(R"([{"key": "1"}, {"wait": 10}, {"screenshot": ")") +
+                                 name + R"(", "crop": "picture"}])",
+                             {"--set", "camera.eye=[0, 0.3, 1]", "--set",
+                              "camera.target=[0, 0.1, 0]", "--set", "camera.up=" + up});
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == app::exit_no_backend) << result.errors;
+    return result.exit_code == 0 ? render::decode_png(app::output::read_file(folder / "out" / name))
+                                 : render::Image{};
+  };
+  const render::Image level = shown("[0, 1, 0]", "level.png");
+  if (level.pixels.empty()) SKIP_OR_FAIL("no way to draw");
+  EXPECT_GT(changed_bytes(level, shown("[1, 1, 0]", "tilted.png")), level.pixels.size() / 20);
+}
+
 }  // namespace
 }  // namespace neve::test
