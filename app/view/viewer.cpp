@@ -293,12 +293,9 @@ void Viewer::play(double passed) {
   const int wanted = live.frame + static_cast<int>(state_.play_clock);
   state_.play_clock = 0;
   const auto next = std::lower_bound(live.kept.begin(), live.kept.end(), wanted);
-  if (next == live.kept.end() || *next >= live.head) {
-    bench_.session().show_head();
-    state_.is_playing = false;
-  } else {
-    bench_.session().show_frame(*next);
-  }
+  const int frame = next == live.kept.end() ? live.head + 1 : *next;
+  panels::show_frame(state_, frame);
+  if (panels::is_newest(live, frame)) state_.is_playing = false;
 }
 
 }  // namespace neve::app::view

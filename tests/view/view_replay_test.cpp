@@ -407,6 +407,16 @@ TEST_F(ViewByScript, APhoneHeldUprightHasThePanelsBelow) {
   EXPECT_EQ(size_of("alone.png"), std::pair(390, 844));
 }
 
+/// A step after frame 1, the key for earlier frames shows frame 1, whose picture is saved as it is.
+TEST_F(ViewByScript, TheKeyForEarlierFramesStopsAtTheOneBeforeAStep) {
+  const auto result = view(R"([
+    {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait_for": "simulation paused"},
+    {"key": ","}, {"wait": 10}, {"key": "left"}, {"wait": 10}, {"key": "p"}, {"wait": 10}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(files("particles_0001_step", ".png").size(), 1u);
+}
+
 /// The picture on the screen is the one that is saved, whatever is up in it.
 TEST_F(ViewByScript, ThePictureOnTheScreenIsTiltedAsTheCameraOfTheScene) {
   const auto shown = [&](const std::string& up, const char* name) {

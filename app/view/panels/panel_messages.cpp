@@ -55,13 +55,6 @@ void draw_keys(const char* keys, const char* what) {
   }
 }
 
-void show_frame(ViewerState& state, int frame) {
-  if (frame >= state.live->head)
-    state.bench.session().show_head();
-  else
-    state.bench.session().show_frame(frame);
-}
-
 /// A tick for every kept frame, on the bar of the slider that was drawn last.
 void draw_ticks(const session::LiveFrame& live, int last) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
@@ -129,7 +122,9 @@ void draw_question(ViewerState& state, ImVec2 at) {
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
     ImGui::TextUnformatted(
-        (first == start + live.head
+        (first > start + live.head
+             ? fmt::format("Continuing here drops the steps after frame {}.", first - 1)
+         : first == start + live.head
              ? fmt::format("Continuing here drops frame {}, and the changes made in it.", first)
              : fmt::format(
                    "Continuing here drops the frames {} to {}, and the changes made in them.",
@@ -189,7 +184,7 @@ void draw_time_line(ViewerState& state) {
   if (!is_typed) ImGui::PopStyleColor();
   if (is_moved) {
     state.is_playing = false;
-    show_frame(state, std::clamp(frame - start, 0, live.head));
+    show_frame(state, std::max(0, frame - start));
   }
   note_label("time line");
   tip(fmt::format("{} frames are kept, {}; beyond {} older ones are thinned out", live.kept.size(),

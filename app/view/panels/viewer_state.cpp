@@ -90,6 +90,17 @@ void toggle_run(ViewerState& state) {
     state.bench.session().run();
 }
 
+bool is_newest(const session::LiveFrame& live, int frame) {
+  return frame > live.head || (frame == live.head && live.is_head_frame_end);
+}
+
+void show_frame(ViewerState& state, int frame) {
+  if (is_newest(*state.live, frame))
+    state.bench.session().show_head();
+  else
+    state.bench.session().show_frame(frame);
+}
+
 void frame_all(ViewerState& state) {
   if (state.live) frame_box(state, bounds_of_all(*state.live));
 }

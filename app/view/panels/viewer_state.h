@@ -127,6 +127,10 @@ scene::View view_to_keep(const ViewerState& state);
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe);
 
 void toggle_run(ViewerState& state);
+/// Whether nothing of the run is newer than the end of this frame: it may be between two.
+bool is_newest(const session::LiveFrame& live, int frame);
+/// Shows a kept frame, or where the run is.
+void show_frame(ViewerState& state, int frame);
 /// All snow, colliders, emitters and sinks, but those that are far larger than the snow.
 void frame_all(ViewerState& state);
 /// Frames the probed or selected object; everything if there is none.

@@ -100,9 +100,10 @@ struct LiveFrame {
   bool is_frame_end = true;
   std::size_t steps = 0;  ///< since the start
   bool is_running = false;
-  bool is_older = false;        ///< not where the run is: a kept frame
-  int head = 0;                 ///< frame where the run is
-  bool is_head_broken = false;  ///< the run broke a rule there
+  bool is_older = false;          ///< not where the run is: a kept frame
+  int head = 0;                   ///< frame where the run is, the last one that it passed
+  bool is_head_frame_end = true;  ///< the run is at the end of that frame
+  bool is_head_broken = false;    ///< the run broke a rule there
   std::vector<int> kept;
   std::uint64_t kept_bytes = 0, kept_budget = 0;
 
