@@ -321,6 +321,26 @@ TEST(Session, ParticlesOfABrokenRunAreRead) {
   EXPECT_EQ(std::get<std::size_t>(live->probe->target), 5u);
 }
 
+/// The plot of forces has no zeros where the steps of a frame are still being taken.
+TEST(Samples, ForcesAreUnknownInsideAFrameAndKnownAtItsEnd) {
+  const auto scene = scene_of(tiny_scene);
+  view::session::Samples samples;
+  timeline::Timeline* running = nullptr;
+  timeline::Timeline run(*scene, {},
+                         std::make_shared<setup::SeededScene>(setup::seed_scene(*scene)), 0, {},
+                         timeline::Watch{[&] {
+                           samples.note_if_cheap(*running);
+                           return false;
+                         }});
+  running = &run;
+  samples.begin();
+  ASSERT_TRUE(run.advance_frame());
+  samples.note(run);
+  ASSERT_GT(samples.list()->size(), 1u);
+  for (const view::session::RunSample& sample : *samples.list())
+    EXPECT_EQ(std::isnan(sample.max_force), sample.time < run.simulation().time()) << sample.time;
+}
+
 /// The run may be between two frames: the one that it passed last is kept, too.
 TEST(Session, TheFrameBeforeAStepIsShownAndContinuedFrom) {
   const TemporaryFolder folder;

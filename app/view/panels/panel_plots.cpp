@@ -40,6 +40,19 @@ std::vector<render::PlotSeries> dt_series(const std::vector<RunSample>& samples)
   return list;
 }
 
+/// The curve passes over samples that lack its value.
+render::PlotSeries without_gaps(render::PlotSeries series) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < series.value.size(); ++k) {
+    if (!std::isfinite(series.value[k])) continue;
+    series.x[kept] = series.x[k];
+    series.value[kept++] = series.value[k];
+  }
+  series.x.resize(kept);
+  series.value.resize(kept);
+  return series;
+}
+
 /// Names of curves in their colours, on the line of the title where there is room.
 void draw_legend(const std::vector<render::PlotSeries>& list) {
   for (const render::PlotSeries& series : list) {
@@ -129,7 +142,7 @@ void draw_plots_panel(ViewerState& state) {
   draw(state, "largest pressure on a collider", "Pa",
        {curve("", blue, [](const RunSample& s) { return s.max_pressure; })});
   draw(state, "largest force on a collider", "N",
-       {curve("", pink, [](const RunSample& s) { return s.max_force; })});
+       {without_gaps(curve("", pink, [](const RunSample& s) { return s.max_force; }))});
   if (auto heights =
           picture::body_curves(samples, [](const picture::BodySample& b) { return b.height; });
       !heights.empty()) {

@@ -29,7 +29,8 @@ struct RunSample {
   sim::DtLimit limit = sim::DtLimit::max_dt;  ///< that rules it
   double max_depth = 0;                       ///< m, of the particle deepest in a collider
   double max_pressure = 0;                    ///< Pa, of snow on a collider
-  double max_force = 0;  ///< N, of snow on a collider, the mean since the frame began
+  double max_force = 0;  ///< N, of snow on a collider, the mean since the frame began; not a
+                         ///< number: the steps of the frame are being taken
   std::vector<picture::BodySample> bodies{};
 };
 
