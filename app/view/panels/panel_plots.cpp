@@ -30,10 +30,13 @@ std::vector<render::PlotSeries> dt_series(const std::vector<RunSample>& samples)
     render::PlotSeries series = picture::curve(style.name, style.color, samples,
                                                [](const RunSample& s) { return 1000 * s.dt; });
     bool is_used = false;
+    const auto is_ruled = [&](const RunSample& sample) {
+      return sample.limit == style.limit && std::isfinite(sample.dt);
+    };
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      const bool is_next = k + 1 < samples.size() && samples[k + 1].limit == style.limit;
-      is_used = is_used || samples[k].limit == style.limit;
-      if (samples[k].limit != style.limit && !is_next) series.value[k] = nothing;
+      const bool is_next = k + 1 < samples.size() && is_ruled(samples[k + 1]);
+      is_used = is_used || is_ruled(samples[k]);
+      if (!is_ruled(samples[k]) && !is_next) series.value[k] = nothing;
     }
     if (is_used) list.push_back(std::move(series));
   }

@@ -25,7 +25,8 @@ struct RunSample {
   sim::Vec3d momentum{0, 0, 0};                   ///< kg m/s
   double max_speed = 0;                           ///< m/s
   double min_J_P = 1, max_J_P = 1;
-  double dt = 0;                              ///< s, that the settings choose next
+  double dt = 0;  ///< s, that the settings choose next; of a run that was opened, the longest of
+                  ///< the frame; not a number: it has no steps
   sim::DtLimit limit = sim::DtLimit::max_dt;  ///< that rules it
   double max_depth = 0;                       ///< m, of the particle deepest in a collider
   double max_pressure = 0;                    ///< Pa, of snow on a collider

@@ -19,9 +19,11 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 RunSample sample_of(const record::FrameRecord& frame) {
   const sim::Summary& s = frame.summary;
+  const sim::AdvanceReport& steps = frame.advance;
   RunSample sample{
-      frame.time, s.kinetic_energy,     s.elastic_energy,      s.momentum, s.max_speed, s.min_J_P,
-      s.max_J_P,  frame.advance.dt_max, frame.advance.limit(), s.max_depth};
+      frame.time,    s.kinetic_energy, s.elastic_energy, s.momentum,
+      s.max_speed,   s.min_J_P,        s.max_J_P,        steps.steps > 0 ? steps.dt_max : unknown,
+      steps.limit(), s.max_depth};
   for (const record::ColliderForce& force : frame.forces) {
     sample.max_pressure = std::max(sample.max_pressure, force.max_pressure);
     sample.max_force = std::max(sample.max_force, force.force.norm());
