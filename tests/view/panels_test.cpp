@@ -332,5 +332,11 @@ TEST(Orbit, OrbitIsAsLevelAsTheCameraOfTheSceneUntilItIsTurned) {
   EXPECT_EQ(Orbit(eye, target, {0, 1, 0}, 30).settings().up, sim::Vec3d(0, 1, 0));
 }
 
+TEST(Plots, SharesOfPhasesAreOfAllOfThem) {
+  app::view::session::LiveFrame live;
+  live.phases = {1, 2, 4, 8, 16, 32, 64};
+  EXPECT_EQ(live.phases_total(), 127);
+}
+
 }  // namespace
 }  // namespace neve::app

@@ -128,13 +128,10 @@ std::string stage_time_text(const session::LiveFrame& live, sim::Stage stage) {
     return fixed_text(1e3 * own, own < 0.01 ? 2 : 0) + " ms, " + fixed_text(100 * own / all, 0) +
            " %";
   }
-  const sim::PhaseSeconds& p = live.phases;
-  const double all =
-      p.partition + p.particles_to_grid + p.grid_update + p.solve + p.grid_to_particles + p.checks;
-  const StagePhase phase = phase_of(stage, p);
+  const StagePhase phase = phase_of(stage, live.phases);
   if (!(phase.seconds > 0)) return "";
   if (stage != phase.first) return "as above";
-  return fixed_text(100 * phase.seconds / all, 0) + " %, " + phase.name;
+  return fixed_text(100 * phase.seconds / live.phases_total(), 0) + " %, " + phase.name;
 }
 
 /// A row: the switch that skips the stage, its name, its time.
