@@ -95,17 +95,7 @@ void Viewer::take_live_frame() {
   record_due();
   state_.live = live;
   follow_run();
-  if (live->probe) {
-    panels::ProbeTrace& trace = state_.trace;
-    if (trace.quantity.empty() && !live->probe->rows.empty())
-      trace.quantity = live->probe->is_node ? "v_old" : "v";
-    for (const session::ProbeRow& row : live->probe->rows) {
-      if (row.name != trace.quantity) continue;
-      while (!trace.points.empty() && trace.points.back().first >= live->probe->time)
-        trace.points.pop_back();
-      trace.points.emplace_back(live->probe->time, row.magnitude);
-    }
-  }
+  state_.trace.take(*live);
   follow();
 }
 

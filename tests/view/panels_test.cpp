@@ -332,6 +332,48 @@ TEST(Orbit, OrbitIsAsLevelAsTheCameraOfTheSceneUntilItIsTurned) {
   EXPECT_EQ(Orbit(eye, target, {0, 1, 0}, 30).settings().up, sim::Vec3d(0, 1, 0));
 }
 
+/// A moment at which the speed of the probed particle is as given.
+app::view::session::LiveFrame probed(double time, double speed) {
+  app::view::session::LiveFrame live;
+  live.scene = std::make_shared<app::scene::Scene>();
+  live.snapshot.time = time;
+  live.probed = app::dump::Probe(std::size_t{7});
+  app::view::session::ProbeReading& reading = live.probe.emplace();
+  reading.target = *live.probed;
+  reading.time = time;
+  app::view::session::ProbeRow row;
+  row.name = "v";
+  row.magnitude = speed;
+  reading.rows = {row};
+  return live;
+}
+
+TEST(ProbeTrace, ProbeTraceHasAllMomentsOfTheRunInTheOrderOfTime) {
+  app::view::panels::ProbeTrace trace;
+  trace.target = app::dump::Probe(std::size_t{7});
+  const double fps = app::scene::Scene{}.fps;
+  const auto at = [&](int frame) { return frame / fps; };
+  for (const int frame : {1, 2, 4}) trace.take(probed(at(frame), frame));
+  trace.take(probed(at(3), 3));  // an earlier moment is looked at
+  using Points = std::map<double, double>;
+  EXPECT_EQ(trace.points, (Points{{at(1), 1}, {at(2), 2}, {at(3), 3}, {at(4), 4}}));
+  auto forked = probed(at(3), 5);  // continued from frame 2
+  forked.forks = 1;
+  forked.forked_at = 2;
+  trace.take(forked);
+  EXPECT_EQ(trace.points, (Points{{at(1), 1}, {at(2), 2}, {at(3), 5}}));
+  auto other = probed(at(2), 9);
+  other.probed = app::dump::Probe(std::size_t{8});
+  other.forks = 1;
+  trace.take(other);
+  EXPECT_EQ(trace.points.size(), 3u) << "of another particle";
+  auto again = probed(0, 6);  // after a Reset
+  again.start = 1;
+  again.forks = 1;
+  trace.take(again);
+  EXPECT_EQ(trace.points, (Points{{0, 6}}));
+}
+
 TEST(Plots, SharesOfPhasesAreOfAllOfThem) {
   app::view::session::LiveFrame live;
   live.phases = {1, 2, 4, 8, 16, 32, 64};

@@ -68,21 +68,49 @@ void draw_legend(const std::vector<render::PlotSeries>& list) {
   }
 }
 
-/// Title and legend as words, which wrap, and the panel below them.
 void draw(const ViewerState& state, const char* title, const char* unit,
           std::vector<render::PlotSeries> list) {
+  draw_over_time(state, title, *unit ? std::string(title) + " (" + unit + ")" : title,
+                 std::move(list), true);
+}
+
+void draw_phases(const session::LiveFrame& live) {
+  const sim::PhaseSeconds& p = live.phases;
+  const std::pair<const char*, double> phases[] = {{"partition", p.partition},
+                                                   {"particles to grid", p.particles_to_grid},
+                                                   {"grid update", p.grid_update},
+                                                   {"solve", p.solve},
+                                                   {"grid to particles", p.grid_to_particles},
+                                                   {"dust", p.dust},
+                                                   {"checks", p.checks}};
+  const double all = live.phases_total();
+  if (!(all > 0) || live.steps == 0) return;
+  ImGui::TextUnformatted("where the time of a step goes");
+  for (const auto& [name, seconds] : phases) {
+    if (seconds == 0) continue;
+    const std::string text = std::string(name) + ", " + fixed_text(100 * seconds / all, 0) + " %";
+    ImGui::ProgressBar(static_cast<float>(seconds / all), ImVec2(-FLT_MIN, 1.1f * em()),
+                       text.c_str());
+  }
+}
+
+}  // namespace
+
+void draw_over_time(const ViewerState& state, const char* label, const std::string& title,
+                    std::vector<render::PlotSeries> list, bool has_zero) {
   render::Plot plot;
   const scene::Scene& scene = *state.live->scene;
   plot.x_end = static_cast<float>(scene::duration(scene));
   plot.now = static_cast<float>(state.live->snapshot.time);
-  plot.min = plot.max = 0;
+  plot.min = has_zero ? 0 : HUGE_VALF;
+  plot.max = has_zero ? 0 : -HUGE_VALF;
   for (const render::PlotSeries& series : list)
     for (const float value : series.value) {
       if (!std::isfinite(value)) continue;
       plot.min = std::min(plot.min, value);
       plot.max = std::max(plot.max, value);
     }
-  ImGui::TextUnformatted(*unit ? (std::string(title) + " (" + unit + ")").c_str() : title);
+  ImGui::TextUnformatted(title.c_str());
   draw_legend(list);
   plot.series = std::move(list);
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -95,31 +123,8 @@ void draw(const ViewerState& state, const char* title, const char* unit,
        std::round(at.y + 0.4f * em()), std::round(at.y + height)},
       {.has_title = false}, canvas);
   ImGui::Dummy(ImVec2(width, height + 1.6f * em()));
-  note_label(title);
+  note_label(label);
 }
-
-void draw_phases(const session::LiveFrame& live) {
-  const sim::PhaseSeconds& p = live.phases;
-  const std::pair<const char*, double> phases[] = {{"partition", p.partition},
-                                                   {"particles to grid", p.particles_to_grid},
-                                                   {"grid update", p.grid_update},
-                                                   {"solve", p.solve},
-                                                   {"grid to particles", p.grid_to_particles},
-                                                   {"dust", p.dust},
-                                                   {"checks", p.checks}};
-  double all = 0;
-  for (const auto& [name, seconds] : phases) all += seconds;
-  if (!(all > 0) || live.steps == 0) return;
-  ImGui::TextUnformatted("where the time of a step goes");
-  for (const auto& [name, seconds] : phases) {
-    if (seconds == 0) continue;
-    const std::string text = std::string(name) + ", " + fixed_text(100 * seconds / all, 0) + " %";
-    ImGui::ProgressBar(static_cast<float>(seconds / all), ImVec2(-FLT_MIN, 1.1f * em()),
-                       text.c_str());
-  }
-}
-
-}  // namespace
 
 void draw_plots_panel(ViewerState& state) {
   const std::vector<RunSample>& samples = *state.live->samples;

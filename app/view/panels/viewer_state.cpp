@@ -76,7 +76,8 @@ scene::View view_to_keep(const ViewerState& state) {
 
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe) {
   state.probe = probe;
-  state.trace = {state.trace.quantity, {}, probe};
+  state.trace.points.clear();
+  state.trace.target = probe;
   state.last_followed.reset();
   state.bench.session().set_probe(std::move(probe));
 }
@@ -88,6 +89,20 @@ void toggle_run(ViewerState& state) {
     state.bench.session().pause();
   else
     state.bench.session().run();
+}
+
+void ProbeTrace::take(const session::LiveFrame& live) {
+  if (live.start != start) points.clear();
+  if (live.start == start && live.forks != forks)
+    std::erase_if(points, [end = live.forked_at / live.scene->fps](const auto& point) {
+      return point.first > end + 1e-9;
+    });
+  start = live.start;
+  forks = live.forks;
+  if (!live.probe || live.probed != target) return;
+  if (quantity.empty() && !live.probe->rows.empty()) quantity = live.probe->is_node ? "v_old" : "v";
+  for (const session::ProbeRow& row : live.probe->rows)
+    if (row.name == quantity) points[live.probe->time] = row.magnitude;
 }
 
 bool is_newest(const session::LiveFrame& live, int frame) {
