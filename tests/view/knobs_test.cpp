@@ -127,5 +127,13 @@ TEST(TypedNumber, TypedNumberMayBeAsLargeAsInAScene) {
   EXPECT_EQ(field.edits[0].value, "9007199254740992");
 }
 
+TEST(TypedText, TypedTextOfAnyLengthIsTaken) {
+  Field<std::string> field("short", app::scene::anything);
+  const std::string typed(1500, 'b');
+  field.type(typed);
+  ASSERT_EQ(field.edits.size(), 1u);
+  EXPECT_EQ(field.edits[0].value, "\"" + typed + "\"");
+}
+
 }  // namespace
 }  // namespace neve::app

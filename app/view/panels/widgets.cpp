@@ -1,14 +1,14 @@
 #include "app/view/panels/widgets.h"
 
 #include <imgui_internal.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -205,12 +205,10 @@ bool edit_value(const Knob& knob, std::uint64_t& value) {
 }
 
 bool edit_value(const Knob&, std::string& value) {
-  char text[512];
-  std::snprintf(text, sizeof text, "%s", value.c_str());
-  if (!ImGui::InputText("##value", text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue))
-    return false;
+  std::string text = value;
+  if (!ImGui::InputText("##value", &text, ImGuiInputTextFlags_EnterReturnsTrue)) return false;
   if (value == text) return false;
-  value = text;
+  value = std::move(text);
   return true;
 }
 
