@@ -407,6 +407,23 @@ TEST_F(ViewByScript, APhoneHeldUprightHasThePanelsBelow) {
   EXPECT_EQ(size_of("alone.png"), std::pair(390, 844));
 }
 
+/// Also where three columns have just room beside each other.
+TEST_F(ViewByScript, ButtonsOfTheTimeLineAreWholeInWindowsOfAnyWidth) {
+  const auto width = [&](const std::string& size) {
+    const auto result = view(R"([{"resize": )" + size + R"(}, {"wait": 5},
+      {"screenshot": "button.png", "crop": "Back to the run"}])",
+                             {"--set", "frames=3600"});
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == app::exit_no_backend) << result.errors;
+    return result.exit_code == 0
+               ? render::decode_png(app::output::read_file(folder / "out/button.png")).width
+               : 0;
+  };
+  const int whole = width("[1280, 760]");
+  if (whole == 0) SKIP_OR_FAIL("no way to draw");
+  for (const char* size : {"[960, 560]", "[1000, 560]", "[900, 560]", "[640, 480]", "[390, 844]"})
+    EXPECT_EQ(width(size), whole) << size;
+}
+
 /// A step after frame 1, the key for earlier frames shows frame 1, whose picture is saved as it is.
 TEST_F(ViewByScript, TheKeyForEarlierFramesStopsAtTheOneBeforeAStep) {
   const auto result = view(R"([

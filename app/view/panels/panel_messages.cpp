@@ -4,6 +4,8 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <string>
 
 #include "app/health/incident.h"
 #include "app/support/text.h"
@@ -140,6 +142,15 @@ void draw_question(ViewerState& state, ImVec2 at) {
   ImGui::End();
 }
 
+/// With the gap before each.
+float width_of_buttons(std::initializer_list<const char*> names) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = 0;
+  for (const char* name : names)
+    width += style.ItemSpacing.x + ImGui::CalcTextSize(name).x + 2 * style.FramePadding.x;
+  return width;
+}
+
 }  // namespace
 
 void draw_messages(ViewerState& state) {
@@ -167,16 +178,23 @@ void draw_time_line(ViewerState& state) {
   note_label(state.is_playing ? "Stop" : "Play");
   tip("play the kept frames, without simulating");
   ImGui::SameLine();
+  // As wide whichever frame is shown, so that no button comes to lie where another was.
+  const float room = ImGui::GetContentRegionAvail().x;
+  const std::string largest = std::to_string(start + last);
+  const float in_full =
+                  width_of_buttons({"Vary from here", "Continue from here", "Back to the run"}),
+              in_short = width_of_buttons({"Vary", "Continue", "Back"}),
+              word = ImGui::CalcTextSize("frame ").x,
+              number = ImGui::CalcTextSize(largest.c_str()).x + 0.6f * em();
+  const bool is_short = room - word - number - in_full < 14 * em();
+  const float right = is_short ? in_short : in_full;
+  const bool has_word = room - word - number - right >= 6 * em();
   // Beside the bar, where the grab cannot cover it, and as wide for every frame.
   ImGui::AlignTextToFramePadding();
-  ImGui::Text("frame %d", start + live.frame);
-  ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x +
-                  ImGui::CalcTextSize(("frame " + std::to_string(start + last)).c_str()).x +
-                  0.6f * em());
-  // As wide whichever frame is shown, so that no button comes to lie where another was.
-  const bool is_short = ImGui::GetContentRegionAvail().x < 40 * em();
-  const float right = (is_short ? 13 : 26) * em();
-  ImGui::SetNextItemWidth(std::max(4 * em(), ImGui::GetContentRegionAvail().x - right));
+  ImGui::Text("%s%d", has_word ? "frame " : "", start + live.frame);
+  ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x + (has_word ? word : 0) +
+                  number);
+  ImGui::SetNextItemWidth(std::max(2 * em(), ImGui::GetContentRegionAvail().x - right));
   int frame = start + live.frame;
   const bool is_typed = ImGui::TempInputIsActive(ImGui::GetID("##time"));
   if (!is_typed) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_BLACK_TRANS);
