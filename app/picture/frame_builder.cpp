@@ -132,7 +132,8 @@ render::Frame FrameBuilder::build(const scene::View& wanted, const Snapshot& sna
   add_grid(view, snapshot, frame);
   if (scene::has_layer(view, scene::Layer::scale))
     add_scale_bar(view, snapshot, plane_of(scene_, view, seeded_, snapshot), frame);
-  if (scene::has_layer(view, scene::Layer::legend)) frame.legends = legends_of(scene_, view, frame);
+  if (scene::has_layer(view, scene::Layer::legend))
+    frame.legends = legends_of(scene_, is_of_stage ? without_snow(view) : view, frame);
   if (is_of_stage) add_stage_change(snapshot, *look, frame);
   if (scene::has_layer(view, scene::Layer::bounds)) add_bounds(snapshot, frame);
   if (scene::has_layer(view, scene::Layer::plots))

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "app/picture/to_float.h"
 #include "app/support/round_number.h"
@@ -36,6 +37,14 @@ bool shows_particles_of(const scene::View& view, const StageChange& change) {
   return scene::shows_particles(view) || !scene::shows_slice(view) || !change.is_of_nodes;
 }
 
+scene::View without_snow(scene::View view) {
+  using enum scene::Layer;
+  std::erase_if(view.layers, [](scene::Layer layer) {
+    return layer == particles || layer == snow || layer == smoke;
+  });
+  return view;
+}
+
 StageCut::StageCut(const scene::View& view, const SlicePlane& at, const sim::Vec3d& eye,
                    double cell)
     : plane(at),
@@ -49,7 +58,7 @@ void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::F
   const double largest = look.largest;
   const render::Legend legend{change.title, change.unit, render::ColorMap::viridis, 0,
                               static_cast<float>(largest > 0 ? largest : 1)};
-  frame.legends = {legend};
+  frame.legends.insert(frame.legends.begin(), legend);
   if (change.vector.empty() || !(largest > 0)) return;
   render::Arrows arrows;
   arrows.colormap = legend.colormap;

@@ -8,6 +8,8 @@ namespace neve::app::picture {
 /// True if the view shows particles while a stage is looked at: instead of smoke, which no stage
 /// changes, and in a slice for the stages of particles.
 bool shows_particles_of(const scene::View& view, const StageChange& change);
+/// The view with the layers whose colours stay then: those of its slice.
+scene::View without_snow(scene::View view);
 
 /// The snow that is left of the side of the plane away from a camera; of a view of the plane alone
 /// only a layer of it.
@@ -32,8 +34,8 @@ struct StageLook {
   double largest = 0;
 };
 
-/// Adds the arrows of the particles next to the plane, at most one in a cell, and the legend in
-/// place of the view's.
+/// Adds the arrows of the particles next to the plane, at most one in a cell, and the legend before
+/// those of the slice.
 void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::Frame& frame);
 
 }  // namespace neve::app::picture

@@ -32,7 +32,8 @@ Viewer::Viewer(session::Workbench& bench, frontend::Frontend& front, render::Scr
       renderer_(renderer),
       options_(options),
       input_((screen.select_panels(), front)),
-      state_{.bench = bench} {
+      state_{.bench = bench},
+      take_{.folder = bench.folder()} {
   state_.view = options.view.value_or(bench.document().scene()->views.front().name);
   state_.copy = [this](const std::string& text) { front_.set_clipboard(text); };
   if (front_.takes_files())
@@ -93,17 +94,8 @@ void Viewer::take_live_frame() {
   if (state_.live && live->number == state_.live->number) return;
   record_due();
   state_.live = live;
-  if (live->probe) {
-    panels::ProbeTrace& trace = state_.trace;
-    if (trace.quantity.empty() && !live->probe->rows.empty())
-      trace.quantity = live->probe->is_node ? "v_old" : "v";
-    for (const session::ProbeRow& row : live->probe->rows) {
-      if (row.name != trace.quantity) continue;
-      while (!trace.points.empty() && trace.points.back().first >= live->probe->time)
-        trace.points.pop_back();
-      trace.points.emplace_back(live->probe->time, row.magnitude);
-    }
-  }
+  follow_run();
+  state_.trace.take(*live);
   follow();
 }
 
@@ -291,12 +283,9 @@ void Viewer::play(double passed) {
   const int wanted = live.frame + static_cast<int>(state_.play_clock);
   state_.play_clock = 0;
   const auto next = std::lower_bound(live.kept.begin(), live.kept.end(), wanted);
-  if (next == live.kept.end() || *next >= live.head) {
-    bench_.session().show_head();
-    state_.is_playing = false;
-  } else {
-    bench_.session().show_frame(*next);
-  }
+  const int frame = next == live.kept.end() ? live.head + 1 : *next;
+  panels::show_frame(state_, frame);
+  if (panels::is_newest(live, frame)) state_.is_playing = false;
 }
 
 }  // namespace neve::app::view

@@ -1,8 +1,9 @@
 #pragma once
 /// The loop of `neve view`: input, panels, pictures.
 
-#include <array>
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,8 +41,7 @@ struct StateKey {
 struct PictureKey {
   StateKey state;
   int width = 0, height = 0;
-  sim::Vec3d eye, target;
-  double fov = 0;
+  panels::Orbit camera;
   bool is_camera_of_scene = false;
   bool operator==(const PictureKey&) const = default;
 };
@@ -53,8 +53,16 @@ struct RecordedKey {
   std::shared_ptr<const scene::Scene> scene;  ///< as it is edited
   std::string view;
   bool shows_incident = false;
-  std::optional<std::array<double, 7>> camera;  ///< of the viewport; none: the scene's own
+  std::optional<panels::Orbit> camera;  ///< of the viewport; none: the scene's own
   bool operator==(const RecordedKey&) const = default;
+};
+
+/// The pictures of a recording that are of one run, in a folder of their own.
+struct Take {
+  std::filesystem::path folder;
+  std::map<std::filesystem::path, int> frames{};  ///< by their files, relative to the folder
+  std::uint64_t start = 0, forks = 0;             ///< of the run
+  bool has_others = false;  ///< the folder has pictures of a run that was left
 };
 
 /// s without a move of the camera.
@@ -96,6 +104,8 @@ class Viewer {
   void download(const std::filesystem::path& file);
   void keep_recording();
   void record_due();
+  void follow_run();
+  void begin_take();
   bool has_what_is_shown() const;
   RecordedKey recorded_key() const;
   void announce_view();
@@ -132,6 +142,7 @@ class Viewer {
   bool is_going_to_frame_ = false, goes_on_ = false;  ///< for a picture that is to be saved
   std::optional<RecordedKey> recorded_;               ///< the last picture of the recording
   bool is_record_due_ = false;                        ///< another one of its frame
+  Take take_;
   std::pair<std::shared_ptr<const scene::Scene>, std::string> announced_;  ///< to the session
 };
 

@@ -97,10 +97,7 @@ RecordedKey Viewer::recorded_key() const {
   const session::LiveFrame& live = *state_.live;
   RecordedKey key{live.start,  live.state_hash,       live.frame,  bench_.document().scene(),
                   state_.view, state_.shows_incident, std::nullopt};
-  const sim::Vec3d eye = state_.orbit.eye(), target = state_.orbit.target();
-  if (!state_.is_camera_of_scene)
-    key.camera = {eye.x(),    eye.y(),    eye.z(),           target.x(),
-                  target.y(), target.z(), state_.orbit.fov()};
+  if (!state_.is_camera_of_scene) key.camera = state_.orbit;
   return key;
 }
 
@@ -127,14 +124,38 @@ void Viewer::keep_recording() {
     record_due();
 }
 
+/// A run that began again, or was continued from an older frame, is another one: it would replace
+/// some pictures of the one before, and mix with the rest.
+void Viewer::follow_run() {
+  const session::LiveFrame& live = *state_.live;
+  if (take_.start == live.start && take_.forks == live.forks) return;
+  const int common = take_.start == live.start ? live.forked_at : -1;
+  if (std::erase_if(take_.frames, [&](const auto& file) { return file.second > common; }) > 0)
+    take_.has_others = true;
+  take_.start = live.start;
+  take_.forks = live.forks;
+}
+
+/// In another folder, with the frames that both runs have.
+void Viewer::begin_take() {
+  const std::filesystem::path before = take_.folder;
+  writer_.finish();
+  take_.folder = output::free_path(bench_.folder(), "take", "");
+  for (const auto& [file, frame] : take_.frames) {
+    output::make_folder((take_.folder / file).parent_path());
+    output::write_file(take_.folder / file, output::read_file(before / file));
+  }
+  take_.has_others = false;
+  bench_.say(session::Message::Kind::note, "the recording continues in " + take_.folder.string() +
+                                               ", because " + before.string() +
+                                               " has frames of the run before");
+}
+
 /// Before what is shown is another frame.
 void Viewer::record_due() {
   if (!std::exchange(is_record_due_, false)) return;
   const session::LiveFrame& live = *state_.live;
-  RecordedKey key = recorded_key();
-  const bool is_another =
-      !recorded_ || recorded_->frame != key.frame || recorded_->view != key.view;
-  recorded_ = std::move(key);
+  recorded_ = recorded_key();
   try {
     const std::string& view = panels::current_view(state_).name;
     // Frames have the names that neve render gives them.
@@ -142,11 +163,14 @@ void Viewer::record_due() {
       require_no_run(bench_.folder());
       lock_.emplace(bench_.folder(), "neve view");
     }
-    output::make_folder(bench_.folder() / view);
-    if (state_.recorded == 0) output::remove_abandoned(bench_.folder() / view);
-    writer_.write(picture_to_keep(
-        output::frame_path(bench_.folder(), view, scene::number_of(*live.scene, live.frame))));
-    if (is_another) ++state_.recorded;
+    if (take_.has_others) begin_take();
+    output::make_folder(take_.folder / view);
+    if (take_.frames.empty()) output::remove_abandoned(take_.folder / view);
+    const std::filesystem::path file =
+        output::frame_path(take_.folder, view, scene::number_of(*live.scene, live.frame));
+    writer_.write(picture_to_keep(file));
+    take_.frames[file.lexically_relative(take_.folder)] = live.frame;
+    state_.recorded = static_cast<int>(take_.frames.size());
   } catch (const std::exception& error) {
     bench_.say_not_saved(std::string("recording stopped: ") + error.what());
     state_.is_recording = false;

@@ -45,9 +45,8 @@ StateKey Viewer::state_key() const {
 }
 
 PictureKey Viewer::picture_key() const {
-  return {
-      state_key(),           state_.viewport.width, state_.viewport.height,   state_.orbit.eye(),
-      state_.orbit.target(), state_.orbit.fov(),    state_.is_camera_of_scene};
+  return {state_key(), state_.viewport.width, state_.viewport.height, state_.orbit,
+          state_.is_camera_of_scene};
 }
 
 /// A picture that cannot be drawn is a message, and the one before stays.

@@ -109,5 +109,31 @@ TEST(TypedNumber, TypedNumberOfAWholeNumberIsHeldToItsRangeToo) {
   EXPECT_EQ(field.edits[0].value, "100");
 }
 
+/// The widest drag is no reason to move a value that the scene may have.
+TEST(UntouchedField, UntouchedFieldsChangeNothing) {
+  Field<std::uint64_t> seed(9007199254740992, app::scene::between(0, 0x1p53));
+  Field<app::scene::PictureSize> size({20000, 400}, app::scene::between(16, 1000000));
+  Field<double> number(0.0, app::scene::at_least(1e-6).at_most_or_0(1e6));
+  EXPECT_TRUE(seed.edits.empty());
+  EXPECT_TRUE(size.edits.empty());
+  EXPECT_TRUE(number.edits.empty());
+}
+
+TEST(TypedNumber, TypedNumberMayBeAsLargeAsInAScene) {
+  Field<std::uint64_t> field(1, app::scene::between(0, 0x1p53));
+  field.type("9007199254740992");
+  ASSERT_EQ(field.edits.size(), 1u);
+  EXPECT_EQ(field.edits[0].kind, app::view::session::Edit::Kind::set);
+  EXPECT_EQ(field.edits[0].value, "9007199254740992");
+}
+
+TEST(TypedText, TypedTextOfAnyLengthIsTaken) {
+  Field<std::string> field("short", app::scene::anything);
+  const std::string typed(1500, 'b');
+  field.type(typed);
+  ASSERT_EQ(field.edits.size(), 1u);
+  EXPECT_EQ(field.edits[0].value, "\"" + typed + "\"");
+}
+
 }  // namespace
 }  // namespace neve::app

@@ -4,13 +4,17 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/support/text.h"
 #include "app/view/panels/labels.h"
+#include "app/view/panels/orbit.h"
 #include "app/view/panels/slider_scale.h"
 #include "app/view/panels/tip.h"
+#include "app/view/panels/viewer_state.h"
 #include "app/view/panels/viewport.h"
 #include "app/view/panels/widgets.h"
 #include "app/view/panels/words.h"
@@ -304,6 +308,76 @@ shape = { box = { center = [0, -500, 0], size = [900, 900, 900] } }
   EXPECT_NEAR(box.max.x(), 0.3, 1e-9);
   live.snapshot.particles.x.clear();
   EXPECT_NEAR(app::view::panels::bounds_of_all(live).max.x(), 450, 1e-6) << "no snow: all things";
+}
+
+TEST(Orbit, OrbitIsAsLevelAsTheCameraOfTheSceneUntilItIsTurned) {
+  using app::view::panels::Orbit;
+  const sim::Vec3d eye(0.3, 0.4, 2), target(0, 0.1, 0), tilted(1, 1, 0.2);
+  Orbit orbit(eye, target, tilted, 30);
+  EXPECT_TRUE(orbit.eye().isApprox(eye, 1e-12));
+  const sim::Vec3d along = orbit.forward(),
+                   in_picture = (tilted - tilted.dot(along) * along).normalized();
+  EXPECT_TRUE(orbit.up().isApprox(in_picture, 1e-12)) << orbit.up().transpose();
+  EXPECT_TRUE(orbit.right().isApprox(along.cross(in_picture), 1e-12));
+  EXPECT_TRUE(orbit.settings().up.isApprox(in_picture, 1e-12)) << "so is the picture";
+  // What is projected is where a ray meets it.
+  const sim::Vec3d place = orbit.eye() + 1.5 * orbit.ray(0.2, -0.1), seen = orbit.project(place);
+  EXPECT_NEAR(seen.x(), 0.2, 1e-12);
+  EXPECT_NEAR(seen.y(), -0.1, 1e-12);
+  orbit.pan(0.1, 0);
+  EXPECT_TRUE(orbit.up().isApprox(in_picture, 1e-12));
+  orbit.turn(0.01, 0);
+  EXPECT_NEAR(orbit.right().y(), 0, 1e-12);
+  EXPECT_EQ(orbit.settings().up, sim::Vec3d(0, 1, 0));
+  EXPECT_EQ(Orbit(eye, target, {0, 1, 0}, 30).settings().up, sim::Vec3d(0, 1, 0));
+}
+
+/// A moment at which the speed of the probed particle is as given.
+app::view::session::LiveFrame probed(double time, double speed) {
+  app::view::session::LiveFrame live;
+  live.scene = std::make_shared<app::scene::Scene>();
+  live.snapshot.time = time;
+  live.probed = app::dump::Probe(std::size_t{7});
+  app::view::session::ProbeReading& reading = live.probe.emplace();
+  reading.target = *live.probed;
+  reading.time = time;
+  app::view::session::ProbeRow row;
+  row.name = "v";
+  row.magnitude = speed;
+  reading.rows = {row};
+  return live;
+}
+
+TEST(ProbeTrace, ProbeTraceHasAllMomentsOfTheRunInTheOrderOfTime) {
+  app::view::panels::ProbeTrace trace;
+  trace.target = app::dump::Probe(std::size_t{7});
+  const double fps = app::scene::Scene{}.fps;
+  const auto at = [&](int frame) { return frame / fps; };
+  for (const int frame : {1, 2, 4}) trace.take(probed(at(frame), frame));
+  trace.take(probed(at(3), 3));  // an earlier moment is looked at
+  using Points = std::map<double, double>;
+  EXPECT_EQ(trace.points, (Points{{at(1), 1}, {at(2), 2}, {at(3), 3}, {at(4), 4}}));
+  auto forked = probed(at(3), 5);  // continued from frame 2
+  forked.forks = 1;
+  forked.forked_at = 2;
+  trace.take(forked);
+  EXPECT_EQ(trace.points, (Points{{at(1), 1}, {at(2), 2}, {at(3), 5}}));
+  auto other = probed(at(2), 9);
+  other.probed = app::dump::Probe(std::size_t{8});
+  other.forks = 1;
+  trace.take(other);
+  EXPECT_EQ(trace.points.size(), 3u) << "of another particle";
+  auto again = probed(0, 6);  // after a Reset
+  again.start = 1;
+  again.forks = 1;
+  trace.take(again);
+  EXPECT_EQ(trace.points, (Points{{0, 6}}));
+}
+
+TEST(Plots, SharesOfPhasesAreOfAllOfThem) {
+  app::view::session::LiveFrame live;
+  live.phases = {1, 2, 4, 8, 16, 32, 64};
+  EXPECT_EQ(live.phases_total(), 127);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/support/errors.h"
@@ -52,6 +54,8 @@ TEST_F(PastRun, AFinishedRunIsScrubbedWithoutAStep) {
   ASSERT_EQ(live->samples->size(), 5u);
   EXPECT_NEAR((*live->samples)[2].time, 2 / 24.0, 1e-12);
   EXPECT_GT((*live->samples)[2].kinetic_energy, 0);
+  EXPECT_TRUE(std::isnan((*live->samples)[0].dt)) << "frame 0 has no steps";
+  EXPECT_GT((*live->samples)[1].dt, 0);
   EXPECT_GT(live->snapshot.advance.steps, 0u) << "the caption tells the steps of the frame";
   EXPECT_EQ(hash_of(*live), hashes("a")[4]);
   for (const int frame : {2, 0, 3, 1}) {

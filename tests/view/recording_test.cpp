@@ -164,5 +164,35 @@ TEST_F(ViewByScript, ASettingThatIsTakenBackAfterAResetIsInNoPicture) {
   expect_made_again("out/" + saved[0]);
 }
 
+/// Frames of two runs are not mixed, and those of the first stay as they are.
+TEST_F(ViewByScript, ARecordingHasAFolderForEachRun) {
+  const std::string next = R"(, {"key": "."}, {"wait_for": "simulation frame )";
+  const auto result =
+      view("[{\"wait\": 5}, " + std::string(record_on) + next + R"(1"}, {"wait": 5})" + next +
+           R"(2"}, {"wait": 5})" + next + R"(3"}, {"wait": 5},
+    {"key": "left"}, {"wait_for": "simulation frame 2"}, {"wait": 5},
+    {"key": "left"}, {"wait_for": "simulation frame 1"}, {"wait": 5},
+    {"click": "Continue from here"}, {"wait_for": "label Drop them and continue"},
+    {"click": "Drop them and continue"}, {"wait": 5})" +
+           next + R"(2"}, {"wait": 5},
+    {"key": "r"}, {"wait_for": "simulation frame 0"}, {"wait": 5})" +
+           next + R"(1"}, {"wait": 5}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto pictures = [&](const std::string& take) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / take / "particles"))
+      count += entry.path().extension() == ".png" ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(pictures("out"), 4u);
+  EXPECT_EQ(pictures("out/take"), 3u) << "with the frames that both runs have";
+  EXPECT_EQ(pictures("out/take_2"), 2u);
+  EXPECT_EQ(app::output::read_file(folder / "out/particles/0001.png"),
+            app::output::read_file(folder / "out/take/particles/0001.png"));
+  expect_made_again("out/take/particles/0002.png");
+  expect_made_again("out/take_2/particles/0001.png");
+}
+
 }  // namespace
 }  // namespace neve::test

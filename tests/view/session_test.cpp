@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "app/setup/seed_scene.h"
+#include "app/timeline/timeline.h"
+#include "app/view/panels/viewer_state.h"
+#include "app/view/session/samples.h"
 #include "app/view/session/session.h"
 #include "tests/view/view_support.h"
 
@@ -315,6 +319,57 @@ TEST(Session, ParticlesOfABrokenRunAreRead) {
   const auto live = wait_for(
       session, [](const view::session::LiveFrame& frame) { return frame.probe.has_value(); });
   EXPECT_EQ(std::get<std::size_t>(live->probe->target), 5u);
+}
+
+/// The plot of forces has no zeros where the steps of a frame are still being taken.
+TEST(Samples, ForcesAreUnknownInsideAFrameAndKnownAtItsEnd) {
+  const auto scene = scene_of(tiny_scene);
+  view::session::Samples samples;
+  timeline::Timeline* running = nullptr;
+  timeline::Timeline run(*scene, {},
+                         std::make_shared<setup::SeededScene>(setup::seed_scene(*scene)), 0, {},
+                         timeline::Watch{[&] {
+                           samples.note_if_cheap(*running);
+                           return false;
+                         }});
+  running = &run;
+  samples.begin();
+  ASSERT_TRUE(run.advance_frame());
+  samples.note(run);
+  ASSERT_GT(samples.list()->size(), 1u);
+  for (const view::session::RunSample& sample : *samples.list())
+    EXPECT_EQ(std::isnan(sample.max_force), sample.time < run.simulation().time()) << sample.time;
+}
+
+/// The run may be between two frames: the one that it passed last is kept, too.
+TEST(Session, TheFrameBeforeAStepIsShownAndContinuedFrom) {
+  const TemporaryFolder folder;
+  view::session::Workbench bench = bench_for(folder, tiny_scene);
+  view::session::Session& session = bench.session();
+  session.next_frame();
+  const auto whole = rest_at(session, 1);
+  session.next_step();
+  view::panels::ViewerState state{.bench = bench};
+  state.live = wait_for(session, [](const view::session::LiveFrame& live) {
+    return !live.is_running && !live.is_frame_end;
+  });
+  const std::size_t steps = state.live->steps;
+  view::panels::show_frame(state, 1);
+  state.live =
+      wait_for(session, [](const view::session::LiveFrame& live) { return live.is_older; });
+  EXPECT_EQ(state.live->state_hash, whole->state_hash);
+  view::panels::show_frame(state, 2);
+  EXPECT_EQ(
+      wait_for(session, [](const view::session::LiveFrame& live) { return !live.is_older; })->steps,
+      steps);
+  view::panels::show_frame(state, 1);
+  wait_for(session, [](const view::session::LiveFrame& live) { return live.is_older; });
+  session.continue_from_here();
+  const auto forked =
+      wait_for(session, [](const view::session::LiveFrame& live) { return !live.is_older; });
+  EXPECT_EQ(forked->steps, whole->steps);
+  EXPECT_EQ(forked->forks, 1u);
+  EXPECT_EQ(forked->forked_at, 1);
 }
 
 }  // namespace

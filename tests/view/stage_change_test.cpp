@@ -101,7 +101,12 @@ TEST(StageChange, ParticlesAreCutAndHaveArrowsAndTheirColoursHaveALegend) {
   const render::Frame slice = frame_of(bench, *live, "slice");
   EXPECT_GT(slice.points.position.size(), 0u);
   EXPECT_LT(slice.points.position.size(), all / 2);
-  EXPECT_EQ(slice.legends.at(0).title, "change of F_E");
+  // The plane keeps its colours, and they their legends.
+  const std::vector<render::Legend> before = frame_of(bench, *whole, "slice").legends;
+  ASSERT_EQ(slice.legends.size(), before.size() + 1);
+  EXPECT_EQ(slice.legends[0].title, "change of F_E");
+  for (std::size_t k = 0; k < before.size(); ++k)
+    EXPECT_EQ(slice.legends[k + 1].title, before[k].title);
 }
 
 /// Explicit steps have no solve: the colour of nothing is that of 0 in the legend.

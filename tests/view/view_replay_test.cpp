@@ -420,5 +420,48 @@ TEST_F(ViewByScript, APhoneHeldUprightHasThePanelsBelow) {
   EXPECT_EQ(size_of("alone.png"), std::pair(390, 844));
 }
 
+/// Also where three columns have just room beside each other.
+TEST_F(ViewByScript, ButtonsOfTheTimeLineAreWholeInWindowsOfAnyWidth) {
+  const auto width = [&](const std::string& size) {
+    const auto result = view(R"([{"resize": )" + size + R"(}, {"wait": 5},
+      {"screenshot": "button.png", "crop": "Back to the run"}])",
+                             {"--set", "frames=3600"});
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == app::exit_no_backend) << result.errors;
+    return result.exit_code == 0
+               ? render::decode_png(app::output::read_file(folder / "out/button.png")).width
+               : 0;
+  };
+  const int whole = width("[1280, 760]");
+  if (whole == 0) SKIP_OR_FAIL("no way to draw");
+  for (const char* size : {"[960, 560]", "[1000, 560]", "[900, 560]", "[640, 480]", "[390, 844]"})
+    EXPECT_EQ(width(size), whole) << size;
+}
+
+/// A step after frame 1, the key for earlier frames shows frame 1, whose picture is saved as it is.
+TEST_F(ViewByScript, TheKeyForEarlierFramesStopsAtTheOneBeforeAStep) {
+  const auto result = view(R"([
+    {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait_for": "simulation paused"},
+    {"key": ","}, {"wait": 10}, {"key": "left"}, {"wait": 10}, {"key": "p"}, {"wait": 10}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(files("particles_0001_step", ".png").size(), 1u);
+}
+
+/// The picture on the screen is the one that is saved, whatever is up in it.
+TEST_F(ViewByScript, ThePictureOnTheScreenIsTiltedAsTheCameraOfTheScene) {
+  const auto shown = [&](const std::string& up, const char* name) {
+    const auto result = view(std::string(R"([{"key": "1"}, {"wait": 10}, {"screenshot": ")") +
+                                 name + R"(", "crop": "picture"}])",
+                             {"--set", "camera.eye=[0, 0.3, 1]", "--set",
+                              "camera.target=[0, 0.1, 0]", "--set", "camera.up=" + up});
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == app::exit_no_backend) << result.errors;
+    return result.exit_code == 0 ? render::decode_png(app::output::read_file(folder / "out" / name))
+                                 : render::Image{};
+  };
+  const render::Image level = shown("[0, 1, 0]", "level.png");
+  if (level.pixels.empty()) SKIP_OR_FAIL("no way to draw");
+  EXPECT_GT(changed_bytes(level, shown("[1, 1, 0]", "tilted.png")), level.pixels.size() / 20);
+}
+
 }  // namespace
 }  // namespace neve::test

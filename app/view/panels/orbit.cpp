@@ -17,13 +17,14 @@ constexpr double zoom_of_notch = 0.88;
 
 }  // namespace
 
-Orbit::Orbit(const Vec3d& eye, const Vec3d& target, const Vec3d&, double fov)
+Orbit::Orbit(const Vec3d& eye, const Vec3d& target, const Vec3d& up, double fov)
     : target_(target), fov_(fov) {
   const Vec3d offset = eye - target;
   distance_ = std::max(1e-6, offset.norm());
   pitch_ =
       std::clamp(std::asin(std::clamp(offset.y() / distance_, -1.0, 1.0)), -steepest, steepest);
   yaw_ = std::atan2(offset.x(), offset.z());
+  roll_ = std::atan2(up.dot(level_right()), up.dot(level_right().cross(forward())));
 }
 
 Vec3d Orbit::forward() const {
@@ -31,8 +32,13 @@ Vec3d Orbit::forward() const {
                 std::cos(yaw_) * std::cos(pitch_));
 }
 
-Vec3d Orbit::right() const {
+Vec3d Orbit::level_right() const {
   return Vec3d(std::cos(yaw_), 0, -std::sin(yaw_));
+}
+
+Vec3d Orbit::right() const {
+  const Vec3d level = level_right();
+  return std::cos(roll_) * level - std::sin(roll_) * level.cross(forward());
 }
 
 Vec3d Orbit::up() const {
@@ -48,10 +54,12 @@ scene::CameraSettings Orbit::settings() const {
   camera.eye = eye();
   camera.target = target_;
   camera.fov = fov_;
+  if (roll_ != 0) camera.up = up();
   return camera;
 }
 
 void Orbit::turn(double dx, double dy) {
+  roll_ = 0;
   yaw_ = std::remainder(yaw_ - radians_per_height * dx, 2 * pi);
   pitch_ = std::clamp(pitch_ + radians_per_height * dy, -steepest, steepest);
 }
@@ -79,6 +87,7 @@ void Orbit::frame(const sim::shapes::Bounds& box, double aspect) {
 
 void Orbit::look_along(int axis) {
   Orbit wanted = *this;
+  wanted.roll_ = 0;
   wanted.yaw_ = axis == 0 ? 0.5 * pi : 0;
   wanted.pitch_ = axis == 1 ? steepest : 0;
   if (std::abs(std::remainder(wanted.yaw_ - yaw_, 2 * pi)) < 1e-9 &&

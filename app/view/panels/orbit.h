@@ -8,7 +8,7 @@ namespace neve::app::view::panels {
 class Orbit {
  public:
   Orbit() = default;
-  /// From where a picture is taken now.
+  /// From where a picture is taken now, and with what is up there: until it is turned.
   Orbit(const sim::Vec3d& eye, const sim::Vec3d& target, const sim::Vec3d& up, double fov);
 
   sim::Vec3d eye() const;
@@ -17,7 +17,7 @@ class Orbit {
   double distance() const { return distance_; }
   scene::CameraSettings settings() const;
 
-  /// Turns about the target. @param dx, dy share of the picture's height
+  /// Turns about the target; the horizon is level then. @param dx, dy share of the picture's height
   void turn(double dx, double dy);
   /// Moves so that what is at the target follows the mouse. @param dx, dy as above
   void pan(double dx, double dy);
@@ -43,10 +43,13 @@ class Orbit {
   bool operator==(const Orbit&) const = default;
 
  private:
+  sim::Vec3d level_right() const;
+
   sim::Vec3d target_{0, 0, 0};
   double yaw_ = 0.6, pitch_ = 0.3;  ///< radians: of the eye about y from +z, and above the horizon
-  double distance_ = 3;             ///< m
-  double fov_ = 30;                 ///< vertical, degrees
+  double roll_ = 0;      ///< radians, of the picture about its middle; 0: the horizon is level
+  double distance_ = 3;  ///< m
+  double fov_ = 30;      ///< vertical, degrees
 };
 
 }  // namespace neve::app::view::panels

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "app/health/meanings.h"
+#include "app/picture/plots.h"
 #include "app/scene/leaf.h"
 #include "app/scene/names.h"
 #include "app/support/text.h"
@@ -128,13 +129,10 @@ std::string stage_time_text(const session::LiveFrame& live, sim::Stage stage) {
     return fixed_text(1e3 * own, own < 0.01 ? 2 : 0) + " ms, " + fixed_text(100 * own / all, 0) +
            " %";
   }
-  const sim::PhaseSeconds& p = live.phases;
-  const double all =
-      p.partition + p.particles_to_grid + p.grid_update + p.solve + p.grid_to_particles + p.checks;
-  const StagePhase phase = phase_of(stage, p);
+  const StagePhase phase = phase_of(stage, live.phases);
   if (!(phase.seconds > 0)) return "";
   if (stage != phase.first) return "as above";
-  return fixed_text(100 * phase.seconds / all, 0) + " %, " + phase.name;
+  return fixed_text(100 * phase.seconds / live.phases_total(), 0) + " %, " + phase.name;
 }
 
 /// A row: the switch that skips the stage, its name, its time.
@@ -209,25 +207,20 @@ std::string values_text(const session::ProbeRow& row) {
   return text;
 }
 
-void draw_trace(ViewerState& state) {
-  if (state.trace.points.size() < 2) return;
-  std::vector<float> values;
-  float low = 1e30f, high = -1e30f;
-  for (const auto& [time, value] : state.trace.points) {
-    values.push_back(static_cast<float>(value));
-    low = std::min(low, values.back());
-    high = std::max(high, values.back());
+void draw_trace(const ViewerState& state) {
+  const ProbeTrace& trace = state.trace;
+  if (trace.points.size() < 2) return;
+  std::string unit;
+  for (const session::ProbeRow& row : state.live->probe->rows)
+    if (row.name == trace.quantity) unit = row.unit;
+  constexpr picture::Rgb blue{110, 190, 255};
+  render::PlotSeries series{.name = "", .color = blue, .x = {}, .value = {}};
+  for (const auto& [time, value] : trace.points) {
+    series.x.push_back(static_cast<float>(time));
+    series.value.push_back(static_cast<float>(value));
   }
-  const std::string text = "|" + state.trace.quantity + "| from " +
-                           rough_text(static_cast<double>(low)) + " to " +
-                           rough_text(static_cast<double>(high)) +
-                           ", t = " + fixed_text(state.trace.points.front().first, 3) + " to " +
-                           fixed_text(state.trace.points.back().first, 3) + " s";
-  // ImGui 1.86 takes a negative width as it is, and draws nothing.
-  ImGui::PlotLines("##trace", values.data(), static_cast<int>(values.size()), 0, nullptr, low, high,
-                   ImVec2(ImGui::GetContentRegionAvail().x, 5 * em()));
-  note_label("probe plot");
-  ImGui::TextDisabled("%s", text.c_str());
+  draw_over_time(state, "probe plot", with_unit("|" + trace.quantity + "|", unit),
+                 {std::move(series)}, false);
 }
 
 void draw_probe(ViewerState& state) {

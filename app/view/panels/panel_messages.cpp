@@ -4,6 +4,8 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <string>
 
 #include "app/health/incident.h"
 #include "app/support/text.h"
@@ -53,13 +55,6 @@ void draw_keys(const char* keys, const char* what) {
     ImGui::TextUnformatted(words);
     ImGui::PopTextWrapPos();
   }
-}
-
-void show_frame(ViewerState& state, int frame) {
-  if (frame >= state.live->head)
-    state.bench.session().show_head();
-  else
-    state.bench.session().show_frame(frame);
 }
 
 /// A tick for every kept frame, on the bar of the slider that was drawn last.
@@ -129,10 +124,14 @@ void draw_question(ViewerState& state, ImVec2 at) {
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
     ImGui::TextUnformatted(
-        ((first == start + live.head ? fmt::format("Continuing here drops frame {}", first)
-                                     : fmt::format("Continuing here drops the frames {} to {}",
-                                                   first, start + live.head)) +
-         ".\nValues that were changed in later frames take effect from here on.")
+          ((first > start + live.head
+                ? fmt::format("Continuing here drops the steps after frame {}", first - 1)
+            : first == start + live.head
+                ? fmt::format("Continuing here drops frame {}", first)
+                : fmt::format("Continuing here drops the frames {} to {}", first,
+                              start + live.head)) +
+           ".
+Values that were changed later take effect from here on.")
             .c_str());
     if (labelled_button("Drop them and continue")) {
       state.asks_to_continue = false;
@@ -142,6 +141,15 @@ void draw_question(ViewerState& state, ImVec2 at) {
     if (labelled_button("Keep them")) state.asks_to_continue = false;
   }
   ImGui::End();
+}
+
+/// With the gap before each.
+float width_of_buttons(std::initializer_list<const char*> names) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = 0;
+  for (const char* name : names)
+    width += style.ItemSpacing.x + ImGui::CalcTextSize(name).x + 2 * style.FramePadding.x;
+  return width;
 }
 
 }  // namespace
@@ -171,16 +179,23 @@ void draw_time_line(ViewerState& state) {
   note_label(state.is_playing ? "Stop" : "Play");
   tip("play the kept frames, without simulating");
   ImGui::SameLine();
+  // As wide whichever frame is shown, so that no button comes to lie where another was.
+  const float room = ImGui::GetContentRegionAvail().x;
+  const std::string largest = std::to_string(start + last);
+  const float in_full =
+                  width_of_buttons({"Vary from here", "Continue from here", "Back to the run"}),
+              in_short = width_of_buttons({"Vary", "Continue", "Back"}),
+              word = ImGui::CalcTextSize("frame ").x,
+              number = ImGui::CalcTextSize(largest.c_str()).x + 0.6f * em();
+  const bool is_short = room - word - number - in_full < 14 * em();
+  const float right = is_short ? in_short : in_full;
+  const bool has_word = room - word - number - right >= 6 * em();
   // Beside the bar, where the grab cannot cover it, and as wide for every frame.
   ImGui::AlignTextToFramePadding();
-  ImGui::Text("frame %d", start + live.frame);
-  ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x +
-                  ImGui::CalcTextSize(("frame " + std::to_string(start + last)).c_str()).x +
-                  0.6f * em());
-  // As wide whichever frame is shown, so that no button comes to lie where another was.
-  const bool is_short = ImGui::GetContentRegionAvail().x < 40 * em();
-  const float right = (is_short ? 13 : 26) * em();
-  ImGui::SetNextItemWidth(std::max(4 * em(), ImGui::GetContentRegionAvail().x - right));
+  ImGui::Text("%s%d", has_word ? "frame " : "", start + live.frame);
+  ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x + (has_word ? word : 0) +
+                  number);
+  ImGui::SetNextItemWidth(std::max(2 * em(), ImGui::GetContentRegionAvail().x - right));
   int frame = start + live.frame;
   const bool is_typed = ImGui::TempInputIsActive(ImGui::GetID("##time"));
   if (!is_typed) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_BLACK_TRANS);
@@ -188,7 +203,7 @@ void draw_time_line(ViewerState& state) {
   if (!is_typed) ImGui::PopStyleColor();
   if (is_moved) {
     state.is_playing = false;
-    show_frame(state, std::clamp(frame - start, 0, live.head));
+    show_frame(state, std::max(0, frame - start));
   }
   note_label("time line");
   tip(fmt::format("{} frames are kept, {}; beyond {} older ones are thinned out", live.kept.size(),

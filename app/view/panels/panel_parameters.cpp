@@ -1,12 +1,12 @@
 /// The left column: every parameter, the changes, bodies and colliders.
 
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -159,11 +159,8 @@ void draw_view_list(ViewerState& state, const std::vector<scene::View>& views) {
 }  // namespace
 
 void draw_parameters(ViewerState& state) {
-  char text[128];
-  std::snprintf(text, sizeof text, "%s", state.filter.c_str());
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (ImGui::InputTextWithHint("##filter", "find a parameter", text, sizeof text))
-    state.filter = text;
+  ImGui::InputTextWithHint("##filter", "find a parameter", &state.filter);
   note_label("find a parameter");
   WaitingBox waiting(state);
   ImGui::BeginChild("list", waiting.size_of_list());

@@ -30,14 +30,30 @@ std::vector<render::PlotSeries> dt_series(const std::vector<RunSample>& samples)
     render::PlotSeries series = picture::curve(style.name, style.color, samples,
                                                [](const RunSample& s) { return 1000 * s.dt; });
     bool is_used = false;
+    const auto is_ruled = [&](const RunSample& sample) {
+      return sample.limit == style.limit && std::isfinite(sample.dt);
+    };
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      const bool is_next = k + 1 < samples.size() && samples[k + 1].limit == style.limit;
-      is_used = is_used || samples[k].limit == style.limit;
-      if (samples[k].limit != style.limit && !is_next) series.value[k] = nothing;
+      const bool is_next = k + 1 < samples.size() && is_ruled(samples[k + 1]);
+      is_used = is_used || is_ruled(samples[k]);
+      if (!is_ruled(samples[k]) && !is_next) series.value[k] = nothing;
     }
     if (is_used) list.push_back(std::move(series));
   }
   return list;
+}
+
+/// The curve passes over samples that lack its value.
+render::PlotSeries without_gaps(render::PlotSeries series) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < series.value.size(); ++k) {
+    if (!std::isfinite(series.value[k])) continue;
+    series.x[kept] = series.x[k];
+    series.value[kept++] = series.value[k];
+  }
+  series.x.resize(kept);
+  series.value.resize(kept);
+  return series;
 }
 
 /// Names of curves in their colours, on the line of the title where there is room.
@@ -52,21 +68,49 @@ void draw_legend(const std::vector<render::PlotSeries>& list) {
   }
 }
 
-/// Title and legend as words, which wrap, and the panel below them.
 void draw(const ViewerState& state, const char* title, const char* unit,
           std::vector<render::PlotSeries> list) {
+  draw_over_time(state, title, *unit ? std::string(title) + " (" + unit + ")" : title,
+                 std::move(list), true);
+}
+
+void draw_phases(const session::LiveFrame& live) {
+  const sim::PhaseSeconds& p = live.phases;
+  const std::pair<const char*, double> phases[] = {{"partition", p.partition},
+                                                   {"particles to grid", p.particles_to_grid},
+                                                   {"grid update", p.grid_update},
+                                                   {"solve", p.solve},
+                                                   {"grid to particles", p.grid_to_particles},
+                                                   {"dust", p.dust},
+                                                   {"checks", p.checks}};
+  const double all = live.phases_total();
+  if (!(all > 0) || live.steps == 0) return;
+  ImGui::TextUnformatted("where the time of a step goes");
+  for (const auto& [name, seconds] : phases) {
+    if (seconds == 0) continue;
+    const std::string text = std::string(name) + ", " + fixed_text(100 * seconds / all, 0) + " %";
+    ImGui::ProgressBar(static_cast<float>(seconds / all), ImVec2(-FLT_MIN, 1.1f * em()),
+                       text.c_str());
+  }
+}
+
+}  // namespace
+
+void draw_over_time(const ViewerState& state, const char* label, const std::string& title,
+                    std::vector<render::PlotSeries> list, bool has_zero) {
   render::Plot plot;
   const scene::Scene& scene = *state.live->scene;
   plot.x_end = static_cast<float>(scene::duration(scene));
   plot.now = static_cast<float>(state.live->snapshot.time);
-  plot.min = plot.max = 0;
+  plot.min = has_zero ? 0 : HUGE_VALF;
+  plot.max = has_zero ? 0 : -HUGE_VALF;
   for (const render::PlotSeries& series : list)
     for (const float value : series.value) {
       if (!std::isfinite(value)) continue;
       plot.min = std::min(plot.min, value);
       plot.max = std::max(plot.max, value);
     }
-  ImGui::TextUnformatted(*unit ? (std::string(title) + " (" + unit + ")").c_str() : title);
+  ImGui::TextUnformatted(title.c_str());
   draw_legend(list);
   plot.series = std::move(list);
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -79,31 +123,8 @@ void draw(const ViewerState& state, const char* title, const char* unit,
        std::round(at.y + 0.4f * em()), std::round(at.y + height)},
       {.has_title = false}, canvas);
   ImGui::Dummy(ImVec2(width, height + 1.6f * em()));
-  note_label(title);
+  note_label(label);
 }
-
-void draw_phases(const session::LiveFrame& live) {
-  const sim::PhaseSeconds& p = live.phases;
-  const std::pair<const char*, double> phases[] = {{"partition", p.partition},
-                                                   {"particles to grid", p.particles_to_grid},
-                                                   {"grid update", p.grid_update},
-                                                   {"solve", p.solve},
-                                                   {"grid to particles", p.grid_to_particles},
-                                                   {"dust", p.dust},
-                                                   {"checks", p.checks}};
-  double all = 0;
-  for (const auto& [name, seconds] : phases) all += seconds;
-  if (!(all > 0) || live.steps == 0) return;
-  ImGui::TextUnformatted("where the time of a step goes");
-  for (const auto& [name, seconds] : phases) {
-    if (seconds == 0) continue;
-    const std::string text = std::string(name) + ", " + fixed_text(100 * seconds / all, 0) + " %";
-    ImGui::ProgressBar(static_cast<float>(seconds / all), ImVec2(-FLT_MIN, 1.1f * em()),
-                       text.c_str());
-  }
-}
-
-}  // namespace
 
 void draw_plots_panel(ViewerState& state) {
   const std::vector<RunSample>& samples = *state.live->samples;
@@ -129,7 +150,7 @@ void draw_plots_panel(ViewerState& state) {
   draw(state, "largest pressure on a collider", "Pa",
        {curve("", blue, [](const RunSample& s) { return s.max_pressure; })});
   draw(state, "largest force on a collider", "N",
-       {curve("", pink, [](const RunSample& s) { return s.max_force; })});
+       {without_gaps(curve("", pink, [](const RunSample& s) { return s.max_force; }))});
   if (auto heights =
           picture::body_curves(samples, [](const picture::BodySample& b) { return b.height; });
       !heights.empty()) {

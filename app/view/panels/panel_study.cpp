@@ -1,10 +1,10 @@
 /// The dialog "Vary from here": parameters, values, and the sweep that is made of them.
 
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cfloat>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -44,11 +44,8 @@ std::vector<scene::FlatParam> found_parameters(const ViewerState& state) {
 }
 
 void draw_found(ViewerState& state) {
-  char text[128];
-  std::snprintf(text, sizeof text, "%s", state.study.filter.c_str());
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (ImGui::InputTextWithHint("##vary", "find a parameter to vary", text, sizeof text))
-    state.study.filter = text;
+  ImGui::InputTextWithHint("##vary", "find a parameter to vary", &state.study.filter);
   note_label("find a parameter to vary");
   const std::vector<scene::FlatParam> found = found_parameters(state);
   if (found.empty()) wrapped_text("No parameter of this name can change while a simulation runs.");
@@ -72,10 +69,8 @@ void draw_axes(ViewerState& state) {
     note_label(("omit " + axes[k].address).c_str());
     ImGui::SameLine();
     ImGui::TextUnformatted(axes[k].address.c_str());
-    char text[512];
-    std::snprintf(text, sizeof text, "%s", axes[k].values.c_str());
     ImGui::SetNextItemWidth(-FLT_MIN);
-    if (ImGui::InputText("##values", text, sizeof text)) axes[k].values = text;
+    ImGui::InputText("##values", &axes[k].values);
     note_label(("values of " + axes[k].address).c_str());
     tip("one run for each value, separated by commas; two parameters: all combinations");
     ImGui::PopID();

@@ -69,7 +69,6 @@ void draw_out_menu(ViewerState& state) {
     state.wants_picture = true;
   if (item("Record every frame", nullptr, state.is_recording)) {
     state.is_recording = !state.is_recording;
-    state.recorded = 0;
     state.bench.session().set_recording(state.is_recording);
   }
   ImGui::Separator();

@@ -80,7 +80,8 @@ void copy_command(ViewerState& state) {
 
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe) {
   state.probe = probe;
-  state.trace = {state.trace.quantity, {}, probe};
+  state.trace.points.clear();
+  state.trace.target = probe;
   state.last_followed.reset();
   state.bench.session().set_probe(std::move(probe));
 }
@@ -92,6 +93,31 @@ void toggle_run(ViewerState& state) {
     state.bench.session().pause();
   else
     state.bench.session().run();
+}
+
+void ProbeTrace::take(const session::LiveFrame& live) {
+  if (live.start != start) points.clear();
+  if (live.start == start && live.forks != forks)
+    std::erase_if(points, [end = live.forked_at / live.scene->fps](const auto& point) {
+      return point.first > end + 1e-9;
+    });
+  start = live.start;
+  forks = live.forks;
+  if (!live.probe || live.probed != target) return;
+  if (quantity.empty() && !live.probe->rows.empty()) quantity = live.probe->is_node ? "v_old" : "v";
+  for (const session::ProbeRow& row : live.probe->rows)
+    if (row.name == quantity) points[live.probe->time] = row.magnitude;
+}
+
+bool is_newest(const session::LiveFrame& live, int frame) {
+  return frame > live.head || (frame == live.head && live.is_head_frame_end);
+}
+
+void show_frame(ViewerState& state, int frame) {
+  if (is_newest(*state.live, frame))
+    state.bench.session().show_head();
+  else
+    state.bench.session().show_frame(frame);
 }
 
 void frame_all(ViewerState& state) {

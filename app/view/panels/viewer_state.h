@@ -5,25 +5,31 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/view/panels/orbit.h"
 #include "app/view/session/live_frame.h"
 #include "app/view/session/workbench.h"
 #include "app/view/session/written_files.h"
+#include "render/frame/frame.h"
 #include "render/screen.h"
 
 namespace neve::app::view::panels {
 
 /// A quantity of the probed point over simulated time.
 struct ProbeTrace {
-  std::string quantity;                           ///< empty: the first one
-  std::vector<std::pair<double, double>> points;  ///< s, magnitude; times increase
+  std::string quantity;             ///< empty: the first one
+  std::map<double, double> points;  ///< s, magnitude
   std::optional<dump::Probe> target;
+  std::uint64_t start = 0, forks = 0;  ///< of the run that they are of
+
+  /// Adds the moment. Points of another run are forgotten, later ones of this run stay while an
+  /// earlier moment is shown.
+  void take(const session::LiveFrame& live);
 };
 
 /// Columns beside the picture.
@@ -92,7 +98,7 @@ struct ViewerState {
   bool is_playing = false;        ///< kept frames, one after the other
   double play_clock = 0;          ///< s since the last one
   bool is_recording = false;
-  int recorded = 0;  ///< frames of the sequence so far
+  int recorded = 0;  ///< pictures of it so far
   bool wants_picture = false;
   std::size_t tab = 0;                     ///< of the right column
   std::optional<std::size_t> go_to_tab{};  ///< opens this one
@@ -127,6 +133,10 @@ scene::View view_to_keep(const ViewerState& state);
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe);
 
 void toggle_run(ViewerState& state);
+/// Whether nothing of the run is newer than the end of this frame: it may be between two.
+bool is_newest(const session::LiveFrame& live, int frame);
+/// Shows a kept frame, or where the run is.
+void show_frame(ViewerState& state, int frame);
 /// All snow, colliders, emitters and sinks, but those that are far larger than the snow.
 void frame_all(ViewerState& state);
 /// Frames the probed or selected object; everything if there is none.
@@ -149,6 +159,11 @@ void draw_inspector(ViewerState& state);
 /// The spread of a field over all nodes or particles.
 void draw_histogram(ViewerState& state);
 void draw_plots_panel(ViewerState& state);
+/// Curves over the time of the scene, with the moment that is shown; title and legend are words
+/// above, which wrap.
+/// @param has_zero  the axis reaches to 0
+void draw_over_time(const ViewerState& state, const char* label, const std::string& title,
+                    std::vector<render::PlotSeries> list, bool has_zero);
 void draw_messages(ViewerState& state);
 void draw_time_line(ViewerState& state);
 void draw_help(ViewerState& state);

@@ -61,14 +61,12 @@ void use_keys(ViewerState& state) {
     const bool is_on = state.panels.left || state.panels.right;
     state.panels = {!is_on, !is_on};
   }
+  // Between two frames, the one before is the last one that was passed.
   if (frontend::is_key_pressed(frontend::key::left, true))
-    session.show_frame(std::max(0, live.frame - 1));
+    session.show_frame(std::max(0, live.is_frame_end ? live.frame - 1 : live.frame));
   if (frontend::is_key_pressed(frontend::key::right, true)) {
     const auto next = std::upper_bound(live.kept.begin(), live.kept.end(), live.frame);
-    if (next == live.kept.end() || *next >= live.head)
-      session.show_head();
-    else
-      session.show_frame(*next);
+    show_frame(state, next == live.kept.end() ? live.head + 1 : *next);
   }
   if (pressed(frontend::key::home)) session.show_frame(0);
   if (pressed(frontend::key::end)) session.show_head();

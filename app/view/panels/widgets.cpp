@@ -1,14 +1,14 @@
 #include "app/view/panels/widgets.h"
 
 #include <imgui_internal.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -77,6 +77,13 @@ std::string refusal_text(const Knob& knob) {
          (knob.unit[0] ? std::string(" ") + knob.unit : "");
 }
 
+/// Largest whole number that a parameter may have.
+template <class T>
+T greatest_whole(const scene::Valid& valid) {
+  constexpr T most = std::numeric_limits<T>::max();
+  return valid.max < static_cast<double>(most) ? static_cast<T>(valid.max) : most;
+}
+
 /// Called after the widget. Digits that are being typed into it count when they are complete: 30000
 /// is never 3. A complete but invalid value is refused; a drag stops at the ends.
 /// @param bound moves a value between the ends
@@ -92,6 +99,8 @@ bool settle(const Knob& knob, const T& before, T& value, IsValid is_valid, Bound
   }
   const auto found = typings<T>().find(knob.address);
   if (found == typings<T>().end()) {
+    // A value that nobody moved stays, even where a drag would not get to.
+    if (value == before) return false;
     value = bound(value);
     return !(value == before);
   }
@@ -186,7 +195,7 @@ bool edit_value(const Knob& knob, int& value) {
 
 bool edit_value(const Knob& knob, std::uint64_t& value) {
   const auto low = static_cast<std::uint64_t>(std::max(0.0, knob.valid.min));
-  const auto high = static_cast<std::uint64_t>(std::min(9e15, knob.valid.max));
+  const auto high = greatest_whole<std::uint64_t>(knob.valid);
   const std::uint64_t before = resume_typing(knob, value, true);
   ImGui::DragScalar("##value", ImGuiDataType_U64, &value,
                     std::max(0.1f, 0.005f * static_cast<float>(value)), &low, &high);
@@ -196,12 +205,10 @@ bool edit_value(const Knob& knob, std::uint64_t& value) {
 }
 
 bool edit_value(const Knob&, std::string& value) {
-  char text[512];
-  std::snprintf(text, sizeof text, "%s", value.c_str());
-  if (!ImGui::InputText("##value", text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue))
-    return false;
+  std::string text = value;
+  if (!ImGui::InputText("##value", &text, ImGuiInputTextFlags_EnterReturnsTrue)) return false;
   if (value == text) return false;
-  value = text;
+  value = std::move(text);
   return true;
 }
 
@@ -233,7 +240,7 @@ bool edit_value(const Knob&, std::vector<std::string>& value) {
 bool edit_value(const Knob& knob, scene::PictureSize& value) {
   std::array size{value.width, value.height};
   const auto before = resume_typing(knob, size, true);
-  const int low = static_cast<int>(knob.valid.min), high = 16384;
+  const int low = static_cast<int>(knob.valid.min), high = greatest_whole<int>(knob.valid);
   ImGui::DragInt2("##value", size.data(), 1, low, high, "%d");
   const auto is_valid = [&](const auto& all) {
     return std::all_of(all.begin(), all.end(), [&](int x) { return low <= x && x <= high; });

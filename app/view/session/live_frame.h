@@ -25,11 +25,13 @@ struct RunSample {
   sim::Vec3d momentum{0, 0, 0};                   ///< kg m/s
   double max_speed = 0;                           ///< m/s
   double min_J_P = 1, max_J_P = 1;
-  double dt = 0;                              ///< s, that the settings choose next
+  double dt = 0;  ///< s, that the settings choose next; of a run that was opened, the longest of
+                  ///< the frame; not a number: it has no steps
   sim::DtLimit limit = sim::DtLimit::max_dt;  ///< that rules it
   double max_depth = 0;                       ///< m, of the particle deepest in a collider
   double max_pressure = 0;                    ///< Pa, of snow on a collider
-  double max_force = 0;  ///< N, of snow on a collider, the mean since the frame began
+  double max_force = 0;  ///< N, of snow on a collider, the mean since the frame began; not a
+                         ///< number: the steps of the frame are being taken
   std::vector<picture::BodySample> bodies{};
 };
 
@@ -87,6 +89,8 @@ struct LiveFrame {
   std::uint64_t number = 0;                   ///< number of published frames
   std::uint64_t start = 0;                    ///< that its run began with; 0: the first one
   std::uint64_t newest_start = 0;             ///< that was tried, `start` too if it succeeded
+  std::uint64_t forks = 0;                    ///< times that a run left later frames behind
+  int forked_at = 0;                          ///< frame where the last one did
   std::shared_ptr<const scene::Scene> scene;  ///< that is simulated, colliders where they are
   picture::Snapshot snapshot;
   std::vector<picture::PlotSample> history;  ///< one per frame; snapshot.history shows these
@@ -98,16 +102,21 @@ struct LiveFrame {
   bool is_frame_end = true;
   std::size_t steps = 0;  ///< since the start
   bool is_running = false;
-  bool is_older = false;        ///< not where the run is: a kept frame
-  int head = 0;                 ///< frame where the run is
-  bool is_head_broken = false;  ///< the run broke a rule there
+  bool is_older = false;          ///< not where the run is: a kept frame
+  int head = 0;                   ///< frame where the run is, the last one that it passed
+  bool is_head_frame_end = true;  ///< the run is at the end of that frame
+  bool is_head_broken = false;    ///< the run broke a rule there
   std::vector<int> kept;
   std::uint64_t kept_bytes = 0, kept_budget = 0;
 
   std::uint64_t state_hash = 0;  ///< at the end of a frame
   sim::PhaseSeconds phases;      ///< of the steps since the start
-  double speed = 0;              ///< simulated over wall seconds while it ran last
-  std::uint64_t memory = 0;      ///< bytes of the simulation
+  double phases_total() const {  ///< s
+    return phases.partition + phases.particles_to_grid + phases.grid_update + phases.solve +
+           phases.grid_to_particles + phases.dust + phases.checks;
+  }
+  double speed = 0;          ///< simulated over wall seconds while it ran last
+  std::uint64_t memory = 0;  ///< bytes of the simulation
   int threads = 1;
   std::string simd;
 

@@ -1,6 +1,7 @@
 #include "app/view/session/samples.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace neve::app::view::session {
 
@@ -14,11 +15,15 @@ double largest(const std::vector<double>& pressures) {
   return pressures.empty() ? 0 : *std::max_element(pressures.begin(), pressures.end());
 }
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
 RunSample sample_of(const record::FrameRecord& frame) {
   const sim::Summary& s = frame.summary;
+  const sim::AdvanceReport& steps = frame.advance;
   RunSample sample{
-      frame.time, s.kinetic_energy,     s.elastic_energy,      s.momentum, s.max_speed, s.min_J_P,
-      s.max_J_P,  frame.advance.dt_max, frame.advance.limit(), s.max_depth};
+      frame.time,    s.kinetic_energy, s.elastic_energy, s.momentum,
+      s.max_speed,   s.min_J_P,        s.max_J_P,        steps.steps > 0 ? steps.dt_max : unknown,
+      steps.limit(), s.max_depth};
   for (const record::ColliderForce& force : frame.forces) {
     sample.max_pressure = std::max(sample.max_pressure, force.max_pressure);
     sample.max_force = std::max(sample.max_force, force.force.norm());
@@ -46,15 +51,14 @@ std::vector<RunSample>& Samples::own_list() {
   return *list_;
 }
 
-void Samples::note(const timeline::Timeline& timeline, const sim::Summary& s) {
+void Samples::note(const timeline::Timeline& timeline, const sim::Summary& s, double max_force) {
   noted_at_ = Clock::now();
   const sim::DtChoice choice = timeline.simulation().choose_dt(seconds_left(timeline));
   std::vector<RunSample>& list = own_list();
   while (!list.empty() && list.back().time >= s.time) list.pop_back();
   list.push_back({s.time, s.kinetic_energy, s.elastic_energy, s.momentum, s.max_speed, s.min_J_P,
                   s.max_J_P, choice.dt, choice.limit, s.max_depth, largest(s.max_pressure),
-                  timeline.here().advance.max_force(),
-                  picture::body_samples(timeline.simulation().colliders(), s.time)});
+                  max_force, picture::body_samples(timeline.simulation().colliders(), s.time)});
   if (list.size() <= max_samples) return;
   std::size_t kept = 0;  // every other one: the plot covers the whole run with half the detail
   for (std::size_t k = 0; k < list.size(); k += 2) list[kept++] = list[k];
@@ -66,7 +70,7 @@ void Samples::note_if_cheap(const timeline::Timeline& timeline) {
   if (start - noted_at_ <= sampling_share * noting_took_) return;
   const sim::Summary summary = timeline.simulation().summary();
   noting_took_ = Clock::now() - start;
-  note(timeline, summary);
+  note(timeline, summary, unknown);
 }
 
 void Samples::forget_after(double time) {

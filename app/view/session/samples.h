@@ -19,16 +19,19 @@ class Samples {
   void begin(const std::vector<record::FrameRecord>& frames = {});
 
   /// Adds the state between two steps.
-  void note(const timeline::Timeline& timeline) { note(timeline, timeline.summary()); }
+  void note(const timeline::Timeline& timeline) {
+    note(timeline, timeline.summary(), timeline.here().advance.max_force());
+  }
   /// The same from the thread that takes the steps, unless it takes too large a share of the time:
-  /// the elastic energy needs a decomposition per particle.
+  /// the elastic energy needs a decomposition per particle. Forces on colliders are then unknown:
+  /// the timeline has them when the steps have been taken.
   void note_if_cheap(const timeline::Timeline& timeline);
   void forget_after(double time);
 
   const std::shared_ptr<std::vector<RunSample>>& list() const { return list_; }
 
  private:
-  void note(const timeline::Timeline& timeline, const sim::Summary& summary);
+  void note(const timeline::Timeline& timeline, const sim::Summary& summary, double max_force);
   std::vector<RunSample>& own_list();
 
   std::shared_ptr<std::vector<RunSample>> list_ = std::make_shared<std::vector<RunSample>>();

@@ -153,6 +153,8 @@ void Session::continue_from_here() {
 void Session::fork_here() {
   timeline_->fork();
   samples_.forget_after(simulation().time());
+  ++told_.forks;
+  told_.forked_at = timeline_->here().frame;
 }
 
 /// The change belongs to a step before the broken one: made again, the run passes it too.

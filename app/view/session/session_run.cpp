@@ -155,6 +155,7 @@ void Session::publish() {
   live->is_running = goal_ != Goal::none;
   live->is_older = head_.has_value();
   live->head = head_ ? head_->frame : here.frame;
+  live->is_head_frame_end = head_ ? head_->is_frame_end() : live->is_frame_end;
   live->is_head_broken = head_ ? head_is_broken_ : simulation().divergence().has_value();
   live->kept = timeline_->moments().frames();
   live->kept_bytes = timeline_->moments().bytes();
