@@ -494,14 +494,14 @@ TEST(RigidBodies, SmallAndLargeBodiesMoveAlike) {
     }
 }
 
-/// On a plane, a box and a mesh of several triangles, of 2 cm to 5 m. Cylinders that lay on boxes
-/// and meshes rolled away by themselves, and a plate sank through a mesh.
+/// On a plane, a box and a mesh of several triangles. Cylinders that lay on boxes and meshes rolled
+/// away by themselves, and a plate sank through a mesh.
 TEST(RigidBodies, WhatLiesStillStays) {
   const TemporaryFolder folder;
   const std::string plate =
       folder.write("plate.obj", plate_obj(Vec3d(4, 1, 4), 4, [](double) { return Vec3d(0, 0, 0); }))
           .string();
-  for (const double size : {0.02, 0.2, 1.0, 5.0}) {
+  for (const double size : {0.02, 1.0}) {
     const Vec3d at = size * Vec3d(0.01, 0, 0.013), up = size * Vec3d::UnitY();
     std::vector<shapes::Collider> bodies(6);
     bodies[0].shape.form = shapes::Cylinder{at + 0.05 * up, 0.1 * size, 0.1 * size};

@@ -124,14 +124,12 @@ void draw_question(ViewerState& state, ImVec2 at) {
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {
     ImGui::TextUnformatted(
-          ((first > start + live.head
-                ? fmt::format("Continuing here drops the steps after frame {}", first - 1)
-            : first == start + live.head
-                ? fmt::format("Continuing here drops frame {}", first)
-                : fmt::format("Continuing here drops the frames {} to {}", first,
-                              start + live.head)) +
-           ".
-Values that were changed later take effect from here on.")
+        ((first > start + live.head
+              ? fmt::format("Continuing here drops the steps after frame {}", first - 1)
+          : first == start + live.head ? fmt::format("Continuing here drops frame {}", first)
+                                       : fmt::format("Continuing here drops the frames {} to {}",
+                                                     first, start + live.head)) +
+         ".\nValues that were changed later take effect from here on.")
             .c_str());
     if (labelled_button("Drop them and continue")) {
       state.asks_to_continue = false;
