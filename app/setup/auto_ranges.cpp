@@ -282,20 +282,26 @@ double impact_speed(const scene::Scene& given) {
 }
 
 Impact hardest_impact(const scene::Scene& given) {
+  const auto sound_in = [](const SnowPiece& piece) {
+    return sim::health::wave_speed(*piece.material, sim::Mat3d::Identity(), piece.J_P,
+                                   piece.material->density);
+  };
   Impact hardest;
-  double worst = 0, fastest_sound = 0;
+  double worst = 0;
   at_each_moment(given, [&](const scene::Scene& scene) {
     for (const SnowPiece& piece : snow_places(scene)) {
-      const double speed = impact_speed(scene, piece);
-      const double sound = sim::health::wave_speed(*piece.material, sim::Mat3d::Identity(),
-                                                   piece.J_P, piece.material->density);
-      fastest_sound = std::max(fastest_sound, sound);
+      const double speed = impact_speed(scene, piece), sound = sound_in(piece);
       if (speed <= worst * sound) continue;
       worst = speed / sound;
       hardest = {piece.address, speed, sound};
     }
   });
-  if (fastest_sound > 0) hardest.share_of_sound /= fastest_sound;
+  // A curve may make snow stiffer than any is at the start.
+  const scene::Scene start = with_curves(given, 0);
+  double fastest_at_start = 0;
+  for (const SnowPiece& piece : snow_places(start))
+    fastest_at_start = std::max(fastest_at_start, sound_in(piece));
+  if (fastest_at_start > 0) hardest.share_of_sound /= fastest_at_start;
   return hardest;
 }
 
