@@ -112,6 +112,61 @@ TEST(Findings, AResolvedSceneOfACoarseRunWarnsOfNoStepThatNobodySet) {
   EXPECT_EQ(idle((fixed + "max_dt = 0.02\n").c_str(), 2), "solver.max_dt ");
 }
 
+/// Each of these changed no bit of a state, and nobody was told.
+TEST(Findings, SettingsThatOtherNumbersSwitchOffAreFound) {
+  const auto idle = [](const std::string& solver, const std::string& material,
+                       const std::string& more = "") {
+    std::vector<health::Finding> findings;
+    health::check_unused(
+        scene::read_scene_text("frames = 4\n[solver]\n" + solver + "[material.m]\n" + material +
+                                   "[[body]]\nmaterial = \"m\"\n"
+                                   "shape = { sphere = { radius = 0.2 } }\n" +
+                                   more,
+                               "idle.toml"),
+        1, findings);
+    std::string addresses;
+    for (const health::Finding& finding : findings)
+      if (finding.severity == health::Severity::warning) addresses += finding.address + " ";
+    return addresses;
+  };
+  const std::string elastic = "model = \"corotated\"\n", sand = "model = \"sand\"\n";
+  EXPECT_EQ(idle("", "variation = { size = 0.2 }\n"), "material.m.variation.size ");
+  EXPECT_EQ(idle("", "variation = { size = 0.2, density = 0.1 }\n"), "");
+  const std::string varied = "variation = { thresholds = 0.5 }\n";
+  EXPECT_EQ(idle("", elastic + varied), "material.m.variation.thresholds ");
+  EXPECT_EQ(idle("", "model = \"neo_hookean\"\n" + varied), "material.m.variation.thresholds ");
+  EXPECT_EQ(idle("", sand + varied) + idle("", varied), "") << "strength of its surface";
+  EXPECT_EQ(idle("", "hardening = 0\nmax_hardening = 20\n"), "material.m.max_hardening ");
+  EXPECT_EQ(idle("", "hardening = 1\nmax_hardening = 20\n"), "");
+  const std::string curve =
+      "[[curve]]\nname = \"c\"\nkeyframes = [{ time = 0, value = 0 }, { time = 0.1, value = 0.5 "
+      "}]\n"
+      "parameter = ";
+  EXPECT_EQ(idle("", "hardening = 0\nmax_hardening = 20\n", curve + "\"material.m.hardening\"\n"),
+            "");
+  EXPECT_EQ(idle("flip_ratio = 1\nflip_reference_dt = 1e-3\n", ""), "solver.flip_reference_dt ");
+  EXPECT_EQ(idle("flip_ratio = 0\nflip_reference_dt = 1e-3\n", ""), "solver.flip_reference_dt ");
+  EXPECT_EQ(idle("flip_ratio = 0.5\nflip_reference_dt = 1e-3\n", ""), "");
+  EXPECT_EQ(
+      idle("flip_ratio = 0\nflip_reference_dt = 1e-3\n", "", curve + "\"solver.flip_ratio\"\n"),
+      "");
+  const std::string shares = "separation_min = 0.2\nseparation_max = 0.8\nseparation_J_E = 0.9\n",
+                    all_shares =
+                        "solver.separation_min solver.separation_max solver.separation_J_E ";
+  EXPECT_EQ(idle(shares, ""), "");
+  EXPECT_EQ(idle(shares + "flip_ratio = 0\n", ""), all_shares);
+  EXPECT_EQ(idle(shares, elastic), all_shares);
+  EXPECT_EQ(idle("separation_max = 0\nseparation_J_E = 0.9\n", ""), "solver.separation_J_E ");
+  EXPECT_EQ(
+      idle("separation_max = 0\nseparation_J_E = 0.9\n", "", curve + "\"solver.separation_max\"\n"),
+      "");
+  EXPECT_EQ(idle("shock_viscosity = 0.5\n", elastic), "solver.shock_viscosity ");
+  EXPECT_EQ(idle("shock_viscosity = 0.5\n", sand), "");
+  EXPECT_EQ(idle("threshold_cell = 0.01\n", elastic), "solver.threshold_cell ");
+  EXPECT_EQ(idle("threshold_cell = 0.01\n", sand), "solver.threshold_cell ");
+  EXPECT_EQ(idle("threshold_cell = 0.01\n", "model = \"cam_clay\"\n"), "");
+}
+
 TEST(Findings, SnowThatBeginsDenserThanIceIsFound) {
   const auto findings = [](const char* J_P) {
     std::vector<health::Finding> found;
