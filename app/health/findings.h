@@ -106,6 +106,9 @@ void check_transfer(const scene::Scene& scene, const Check& check, std::vector<F
 /// Fixed steps against the limits, the transfer, speed against sound.
 void check_steps(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
 
+/// Of a run with fixed steps in which sound crossed more cells than any step may: "" of others.
+std::string unstable_steps(const sim::SolverSettings& settings, const sim::Warnings& warnings);
+
 /// Snow that cameras named by the scene do not see. @param scene resolved
 void check_cameras(const scene::Scene& scene, const std::vector<setup::CoarseMoment>& moments,
                    std::vector<Finding>& findings);
