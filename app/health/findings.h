@@ -103,6 +103,11 @@ void check_motion(const scene::Scene& scene, const Check& check, std::vector<Fin
 /// Damping of the transfer per frame, spin that it stops.
 void check_transfer(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
 
+/// Steps so short that float rounds away the motion of slow snow, or gravity.
+/// @param coarsening the N of --coarsen, for advice
+void check_rounding(const scene::Scene& scene, std::vector<Finding>& findings,
+                    double coarsening = 1);
+
 /// Fixed steps against the limits, the transfer, speed against sound.
 void check_steps(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
 

@@ -159,17 +159,6 @@ scene::Range density_range(const scene::Scene& given) {
   return {round_down(0.5 * low), round_up(1.5 * high)};
 }
 
-/// Longest step that the limits allow snow at rest.
-double step_at_rest(const scene::Scene& scene) {
-  const sim::SolverSettings& solver = scene.solver;
-  if (solver.time_step == sim::TimeStep::fixed) return solver.dt;
-  double step = solver.max_dt;
-  for (const sim::Material& material : scene::materials_of_snow(scene))
-    step = std::min(step, sim::acoustic_stretch(solver) * solver.acoustic_cfl * solver.cell_size /
-                              sim::sound_speed(material));
-  return step;
-}
-
 /// Heights of bodies until they fall on something, m.
 struct BodyHeights {
   double low = 1e300, high = -1e300;
@@ -303,6 +292,16 @@ Impact hardest_impact(const scene::Scene& given) {
     fastest_at_start = std::max(fastest_at_start, sound_in(piece));
   if (fastest_at_start > 0) hardest.share_of_sound /= fastest_at_start;
   return hardest;
+}
+
+double step_at_rest(const scene::Scene& scene) {
+  const sim::SolverSettings& solver = scene.solver;
+  if (solver.time_step == sim::TimeStep::fixed) return solver.dt;
+  double step = solver.max_dt;
+  for (const sim::Material& material : scene::materials_of_snow(scene))
+    step = std::min(step, sim::acoustic_stretch(solver) * solver.acoustic_cfl * solver.cell_size /
+                              sim::sound_speed(material));
+  return step;
 }
 
 double largest_gravity(const scene::Scene& given) {

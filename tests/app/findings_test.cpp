@@ -167,6 +167,37 @@ TEST(Findings, SettingsThatOtherNumbersSwitchOffAreFound) {
   EXPECT_EQ(idle("threshold_cell = 0.01\n", "model = \"cam_clay\"\n"), "");
 }
 
+/// Free flight at dt = 1e-6 moved particles by 0 to twice v t, and gravity added nothing at 1e-8.
+TEST(Findings, StepsTooShortForSinglePrecisionAreFound) {
+  const auto findings = [](const std::string& solver, const std::string& material,
+                           const std::string& velocity) {
+    const scene::Scene scene = scene::read_scene_text(
+        "frames = 4\n[solver]\n" + solver + "[material.snow]\n" + material +
+            "[[body]]\nshape = { sphere = { center = [0, 0.4, 0], radius = 0.06 } }\nvelocity = " +
+            velocity + "\n",
+        "short.toml");
+    std::vector<health::Finding> found;
+    health::check_rounding(scene, found);
+    return found;
+  };
+  const std::string flight = "cell_size = 0.05\ngravity = [0, 0, 0]\ntime_step = \"fixed\"\n",
+                    slow = "[0.0015, -0.0008, 0.003]";
+  EXPECT_TRUE(findings(flight + "dt = 1e-4\n", "", slow).empty());
+  EXPECT_TRUE(findings(flight + "dt = 1e-6\nprecision = \"double\"\n", "", slow).empty());
+  const auto lost = findings(flight + "dt = 1e-6\n", "", slow);
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_EQ(health::sentence(lost[0]),
+            "solver.precision: steps of 1e-06 s are so short that single precision does not move "
+            "snow slower than 0.0015 m/s, and moves snow at 0.00345 m/s by up to 44 % too much or "
+            "too little; solver.precision = \"double\", or longer steps: solver.dt = 4.35e-05");
+  const std::string ice = "model = \"corotated\"\nyoungs_modulus = 9e9\ndensity = 917\n";
+  EXPECT_TRUE(findings("", ice, "[0, -3, 0]").empty()) << "steps of 3e-6 s";
+  const auto falls = findings("time_step = \"fixed\"\ndt = 1e-8\n", ice, "[0, -3, 0]");
+  ASSERT_EQ(falls.size(), 2u);
+  EXPECT_NE(falls[1].what.find("adds 9.81e-08 m/s of gravity to speeds of "), std::string::npos)
+      << falls[1].what;
+}
+
 TEST(Findings, SnowThatBeginsDenserThanIceIsFound) {
   const auto findings = [](const char* J_P) {
     std::vector<health::Finding> found;
