@@ -148,6 +148,7 @@ Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, d
   note_terrain(scene, check.findings);
   check_resolution(scene, check.findings, coarsening);
   check_emitters(scene, check.findings, coarsening);
+  check_rounding(scene, check.findings, coarsening);
   check_sinks(scene, check.impact_speed, check.findings);
   check_unused(given, coarsening, check.findings);
   check_idle(given, set, check.findings);

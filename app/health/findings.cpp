@@ -440,6 +440,21 @@ void check_steps(const scene::Scene& scene, const Check& check, std::vector<Find
                         "make it slower, or youngs_modulus larger"});
 }
 
+/// Neither "stop" nor "retry" has a rule for fixed steps: a single crushed particle may pass the
+/// limit in a run that is good otherwise.
+std::string unstable_steps(const sim::SolverSettings& settings, const sim::Warnings& warnings) {
+  const sim::health::Limits& law = limits_of(Law::acoustic_cfl);
+  const double worst = warnings.worst_acoustic_cfl;
+  if (settings.time_step != sim::TimeStep::fixed || !(worst > law.stop)) return "";
+  return fmt::format(
+      "fixed steps: the acoustic CFL reached {}, and steps above {} are unstable: speeds, packing "
+      "and energy of that snow, or of all, are false, though no rule stops{} fixed steps for it; "
+      "try solver.time_step = \"adaptive\", or a solver.dt that is {} times shorter",
+      fixed_text(worst, 1), rough_text(law.stop),
+      settings.on_divergence == sim::OnDivergence::retry ? " or retries" : "",
+      rough_text(worst / law.check_warning));
+}
+
 void check_cameras(const scene::Scene& scene, const std::vector<setup::CoarseMoment>& moments,
                    std::vector<Finding>& findings) {
   for (const scene::View& view : scene.views) {

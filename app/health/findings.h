@@ -103,8 +103,16 @@ void check_motion(const scene::Scene& scene, const Check& check, std::vector<Fin
 /// Damping of the transfer per frame, spin that it stops.
 void check_transfer(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
 
+/// Steps so short that float rounds away the motion of slow snow, or gravity.
+/// @param coarsening the N of --coarsen, for advice
+void check_rounding(const scene::Scene& scene, std::vector<Finding>& findings,
+                    double coarsening = 1);
+
 /// Fixed steps against the limits, the transfer, speed against sound.
 void check_steps(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
+
+/// Of a run with fixed steps in which sound crossed more cells than any step may: "" of others.
+std::string unstable_steps(const sim::SolverSettings& settings, const sim::Warnings& warnings);
 
 /// Snow that cameras named by the scene do not see. @param scene resolved
 void check_cameras(const scene::Scene& scene, const std::vector<setup::CoarseMoment>& moments,

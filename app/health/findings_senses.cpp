@@ -93,6 +93,27 @@ void check_packing_of_grains(const scene::Scene& scene, const std::string& addre
        fmt::format("{}.J_P = 1; material.{}.density makes it denser", address, material->name)});
 }
 
+/// A law that yields holds J_P in the range of its material, and takes what is born outside of it
+/// to the end of the range in one step.
+template <class Thing>
+void check_range_of_packing(const scene::Scene& scene, const std::string& address,
+                            const Thing& thing, std::vector<Finding>& findings) {
+  const auto m = std::ranges::find(scene.materials, thing.material, &sim::Material::name);
+  if (m == scene.materials.end() || !sim::laws::of(*m).is_plastic) return;
+  const bool is_loose = thing.J_P > m->max_J_P;
+  // Grains that are packed have a word of their own.
+  if (!is_loose && (!(thing.J_P < m->min_J_P) || sim::laws::of(*m).is_granular)) return;
+  const std::string key = is_loose ? "max_J_P" : "min_J_P";
+  const double end = is_loose ? m->max_J_P : m->min_J_P;
+  findings.push_back(
+      {Severity::warning, address + ".J_P",
+       fmt::format("{} is outside of the range of {}, whose {} is {}: J_P becomes that where it "
+                   "first yields, without a load that moved it there",
+                   number_text(thing.J_P), m->name, key, number_text(end)),
+       fmt::format("{}.J_P = {}, or material.{}.{} = {}", address, number_text(end), m->name, key,
+                   number_text(thing.J_P))});
+}
+
 void check_camera_angles(const std::string& address, const scene::CameraSettings& camera,
                          double duration, std::vector<Finding>& findings) {
   if (camera.turntable && *camera.turntable >= 90 && std::fmod(*camera.turntable, 90) == 0 &&
@@ -136,10 +157,15 @@ void check_senses(const scene::Scene& scene, std::vector<Finding>& findings) {
   check_things(scene.bodies, "body");
   check_things(scene.emitters, "emitter");
   check_things(scene.colliders, "collider");
-  for (const sim::seeding::Body& body : scene.bodies)
-    check_packing_of_grains(scene, "body." + body.name, body, findings);
-  for (const sim::seeding::Emitter& emitter : scene.emitters)
-    check_packing_of_grains(scene, "emitter." + emitter.name, emitter, findings);
+  const auto check_packing = [&](const auto& sources, const char* kind) {
+    for (const auto& source : sources) {
+      const std::string address = std::string(kind) + "." + source.name;
+      check_packing_of_grains(scene, address, source, findings);
+      check_range_of_packing(scene, address, source, findings);
+    }
+  };
+  check_packing(scene.bodies, "body");
+  check_packing(scene.emitters, "emitter");
   const double duration = scene::duration(scene);
   if (scene.camera) check_camera_angles("camera", *scene.camera, duration, findings);
   for (const scene::View& view : scene.views)

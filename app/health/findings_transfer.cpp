@@ -4,9 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "app/health/findings.h"
+#include "app/health/softness.h"
+#include "app/scene/coarsen.h"
+#include "app/setup/auto_ranges.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
 #include "sim/types/time_step.h"
@@ -92,7 +98,50 @@ void check_places(const sim::SolverSettings& s, std::vector<Finding>& findings) 
                       "strained; keep it for the paper's pictures"});
 }
 
+/// Spacing of floats at a number.
+double float_spacing(double x) {
+  const auto single = static_cast<float>(std::abs(x));
+  return std::nextafter(single, std::numeric_limits<float>::infinity()) - single;
+}
+
+/// Advice on steps that are too short. @param needed  s, that would do
+std::string advice_on_short_steps(const sim::SolverSettings& s, double needed, double coarsening) {
+  const std::string precise = "solver.precision = \"double\"";
+  if (s.time_step == sim::TimeStep::fixed)
+    return precise + ", or longer steps: " + scene::setting_text("solver.dt", needed, coarsening);
+  return precise + ", or softer snow, which takes longer steps";
+}
+
 }  // namespace
+
+void check_rounding(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening) {
+  const sim::SolverSettings& s = scene.solver;
+  if (s.precision != sim::Precision::single) return;
+  const double dt = setup::step_at_rest(scene), g = s.gravity.norm(), fastest = load_speed(scene);
+  const double shown = fastest > 0 ? fastest : std::sqrt(g * s.cell_size);
+  const auto add = [&](const std::string& what, double needed) {
+    findings.push_back(
+        {Severity::warning, "solver.precision",
+         fmt::format("steps of {} s are so short that single precision {}", rough_text(dt), what),
+         advice_on_short_steps(s, needed, coarsening)});
+  };
+  // Places are kept in shares of a cell, and a step is rounded by up to half of their spacing.
+  constexpr double place_rounding = 0.5 * 6e-8, notable = 0.01;
+  const double lost = place_rounding * s.cell_size / dt;
+  const double slow = g > 0 ? std::min(shown, std::sqrt(g * s.cell_size)) : shown;
+  if (slow > 0 && lost > notable * slow)
+    add(fmt::format("does not move snow slower than {} m/s, and moves snow at {} m/s by up to {} "
+                    "too much or too little",
+                    rough_text(lost), rough_text(shown), percent_text(lost / shown)),
+        place_rounding * s.cell_size / (notable * slow));
+  // Speeds grow by g dt, rounded in the same way.
+  constexpr double spacings = 16;
+  const double spacing = float_spacing(fastest);
+  if (g > 0 && g * dt < spacings * spacing)
+    add(fmt::format("adds {} m/s of gravity to speeds of {} m/s, which have a spacing of {} m/s",
+                    rough_text(g * dt), rough_text(fastest), rough_text(spacing)),
+        spacings * spacing / g);
+}
 
 void check_transfer(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings) {
   check_places(scene.solver, findings);

@@ -151,8 +151,54 @@ bool is_one_of(const std::string& key, std::initializer_list<const char*> keys) 
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+/// A number that is this one, and follows no curve that would make it another.
+bool stays(const scene::Scene& scene, const std::string& address, double value, double at) {
+  return value == at && !setup::curve_of(scene, address);
+}
+
+/// True where all snow, or whatever the bodies are of, has a law that has something.
+template <class Has>
+bool all_snow(const scene::Scene& scene, const Has& has) {
+  return std::ranges::all_of(scene::materials_of_snow(scene), has);
+}
+bool never_yields(const sim::Material& m) {
+  return !sim::laws::of(m).is_plastic && !m.yields;
+}
+
+/// Of a setting of the transfer whose number, or the snow itself, leaves it nothing to do.
+std::optional<Idle> idle_in_transfer(const scene::Scene& scene, const std::string& key) {
+  const sim::SolverSettings& s = scene.solver;
+  const auto is_ratio = [&](double at) {
+    return stays(scene, "solver.flip_ratio", s.flip_ratio, at);
+  };
+  if (key == "flip_reference_dt" && (is_ratio(0) || is_ratio(1)))
+    return Idle{fmt::format("flip_ratio = {} is the same for steps of any length", s.flip_ratio),
+                "remove it, or give flip_ratio a value between 0 and 1"};
+  if (is_one_of(key, {"separation_min", "separation_max", "separation_J_E"})) {
+    if (is_ratio(0))
+      return Idle{"with flip_ratio = 0 particles keep no velocity of their own to move with",
+                  "remove it, or set a larger solver.flip_ratio"};
+    if (all_snow(scene, never_yields))
+      return Idle{"nothing in the scene yields, and what is elastic moves with the grid",
+                  "remove it"};
+  }
+  if (key == "separation_J_E" && s.separation_min == s.separation_max &&
+      stays(scene, "solver.separation_min", s.separation_min, s.separation_max) &&
+      stays(scene, "solver.separation_max", s.separation_max, s.separation_min))
+    return Idle{fmt::format("separation_min and separation_max are both {}", s.separation_min),
+                "remove it, or make the two differ"};
+  if (key == "shock_viscosity" && all_snow(scene, never_yields))
+    return Idle{"nothing in the scene yields, and what is elastic has no such viscosity",
+                "remove it"};
+  if (key == "threshold_cell" &&
+      all_snow(scene, [](const sim::Material& m) { return !sim::laws::of(m).refine; }))
+    return Idle{"no material in the scene has thresholds of snow", "remove it"};
+  return std::nullopt;
+}
+
 /// Of a setting of the solver that other settings switch off.
-std::optional<Idle> idle_in_solver(const sim::SolverSettings& s, const std::string& key) {
+std::optional<Idle> idle_in_solver(const scene::Scene& scene, const std::string& key) {
+  const sim::SolverSettings& s = scene.solver;
   const bool is_fixed = s.time_step == sim::TimeStep::fixed,
              is_asflip = s.transfer == sim::Transfer::asflip,
              is_aflip = s.transfer == sim::Transfer::aflip;
@@ -180,15 +226,28 @@ std::optional<Idle> idle_in_solver(const sim::SolverSettings& s, const std::stri
   if (key == "collide_after_solve" && !(s.is_implicit() && s.contact_at == sim::ContactAt::nodes))
     return Idle{"it is for semi-implicit steps with contact at nodes",
                 "solver.collide_after_solve = false"};
-  return std::nullopt;
+  return idle_in_transfer(scene, key);
 }
 
-/// Of a parameter of another law than the material's.
-std::optional<Idle> idle_in_material(const sim::Material& m, const std::string& key) {
+/// Of a parameter of another law than the material's, or that another of its numbers switches off.
+std::optional<Idle> idle_in_material(const scene::Scene& scene, const sim::Material& m,
+                                     const std::string& key) {
   const auto has = [&](std::span<const sim::laws::Parameter> list) {
     return std::ranges::find(list, key, &sim::laws::Parameter::key) != list.end();
   };
   const sim::laws::Law& law = sim::laws::of(m);
+  const sim::Variation& variation = m.variation;
+  if (key == "variation.size" && variation.density == 0 && variation.youngs_modulus == 0 &&
+      variation.thresholds == 0)
+    return Idle{
+        fmt::format("nothing of {} varies", m.name),
+        fmt::format("give material.{}.variation.thresholds, density or youngs_modulus", m.name)};
+  if (key == "variation.thresholds" && never_yields(m))
+    return Idle{fmt::format("material {} has model = \"{}\", which never yields", m.name, law.name),
+                fmt::format("material.{}.variation.youngs_modulus varies its stiffness", m.name)};
+  if (key == "max_hardening" && law.hardens &&
+      stays(scene, "material." + m.name + ".hardening", m.hardening, 0))
+    return Idle{fmt::format("material {} does not harden: hardening = 0", m.name), "remove it"};
   if (!has(sim::laws::all_parameters()) || has(law.parameters)) return std::nullopt;
   return Idle{
       fmt::format("material {} has model = \"{}\", which does not use it", m.name, law.name),
@@ -226,11 +285,10 @@ std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& addres
   const auto key_in = [&](const std::string& table) {
     return address.starts_with(table) ? address.substr(table.size()) : "";
   };
-  if (const std::string key = key_in("solver."); !key.empty())
-    return idle_in_solver(scene.solver, key);
+  if (const std::string key = key_in("solver."); !key.empty()) return idle_in_solver(scene, key);
   for (const sim::Material& m : scene.materials)
     if (const std::string key = key_in("material." + m.name + "."); !key.empty())
-      return idle_in_material(m, key);
+      return idle_in_material(scene, m, key);
   for (const scene::Collider& collider : scene.colliders)
     if (const std::string key = key_in("collider." + collider.name + "."); !key.empty())
       return idle_in_collider(collider, key);

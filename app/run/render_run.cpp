@@ -70,7 +70,7 @@ RenderRun::RenderRun(const RenderJob& job, timeline::Timeline& timeline,
   if (job.options.validate) watch_laws();
   timeline_.watch({.after_step =
                        [this] {
-                         progress_.step();
+                         progress_.step(timeline_.simulation().time());
                          look_at_laws();
                          return is_interrupted() || is_abandoned_;
                        },

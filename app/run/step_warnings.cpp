@@ -60,10 +60,8 @@ std::vector<std::string> step_warnings(const scene::Scene& scene,
     list.push_back(picture::ignored_rule_text(warnings) +
                    ": numbers and pictures from there on mean nothing; solver.on_divergence = "
                    "\"stop\" explains the cause");
-  if (settings.time_step == sim::TimeStep::fixed && warnings.worst_acoustic_cfl > 1.5)
-    list.push_back("fixed steps: the acoustic CFL reached " +
-                   fixed_text(warnings.worst_acoustic_cfl, 1) +
-                   "; steps above 1.5 are unstable: make solver.dt smaller");
+  if (const std::string text = health::unstable_steps(settings, warnings); !text.empty())
+    list.push_back(text);
   if (warnings.solves_cut_short > 0)
     list.push_back(
         semi_implicit_steps(warnings.solves_cut_short) +

@@ -85,8 +85,8 @@ void refuse_empty_bodies(const Scene& scene, double factor) {
 }
 
 bool has_thresholds(const Scene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [](const sim::Material& m) { return sim::laws::of(m).is_snow; });
+  return std::ranges::any_of(materials_of_snow(scene),
+                             [](const sim::Material& m) { return sim::laws::of(m).is_snow; });
 }
 
 /// A number that may be 0, and follows its curve where it has one, whatever the scene sets it to.

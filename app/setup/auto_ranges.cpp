@@ -159,17 +159,6 @@ scene::Range density_range(const scene::Scene& given) {
   return {round_down(0.5 * low), round_up(1.5 * high)};
 }
 
-/// Longest step that the limits allow snow at rest.
-double step_at_rest(const scene::Scene& scene) {
-  const sim::SolverSettings& solver = scene.solver;
-  if (solver.time_step == sim::TimeStep::fixed) return solver.dt;
-  double step = solver.max_dt;
-  for (const sim::Material& material : scene::materials_of_snow(scene))
-    step = std::min(step, sim::acoustic_stretch(solver) * solver.acoustic_cfl * solver.cell_size /
-                              sim::sound_speed(material));
-  return step;
-}
-
 /// Heights of bodies until they fall on something, m.
 struct BodyHeights {
   double low = 1e300, high = -1e300;
@@ -282,21 +271,37 @@ double impact_speed(const scene::Scene& given) {
 }
 
 Impact hardest_impact(const scene::Scene& given) {
+  const auto sound_in = [](const SnowPiece& piece) {
+    return sim::health::wave_speed(*piece.material, sim::Mat3d::Identity(), piece.J_P,
+                                   piece.material->density);
+  };
   Impact hardest;
-  double worst = 0, fastest_sound = 0;
+  double worst = 0;
   at_each_moment(given, [&](const scene::Scene& scene) {
     for (const SnowPiece& piece : snow_places(scene)) {
-      const double speed = impact_speed(scene, piece);
-      const double sound = sim::health::wave_speed(*piece.material, sim::Mat3d::Identity(),
-                                                   piece.J_P, piece.material->density);
-      fastest_sound = std::max(fastest_sound, sound);
+      const double speed = impact_speed(scene, piece), sound = sound_in(piece);
       if (speed <= worst * sound) continue;
       worst = speed / sound;
       hardest = {piece.address, speed, sound};
     }
   });
-  if (fastest_sound > 0) hardest.share_of_sound /= fastest_sound;
+  // A curve may make snow stiffer than any is at the start.
+  const scene::Scene start = with_curves(given, 0);
+  double fastest_at_start = 0;
+  for (const SnowPiece& piece : snow_places(start))
+    fastest_at_start = std::max(fastest_at_start, sound_in(piece));
+  if (fastest_at_start > 0) hardest.share_of_sound /= fastest_at_start;
   return hardest;
+}
+
+double step_at_rest(const scene::Scene& scene) {
+  const sim::SolverSettings& solver = scene.solver;
+  if (solver.time_step == sim::TimeStep::fixed) return solver.dt;
+  double step = solver.max_dt;
+  for (const sim::Material& material : scene::materials_of_snow(scene))
+    step = std::min(step, sim::acoustic_stretch(solver) * solver.acoustic_cfl * solver.cell_size /
+                              sim::sound_speed(material));
+  return step;
 }
 
 double largest_gravity(const scene::Scene& given) {

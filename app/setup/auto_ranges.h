@@ -25,6 +25,9 @@ struct Impact {
 /// The hardest of all bodies and emitters.
 Impact hardest_impact(const scene::Scene& scene);
 
+/// s, of the longest step that the limits allow snow at rest.
+double step_at_rest(const scene::Scene& scene);
+
 /// m/s2, while the scene lasts.
 double largest_gravity(const scene::Scene& scene);
 

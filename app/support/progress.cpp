@@ -5,6 +5,7 @@
 
 #include <fmt/chrono.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -40,7 +41,8 @@ std::string duration_text(double seconds) {
 }
 
 std::string progress_text(const ProgressState& state) {
-  const double fps = state.time > 0 ? state.frame / state.time : 1;
+  // Inside a frame the time is later than that of its number.
+  const double fps = state.time > 0 ? std::max(state.frame, 1) / state.time : 1;
   std::string text = "frame " + std::to_string(state.first_number + state.frame) + "/" +
                      std::to_string(state.first_number + state.last_frame) +
                      "  t = " + time_text(state.time, fps) + "  " + std::to_string(state.steps) +
@@ -138,10 +140,16 @@ bool Progress::is_due(Clock::time_point now) const {
                                         : Clock::duration(line_interval));
 }
 
-void Progress::step() {
+void Progress::step(double time) {
   const std::lock_guard lock(mutex_);
-  ++state_.steps;
   const auto now = Clock::now();
+  // Frame 0 took no steps, and says nothing of the time that others take.
+  if (state_.steps == 0) {
+    finished_at_.assign(1, now);
+    state_.seconds_per_frame = -1;
+  }
+  ++state_.steps;
+  state_.time = time;
   if (is_due(now)) show_frame(now);
 }
 

@@ -25,7 +25,7 @@ struct ProgressOptions {
 /// Contents of a progress line.
 struct ProgressState {
   int frame = 0, last_frame = 0;  ///< counted from 0
-  double time = 0;                ///< s, simulated
+  double time = 0;                ///< s, simulated, also inside a frame
   std::size_t steps = 0;          ///< since the start
   double seconds_per_frame = -1;  ///< over the trailing window, negative: not known yet
   int first_number = 0;           ///< of frame 0
@@ -84,8 +84,8 @@ class Progress {
 
   /// @param first_number  of frame 0, in lines and events
   void start(int last_frame, int first_number);
-  /// A step was made; cheap.
-  void step();
+  /// A step was made; cheap. @param time  s, that it ends at
+  void step(double time);
   /// A frame was finished.
   void frame(int frame, double time);
 

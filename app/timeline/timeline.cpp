@@ -45,10 +45,8 @@ Watch watched_by(Progress& progress, const scene::Scene& scene) {
   const double fps = scene.fps;
   const int first = scene::number_of(scene, 0);
   Watch watch;
-  watch.after_step = [&progress] {
-    progress.step();
-    return is_interrupted();
-  };
+  watch.has_reached = [&progress](double time) { progress.step(time); };
+  watch.after_step = [] { return is_interrupted(); };
   watch.after_frame = [&progress, fps](int frame) { progress.frame(frame, frame / fps); };
   watch.after_jump = [&progress, first, is_told = false](int frame) mutable {
     if (!is_told)
@@ -248,12 +246,15 @@ bool Timeline::go_to(double time) {
   return !must_stop();
 }
 
+/// @return whether to stop
+bool Timeline::look_after_step() {
+  if (watch_.has_reached) watch_.has_reached(simulation_.time());
+  return is_stopped_ = watch_.after_step && watch_.after_step();
+}
+
 /// As far as the last step, or to the end of the frame.
 sim::AdvanceReport Timeline::advance(double time, std::size_t last_step) {
-  const auto after_step = [this] {
-    is_stopped_ = watch_.after_step && watch_.after_step();
-    return is_stopped_;
-  };
+  const auto after_step = [this] { return look_after_step(); };
   if (rehearsed_ || !may_go_back()) return simulation_.advance_to(time, after_step, last_step);
   if (last_step == no_step || simulation_.dt_scale() < 1)
     return sim::advance_retrying(simulation_, time, after_step, here_.retries);
@@ -321,8 +322,7 @@ void Timeline::advance_step() {
   rehearse();
   if (is_stopped_) return;
   here_.advance.append(simulation_.advance_to(
-      frame_end(), [this] { return is_stopped_ = watch_.after_step && watch_.after_step(); },
-      simulation_.steps() + 1));
+      frame_end(), [this] { return look_after_step(); }, simulation_.steps() + 1));
   if (!simulation_.divergence()) {
     end_rehearsed();
     if (!rehearsed_) make_due();

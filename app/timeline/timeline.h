@@ -21,6 +21,7 @@ struct Watch {
   std::function<void(int frame)> after_frame{};
   std::function<void(int frame)> after_jump{};  ///< to a kept moment of this frame
   std::function<void(const scene::Scene& scene)> after_change{};
+  std::function<void(double time)> has_reached{};  ///< s, after each step, before after_step
 };
 
 /// Shows how far it is, and stops at an interrupt. @param progress  outlives it
@@ -110,6 +111,7 @@ class Timeline {
   std::size_t next_stop() const;
   bool end_frame();
   bool may_go_back() const { return here_.scene->solver.on_divergence == sim::OnDivergence::retry; }
+  bool look_after_step();
   bool must_stop() const { return is_stopped_ || simulation_.divergence().has_value(); }
 
   scene::Scene start_;

@@ -139,7 +139,8 @@ void Engine<Real>::diverge_if(const std::optional<BrokenRule>& broken) {
 template <class Real>
 DtChoice Engine<Real>::choose_dt(double remaining) const {
   const Progress& progress = state_.progress;
-  return sim::choose_dt(state_.method.settings, progress.limits, remaining, progress.dt_scale);
+  return sim::choose_dt(state_.method.settings, progress.limits, remaining, progress.dt_scale,
+                        progress.frame.done);
 }
 
 template <class Real>

@@ -39,12 +39,16 @@ double acoustic_dt(const SolverSettings& s, const StateLimits& limits) {
 }  // namespace
 
 DtChoice choose_dt(const SolverSettings& s, const StateLimits& limits, double remaining,
-                   double scale) {
+                   double scale, double done) {
   // Rounding of the remaining time must not leave a step of 1e-18 s.
   constexpr double slack = 1 + 1e-9;
   if (s.time_step == TimeStep::fixed) {
     const double dt = s.dt * scale;
-    if (remaining <= dt * slack) return {remaining, DtLimit::frame_end};
+    // Equal steps are rounded the same way, each by up to half a unit in the last place of the sum.
+    constexpr double most = 0.1;
+    const double rounding =
+        std::min(std::numeric_limits<double>::epsilon() * done * (done / dt), most * dt);
+    if (remaining <= std::max(dt * slack, dt + rounding)) return {remaining, DtLimit::frame_end};
     return {dt, DtLimit::fixed};
   }
   const std::array<double, dt_limit_count> allowed = limits_on_dt(s, limits);

@@ -22,9 +22,11 @@ struct StateLimits {
 
 /// dt of the next step and the limit that rules it. `remaining` is the time to the end of the
 /// frame; the last two steps before it share what is left, so that none is tiny. `scale` is a
-/// factor of the step, not of the limits.
+/// factor of the step, not of the limits. `done` is the time since the start of the frame, as the
+/// sum of its steps, which is rounded.
+/// Check: TimeStep.FixedStepsOfALongFrameEndWithoutASliver
 DtChoice choose_dt(const SolverSettings& settings, const StateLimits& limits, double remaining,
-                   double scale = 1);
+                   double scale = 1, double done = 0);
 
 /// dt that each limit allows, infinite for those that no state has (fixed, frame_end).
 std::array<double, dt_limit_count> limits_on_dt(const SolverSettings& settings,

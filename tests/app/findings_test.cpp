@@ -112,6 +112,92 @@ TEST(Findings, AResolvedSceneOfACoarseRunWarnsOfNoStepThatNobodySet) {
   EXPECT_EQ(idle((fixed + "max_dt = 0.02\n").c_str(), 2), "solver.max_dt ");
 }
 
+/// Each of these changed no bit of a state, and nobody was told.
+TEST(Findings, SettingsThatOtherNumbersSwitchOffAreFound) {
+  const auto idle = [](const std::string& solver, const std::string& material,
+                       const std::string& more = "") {
+    std::vector<health::Finding> findings;
+    health::check_unused(
+        scene::read_scene_text("frames = 4\n[solver]\n" + solver + "[material.m]\n" + material +
+                                   "[[body]]\nmaterial = \"m\"\n"
+                                   "shape = { sphere = { radius = 0.2 } }\n" +
+                                   more,
+                               "idle.toml"),
+        1, findings);
+    std::string addresses;
+    for (const health::Finding& finding : findings)
+      if (finding.severity == health::Severity::warning) addresses += finding.address + " ";
+    return addresses;
+  };
+  const std::string elastic = "model = \"corotated\"\n", sand = "model = \"sand\"\n";
+  EXPECT_EQ(idle("", "variation = { size = 0.2 }\n"), "material.m.variation.size ");
+  EXPECT_EQ(idle("", "variation = { size = 0.2, density = 0.1 }\n"), "");
+  const std::string varied = "variation = { thresholds = 0.5 }\n";
+  EXPECT_EQ(idle("", elastic + varied), "material.m.variation.thresholds ");
+  EXPECT_EQ(idle("", "model = \"neo_hookean\"\n" + varied), "material.m.variation.thresholds ");
+  EXPECT_EQ(idle("", sand + varied) + idle("", varied), "") << "strength of its surface";
+  EXPECT_EQ(idle("", "hardening = 0\nmax_hardening = 20\n"), "material.m.max_hardening ");
+  EXPECT_EQ(idle("", "hardening = 1\nmax_hardening = 20\n"), "");
+  const std::string curve =
+      "[[curve]]\nname = \"c\"\nkeyframes = [{ time = 0, value = 0 }, { time = 0.1, value = 0.5 "
+      "}]\n"
+      "parameter = ";
+  EXPECT_EQ(idle("", "hardening = 0\nmax_hardening = 20\n", curve + "\"material.m.hardening\"\n"),
+            "");
+  EXPECT_EQ(idle("flip_ratio = 1\nflip_reference_dt = 1e-3\n", ""), "solver.flip_reference_dt ");
+  EXPECT_EQ(idle("flip_ratio = 0\nflip_reference_dt = 1e-3\n", ""), "solver.flip_reference_dt ");
+  EXPECT_EQ(idle("flip_ratio = 0.5\nflip_reference_dt = 1e-3\n", ""), "");
+  EXPECT_EQ(
+      idle("flip_ratio = 0\nflip_reference_dt = 1e-3\n", "", curve + "\"solver.flip_ratio\"\n"),
+      "");
+  const std::string shares = "separation_min = 0.2\nseparation_max = 0.8\nseparation_J_E = 0.9\n",
+                    all_shares =
+                        "solver.separation_min solver.separation_max solver.separation_J_E ";
+  EXPECT_EQ(idle(shares, ""), "");
+  EXPECT_EQ(idle(shares + "flip_ratio = 0\n", ""), all_shares);
+  EXPECT_EQ(idle(shares, elastic), all_shares);
+  EXPECT_EQ(idle("separation_max = 0\nseparation_J_E = 0.9\n", ""), "solver.separation_J_E ");
+  EXPECT_EQ(
+      idle("separation_max = 0\nseparation_J_E = 0.9\n", "", curve + "\"solver.separation_max\"\n"),
+      "");
+  EXPECT_EQ(idle("shock_viscosity = 0.5\n", elastic), "solver.shock_viscosity ");
+  EXPECT_EQ(idle("shock_viscosity = 0.5\n", sand), "");
+  EXPECT_EQ(idle("threshold_cell = 0.01\n", elastic), "solver.threshold_cell ");
+  EXPECT_EQ(idle("threshold_cell = 0.01\n", sand), "solver.threshold_cell ");
+  EXPECT_EQ(idle("threshold_cell = 0.01\n", "model = \"cam_clay\"\n"), "");
+}
+
+/// Free flight at dt = 1e-6 moved particles by 0 to twice v t, and gravity added nothing at 1e-8.
+TEST(Findings, StepsTooShortForSinglePrecisionAreFound) {
+  const auto findings = [](const std::string& solver, const std::string& material,
+                           const std::string& velocity) {
+    const scene::Scene scene = scene::read_scene_text(
+        "frames = 4\n[solver]\n" + solver + "[material.snow]\n" + material +
+            "[[body]]\nshape = { sphere = { center = [0, 0.4, 0], radius = 0.06 } }\nvelocity = " +
+            velocity + "\n",
+        "short.toml");
+    std::vector<health::Finding> found;
+    health::check_rounding(scene, found);
+    return found;
+  };
+  const std::string flight = "cell_size = 0.05\ngravity = [0, 0, 0]\ntime_step = \"fixed\"\n",
+                    slow = "[0.0015, -0.0008, 0.003]";
+  EXPECT_TRUE(findings(flight + "dt = 1e-4\n", "", slow).empty());
+  EXPECT_TRUE(findings(flight + "dt = 1e-6\nprecision = \"double\"\n", "", slow).empty());
+  const auto lost = findings(flight + "dt = 1e-6\n", "", slow);
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_EQ(health::sentence(lost[0]),
+            "solver.precision: steps of 1e-06 s are so short that single precision does not move "
+            "snow slower than 0.0015 m/s, and moves snow at 0.00345 m/s by up to 44 % too much or "
+            "too little; solver.precision = \"double\", or longer steps: solver.dt = 4.35e-05");
+  const std::string ice = "model = \"corotated\"\nyoungs_modulus = 9e9\ndensity = 917\n";
+  EXPECT_TRUE(findings("", ice, "[0, -3, 0]").empty()) << "steps of 3e-6 s";
+  const auto falls = findings("time_step = \"fixed\"\ndt = 1e-8\n", ice, "[0, -3, 0]");
+  ASSERT_EQ(falls.size(), 2u);
+  EXPECT_NE(falls[1].what.find("adds 9.81e-08 m/s of gravity to speeds of "), std::string::npos)
+      << falls[1].what;
+}
+
 TEST(Findings, SnowThatBeginsDenserThanIceIsFound) {
   const auto findings = [](const char* J_P) {
     std::vector<health::Finding> found;

@@ -364,6 +364,24 @@ TEST(AutomaticRange, TheHardestImpactIsInTheSnowOfTheSlowestSound) {
   EXPECT_NEAR(impact.share_of_sound, 0.1, 1e-12);  // sound goes with the root of the modulus
 }
 
+/// Snow that a curve stiffens was taken for as soft at the start as the stiffest is to it at the
+/// end.
+TEST(AutomaticRange, TheSoundOfAnImpactIsAShareOfThatAtTheStart) {
+  const auto share = [](double first, double last) {
+    const auto scene = app::scene::read_scene_text(
+        "frames = 6\n[[body]]\nname = \"a\"\nvelocity = [0, -1, 0]\n"
+        "shape = { sphere = { center = [0, 1, 0], radius = 0.2 } }\n"
+        "[[collider]]\nshape = { plane = {} }\n"
+        "[[curve]]\nname = \"e\"\nparameter = \"material.snow.youngs_modulus\"\n"
+        "keyframes = [{ time = 0, value = " +
+            std::to_string(first) + " }, { time = 0.2, value = " + std::to_string(last) + " }]\n",
+        "curve.toml");
+    return app::setup::hardest_impact(scene).share_of_sound;
+  };
+  EXPECT_NEAR(share(1e5, 1e9), 1, 1e-12);
+  EXPECT_NEAR(share(1e6, 1e4), 0.1, 1e-12);
+}
+
 TEST(AutomaticRange, WideFlatSnowSlumpsByItsHeight) {
   const app::scene::Scene scene = app::scene::read_scene_text(R"(
 [[body]]

@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <sstream>
+#include <string>
+#include <thread>
 
 #include "app/options/languages.h"
 #include "app/scene/burn_in.h"
@@ -45,6 +48,23 @@ TEST(Progress, ProgressRewritesItsLineOnlyOnATerminal) {
     EXPECT_EQ(out.str().find('\r') != std::string::npos, updates);
     EXPECT_NE(out.str().find("hello\n"), std::string::npos);
   }
+}
+
+/// It took the time of frame 0, which has no steps, for that of all others: "0 s left" for minutes.
+TEST(Progress, ALongFrameTellsItsTimeAndNoRestBeforeOneIsKnown) {
+  EXPECT_EQ(progress_text({0, 1, 41.25, 63706, -1}), "frame 0/1  t = 41.250 s  63706 steps");
+  std::ostringstream out;
+  Progress progress(out, Verbosity::normal, true);
+  progress.start(2, 0);
+  progress.frame(0, 0);
+  progress.step(0.125);
+  std::this_thread::sleep_for(std::chrono::milliseconds(250));
+  out.str("");
+  progress.step(0.25);
+  EXPECT_NE(out.str().find("frame 0/2  t = 0.250 s  2 steps"), std::string::npos) << out.str();
+  EXPECT_EQ(out.str().find("left"), std::string::npos) << out.str();
+  progress.frame(1, 10);
+  EXPECT_NE(out.str().find("left"), std::string::npos) << out.str();
 }
 
 TEST(Progress, QuietRunsPrintOnlyWarnings) {

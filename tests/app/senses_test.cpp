@@ -81,6 +81,35 @@ TEST(Senses, GrainsAreNotPacked) {
   EXPECT_TRUE(senses_of(with("1.2")).empty()) << "loose";
 }
 
+/// A J_P of 5 became 2 in the first step of sand, and where snow first yielded, in silence.
+TEST(Senses, PackingOutsideTheRangeOfItsMaterialIsSaid) {
+  const auto with = [](const std::string& material, const std::string& J_P) {
+    return "[material.m]\n" + material + "[[body]]\nname = \"heap\"\nmaterial = \"m\"\n" +
+           "shape = { sphere = { center = [1, 0, 0], radius = 0.1 } }\nJ_P = " + J_P + "\n";
+  };
+  const std::string sand = "model = \"sand\"\ndensity = 1500\n", narrow = "max_J_P = 2\n",
+                    packed = "min_J_P = 0.6\n", elastic = "model = \"corotated\"\n";
+  const std::string loose =
+      "body.heap.J_P: 5 is outside of the range of m, whose max_J_P is 2: J_P becomes that where "
+      "it first yields, without a load that moved it there; body.heap.J_P = 2, or "
+      "material.m.max_J_P = 5";
+  expect_only(with(sand + narrow, "5"), loose);
+  expect_only(with(narrow, "5"), loose);
+  expect_only(with(packed, "0.5"),
+              "body.heap.J_P: 0.5 is outside of the range of m, whose min_J_P is 0.6: J_P becomes "
+              "that where it first yields, without a load that moved it there; body.heap.J_P = "
+              "0.6, or material.m.min_J_P = 0.5");
+  EXPECT_TRUE(senses_of(with(narrow, "2")).empty());
+  EXPECT_TRUE(senses_of(with(packed, "0.6")).empty());
+  EXPECT_TRUE(senses_of(with(elastic + narrow, "5")).empty()) << "it never yields";
+  expect_only(
+      "[material.m]\nmax_J_P = 1.2\n[[emitter]]\nname = \"jet\"\nmaterial = \"m\"\nJ_P = 1.5\n"
+      "shape = { sphere = { center = [1, 0, 0], radius = 0.1 } }\n",
+      "emitter.jet.J_P: 1.5 is outside of the range of m, whose max_J_P is 1.2: J_P becomes that "
+      "where it first yields, without a load that moved it there; emitter.jet.J_P = 1.2, or "
+      "material.m.max_J_P = 1.5");
+}
+
 TEST(Senses, UsualNumbersGetNoWord) {
   EXPECT_TRUE(senses_of("[solver]\ngravity = [0, -1.62, 0]\n").empty());
   EXPECT_TRUE(senses_of("[camera]\nturntable = 2\n").empty());

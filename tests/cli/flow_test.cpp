@@ -40,6 +40,18 @@ TEST_F(FlowCli, SnowThatComesAndGoesIsCounted) {
   EXPECT_GT(last["mass"].get<double>(), 1);
 }
 
+/// Only `check` told: a render made pictures of nothing.
+TEST_F(FlowCli, RenderTellsOfEmittersThatNeverEmit) {
+  const auto late = neve(
+      {"render", "flow.toml", "--out", "late", "--frames", "0", "--set", "emitter.spout.start=5"});
+  ASSERT_EQ(late.exit_code, 0) << late.errors;
+  EXPECT_TRUE(contains(late.errors, "emitter.spout.start: spout opens at 5 s")) << late.errors;
+  const auto thin = neve({"render", "flow.toml", "--out", "thin", "--frames", "0", "--set",
+                          "emitter.spout.rate=1e-9"});
+  ASSERT_EQ(thin.exit_code, 0) << thin.errors;
+  EXPECT_TRUE(contains(thin.errors, "emitter.spout.rate: no snow comes")) << thin.errors;
+}
+
 TEST_F(FlowCli, AProbeIsToldById) {
   const auto table = neve({"dump", "flow.toml", "--at", "0.25", "--field", "id", "--quiet"});
   ASSERT_EQ(table.exit_code, 0) << table.errors;

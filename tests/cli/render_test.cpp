@@ -22,6 +22,13 @@ TEST_F(Cli, WarningsOfDoubtfulResultsAreRecorded) {
                           "solver.time_step=fixed", "--set", "solver.dt=2.5e-3"});
   const std::string kept = json_of("fast/run.json")["warnings"].dump();
   EXPECT_TRUE(contains(kept, "the acoustic CFL reached")) << kept << fast.errors;
+  EXPECT_TRUE(contains(kept, "false, though no rule stops fixed steps for it; try")) << kept;
+  // It waited for a retry that never comes.
+  const auto retried = neve({"render", "scene.toml", "--frames", "1", "--out", "retried", "--set",
+                             "solver.time_step=fixed", "--set", "solver.dt=2.5e-3", "--set",
+                             "solver.on_divergence=retry"});
+  EXPECT_TRUE(contains(retried.errors, "no rule stops or retries fixed steps for it"))
+      << retried.errors;
   const auto again = neve({"render", "scene.toml", "--frames", "1", "--out", "fast", "--resume",
                            "--set", "solver.time_step=fixed", "--set", "solver.dt=2.5e-3"});
   EXPECT_EQ(again.exit_code, 0) << again.errors;  // it was complete

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -35,6 +36,32 @@ TEST(TimeStep, SmallestLimitRules) {
   strained.max_strain_rate = 3000;
   EXPECT_EQ(choose_dt(s, strained, 1).limit, DtLimit::strain);
   EXPECT_NEAR(choose_dt(s, strained, 1).dt, 0.3 / 3000, 1e-15);
+}
+
+/// 50 000 steps of 1e-8 s leave 1.6e-16 s of a frame: a step of that, one too many.
+TEST(TimeStep, FixedStepsOfALongFrameEndWithoutASliver) {
+  SolverSettings s;
+  s.time_step = TimeStep::fixed;
+  for (const double dt : {1e-8, 1e-7, 3e-7, 1e-4}) {
+    s.dt = dt;
+    for (const int count : {1, 7, 5000, 50000, 100000}) {
+      const double whole = count * dt;
+      double done = 0, shortest = whole;
+      int steps = 0;
+      while (done < whole && steps < 2 * count) {
+        const DtChoice choice = choose_dt(s, slow(), whole - done, 1, done);
+        shortest = std::min(shortest, choice.dt);
+        done = choice.limit == DtLimit::frame_end ? whole : done + choice.dt;
+        ++steps;
+      }
+      EXPECT_EQ(steps, count) << dt;
+      EXPECT_NEAR(shortest / dt, 1, 1e-4) << dt << " " << count;
+    }
+  }
+  // A step that is short because the frame is no multiple of dt stays.
+  s.dt = 1e-4;
+  EXPECT_NEAR(choose_dt(s, slow(), 1e-7, 1, 0.01).dt, 1e-7, 1e-20);
+  EXPECT_EQ(choose_dt(s, slow(), 1.001e-4, 1, 0.01).limit, DtLimit::fixed);
 }
 
 /// A plate at 80 m/s crosses four cells in the longest step; it hits a block within 0.5 ms.
