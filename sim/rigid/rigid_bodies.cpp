@@ -285,13 +285,63 @@ class RigidBodies::World {
       thing.body->setUserIndex(static_cast<int>(k));
       world_->addCollisionObject(thing.body.get());
     }
+    // Without it a body with edges touches each triangle in one point alone.
+    world_->getDispatchInfo().m_enableSatConvex = true;
     world_->computeOverlappingPairs();
     dispatcher_->dispatchAllCollisionPairs(broadphase_->getOverlappingPairCache(),
                                            world_->getDispatchInfo(), dispatcher_.get());
+    turn_to_faces();
     distances_.clear();
     each_point([&](const btPersistentManifold&, btManifoldPoint& point) {
       distances_.push_back(point.getDistance());
     });
+  }
+
+  /// A body that passes from face to face of a surface meets the edge of the next one, which its
+  /// neighbours hide: such contact pushed bodies back that slid over flat ground, or threw them up.
+  /// Where no face and no ridge has the normal of a contact, it gets that of the nearest face.
+  void turn_to_faces() {
+    each_point([&](const btPersistentManifold& manifold, btManifoldPoint& point) {
+      for (const bool is_first : {true, false}) {
+        const btCollisionObject* object = is_first ? manifold.getBody0() : manifold.getBody1();
+        const RigidShape& shape = *things_[static_cast<std::size_t>(object->getUserIndex())].shape;
+        const btTransform& at = object->getWorldTransform();
+        const double side = is_first ? -1 : 1;
+        const btVector3 &own = is_first ? point.m_positionWorldOnA : point.m_positionWorldOnB,
+                        &other = is_first ? point.m_positionWorldOnB : point.m_positionWorldOnA;
+        const std::vector<Face> faces = shape.faces_at(
+            is_first ? point.m_index0 : point.m_index1, from_bullet(at.invXform(own)),
+            manifold.getContactBreakingThreshold() + std::abs(point.getDistance()));
+        const Vec3d normal =
+            side * (from_bullet(at.getBasis()).transpose() * from_bullet(point.m_normalWorldOnB));
+        const Face* face = hidden_by(faces, normal);
+        if (!face) continue;
+        const Vec3d body = from_bullet(at.invXform(other));
+        const double gap = face->normal.dot(body - face->middle);
+        point.m_normalWorldOnB = side * (at.getBasis() * to_bullet(face->normal));
+        point.setDistance(gap);
+        (is_first ? point.m_positionWorldOnA : point.m_positionWorldOnB) =
+            at * to_bullet(Vec3d(body - gap * face->normal));
+      }
+    });
+  }
+
+  /// The face that has the place of a contact whose normal is of none of them, and of no ridge
+  /// between two; nothing where it is, or where the contact is from behind.
+  static const Face* hidden_by(const std::vector<Face>& faces, const Vec3d& normal) {
+    constexpr double near = 1e-4, behind = -0.5;
+    if (faces.empty() || normal.dot(faces[0].normal) < behind) return nullptr;
+    const Face* best = &faces[0];
+    for (const Face& face : faces) {
+      if (normal.dot(face.normal) > normal.dot(best->normal)) best = &face;
+      for (const Face& next : faces) {
+        const double both = face.normal.dot(next.normal);
+        const bool is_ridge = face.normal.dot(next.middle - face.middle) < 0;
+        if (is_ridge && std::min(normal.dot(face.normal), normal.dot(next.normal)) > both - near)
+          return nullptr;
+      }
+    }
+    return normal.dot(best->normal) > 1 - near ? nullptr : best;
   }
 
   /// body(manifold, point)

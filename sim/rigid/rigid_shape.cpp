@@ -156,7 +156,11 @@ class Posts final : public btHeightfieldTerrainShape {
 /// Holes are so deep that nothing stands in them.
 class Ground final : public RigidShape {
  public:
-  Ground(const shapes::HeightField& field, double unit) {
+  Ground(const shapes::HeightField& field, double unit)
+      : columns_(field.grid().columns),
+        rows_(field.grid().rows),
+        spacing_(field.grid().spacing / unit),
+        first_{field.x_of(0) / unit, field.z_of(0) / unit} {
     const files::HeightGrid& grid = field.grid();
     const shapes::Bounds& box = field.bounds();
     const double deep = box.min.y() - (box.max - box.min).norm();
@@ -177,7 +181,34 @@ class Ground final : public RigidShape {
   }
   btCollisionShape* get() override { return &shape_; }
 
+  std::vector<Face> faces_at([[maybe_unused]] int triangle, const Vec3d& place,
+                             [[maybe_unused]] double reach) const override {
+    constexpr double beside = 1e-3;  // of a cell
+    const double x = (place.x() - first_[0]) / spacing_, z = (place.z() - first_[1]) / spacing_;
+    return {face_at(x, z), face_at(x - beside, z), face_at(x + beside, z), face_at(x, z - beside),
+            face_at(x, z + beside)};
+  }
+
  private:
+  /// @param x, z  in cells from the first post
+  Face face_at(double x, double z) const {
+    const double column = std::floor(x), row = std::floor(z);
+    const auto post = [&](double i, double j) {
+      const auto at = [](double k, std::size_t count) {
+        return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(count - 1)));
+      };
+      return Vec3d(first_[0] + spacing_ * i, heights_[at(j, rows_) * columns_ + at(i, columns_)],
+                   first_[1] + spacing_ * j);
+    };
+    const Vec3d a = post(column + 1, row), b = post(column, row + 1);
+    const bool is_first = x - column + z - row < 1;
+    const Vec3d c = is_first ? post(column, row) : post(column + 1, row + 1);
+    const Vec3d normal = is_first ? (b - c).cross(a - c) : (a - c).cross(b - c);
+    return {normal.normalized(), (a + b + c) / 3};
+  }
+
+  std::size_t columns_, rows_;
+  double spacing_, first_[2];
   std::vector<double> heights_;
   std::unique_ptr<Posts> field_;
   btCompoundShape shape_;

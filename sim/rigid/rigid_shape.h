@@ -4,16 +4,32 @@
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
 #include <memory>
+#include <vector>
 
 #include "sim/rigid/mass.h"
 
 namespace neve::sim::rigid {
+
+/// A face of a surface, in Bullet's unit.
+struct Face {
+  Vec3d normal;  ///< outward
+  Vec3d middle;
+};
 
 /// A shape with the memory that it reads.
 class RigidShape {
  public:
   virtual ~RigidShape() = default;
   virtual btCollisionShape* get() = 0;
+  /// The faces of a surface at a place of one of its triangles, that one first, in the axes of the
+  /// form. None at the rim of an open surface, and of a shape that is not made of triangles.
+  /// @param triangle  as contacts name it @param place, reach  in Bullet's unit: all nearer than
+  /// `reach`
+  virtual std::vector<Face> faces_at([[maybe_unused]] int triangle,
+                                     [[maybe_unused]] const Vec3d& place,
+                                     [[maybe_unused]] double reach) const {
+    return {};
+  }
 };
 
 /// A collider that the scene moves, in the axes of its form about the shape's centre. Meshes and

@@ -4,6 +4,8 @@
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -19,6 +21,7 @@ class Triangles : public RigidShape {
   /// @param unit  m, Bullet's unit of length
   Triangles(const shapes::SolidMesh& mesh, const shapes::Bounds& all, double unit);
   btCollisionShape* get() override { return shape_.get(); }
+  std::vector<Face> faces_at(int triangle, const Vec3d& place, double reach) const override;
 
  protected:
   /// Bullet's tree of them stays that of the mesh they were made of, and its boxes follow: which
@@ -27,11 +30,14 @@ class Triangles : public RigidShape {
 
  private:
   void write(const std::vector<Vec3d>& vertices);
+  std::array<Vec3d, 3> corners_of(std::size_t triangle) const;
 
   const double unit_;
   btVector3 min_, max_;
   std::vector<double> vertices_;
   std::vector<int> corners_;
+  /// Of each triangle, across the edges from its corners 0, 1 and 2; itself where there is none.
+  std::vector<std::array<std::uint32_t, 3>> neighbours_;
   std::unique_ptr<btTriangleIndexVertexArray> triangles_;
   std::unique_ptr<btBvhTriangleMeshShape> shape_;
 };

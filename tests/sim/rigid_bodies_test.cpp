@@ -553,6 +553,50 @@ TEST(RigidBodies, ABlockSlidesBeyondTheFrictionAngle) {
   }
 }
 
+/// Over the faces of a mesh and of a terrain as over a plane. Edges that faces share stopped a box
+/// on a slope without friction, and threw it up.
+TEST(RigidBodies, ABlockSlidesOverTheFacesOfASurface) {
+  const TemporaryFolder folder;
+  const auto level = [](double) { return Vec3d(0, 0, 0); };
+  const std::string plate = folder.write("plate.obj", plate_obj(Vec3d(8, 1, 8), 8, level)).string(),
+                    block = folder.write("block.obj", plate_obj(Vec3d(0.2, 0.1, 0.15), 2, level))
+                                .string();
+  shapes::Terrain terrain;
+  terrain.file =
+      folder.write("level.asc", height_grid(9, 9, 1, [](double, double) { return 0.0; })).string();
+  for (const double degrees : {15.0, 35.0})
+    for (const double mu : {0.0, 0.2}) {
+      const double a = degrees * std::numbers::pi / 180;
+      const Vec3d normal(std::sin(a), std::cos(a), 0), down(std::cos(a), -std::sin(a), 0);
+      std::vector<shapes::Collider> grounds(2), bodies(3);
+      grounds[0].shape.form = shapes::Mesh{plate, 1, -0.5 * normal};
+      grounds[1].shape.form = terrain;
+      bodies[0].shape.form = shapes::Box{0.05 * normal, {0.2, 0.1, 0.15}};
+      bodies[1].shape.form = shapes::Mesh{block, 1, 0.05 * normal};
+      bodies[2].shape.form = shapes::Cylinder{0.05 * normal, 0.1, 0.1};
+      for (shapes::Collider& ground : grounds)
+        for (shapes::Collider& body : bodies) {
+          ground.name = "ground";
+          if (mu > 0 && &body == &bodies[2]) continue;
+          body.name = "body";
+          body.body.density = 700;
+          ground.friction = body.friction = mu;
+          ground.shape.rotation = body.shape.rotation = {0, 0, -degrees};
+          BodiesAlone world({ground, body});
+          world.run(0.2, 1e-3);
+          const Vec3d before = world.pose(1).velocity;
+          world.run(0.4, 1e-3);
+          const Vec3d after = world.pose(1).velocity;
+          const double exact = 9.81 * (std::sin(a) - mu * std::cos(a));
+          SCOPED_TRACE(testing::Message()
+                       << degrees << " degrees, mu " << mu << ", form " << body.shape.form.index()
+                       << " on form " << ground.shape.form.index());
+          EXPECT_NEAR((after - before).dot(down) / 0.4, exact, 0.02 * exact);
+          EXPECT_LE(std::abs(after.dot(normal)), 0.03) << "it does not hop";
+        }
+    }
+}
+
 TEST(RigidBodies, APendulumSwingsInItsTime) {
   // A bar hung by its end: T = 2 pi sqrt(2 L / 3 g), times 1 + a^2/16 for a swing of a.
   shapes::Collider bar = box_of(700, {0, -0.25, 0}, {0.02, 0.5, 0.02});
