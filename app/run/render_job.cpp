@@ -13,6 +13,7 @@
 #include "app/run/passes.h"
 #include "app/scene/read.h"
 #include "app/setup/curves.h"
+#include "app/setup/resolve.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
@@ -124,11 +125,7 @@ bool is_only_mosaics(const RenderJob& job) {
 }
 
 void set_sizes(const RenderOptions& options, scene::Scene& scene) {
-  if (options.size) {
-    scene.size = *options.size;
-    for (scene::View& view : scene.views) view.size.reset();
-    for (scene::Mosaic& mosaic : scene.mosaics) mosaic.width.reset();
-  }
+  if (options.size) setup::set_size(*options.size, scene);
   if (options.quality != setup::Quality::draft) return;
   // The size of a draft is part of its scene, so that the picture can be made again.
   const auto halve = [](scene::PictureSize& size) {

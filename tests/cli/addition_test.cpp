@@ -268,6 +268,35 @@ TEST_F(Addition, ARunIsDrawnElsewhereWithAnotherCamera) {
       << refused.errors;
 }
 
+/// The camera that was found for the shape of the run cut the snow off.
+TEST_F(Addition, ARunInAnotherShapeIsFramedAnew) {
+  const std::vector<std::string> tall{"--size", "48x120", "--no-movie"};
+  const auto drawn = [&](const char* source, const char* out) {
+    std::vector<std::string> words{source, "--out", out};
+    words.insert(words.end(), tall.begin(), tall.end());
+    render(words);
+    return pictures(std::string(out) + "/particles");
+  };
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const auto fresh = drawn("scene.toml", "b");
+  EXPECT_TRUE(drawn("a", "c") == fresh);
+  const auto pixels = [&](const std::string& file) {
+    return render::decode_png(app::output::read_file(folder / file)).pixels;
+  };
+  drawn("a/particles/0003.png", "d");
+  EXPECT_TRUE(pixels("d/particles/0003.png") == pixels("b/particles/0003.png"));
+  const auto compared = [&] {
+    const auto done = neve({"compare", "a", "a", "--mode", "beside", "--frames", "3-3", "--size",
+                            "48x120", "--out", "pair.png"});
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    return pixels("pair.png");
+  };
+  const auto of_run = compared();
+  fs::rename(folder / "a", folder / "wide");
+  fs::rename(folder / "c", folder / "a");
+  EXPECT_TRUE(compared() == of_run);
+}
+
 TEST_F(Addition, FramesBetweenThoseThatAreThereAndTheNewOnesAreDrawnToo) {
   render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-1"});
   render({"a", "--view", "smoke", "--no-movie", "--frames", "3-4"});

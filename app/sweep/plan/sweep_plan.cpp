@@ -18,6 +18,7 @@
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/setup/curves.h"
+#include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/support/text.h"
@@ -59,13 +60,12 @@ scene::View chosen_view(const SweepOptions& options, const read::Sweep& sweep,
 
 /// One view, as large as a tile, without the words that the sheet has once.
 void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::Scene& scene) {
-  scene::View view = chosen_view(options, sweep, scene);
-  scene.size = tile_size(options, sweep, scene, view);
-  view.size.reset();
+  scene.views = {chosen_view(options, sweep, scene)};
+  scene.mosaics.clear();
+  scene::View& view = scene.views.front();
+  setup::set_size(tile_size(options, sweep, scene, view), scene);
   std::erase(view.layers, scene::Layer::legend);
   std::erase(view.layers, scene::Layer::caption);
-  scene.views = {view};
-  scene.mosaics.clear();
 }
 
 /// Whether runs branch off a common beginning, and do not have their values from the start.
