@@ -174,6 +174,17 @@ setup::FrameRange frames_to_make(const Json& run, const scene::Scene& before,
   return {first, has_them ? std::max(last, end) : last};
 }
 
+/// Of a run, with the edits. A length that is set is asked for, as with --frames.
+setup::FrameRange frames_to_draw(const Edits& edits, const std::vector<scene::Override>& changes,
+                                 const Json& run, const scene::Scene& before,
+                                 const Origin& origin) {
+  if (std::ranges::count(scene::addresses_of(changes), "frames") > 0)
+    return {origin.first, std::max(origin.first, scene::last_frame(origin.scene))};
+  if (!origin.run_frames.empty() && !edits.continues_run)
+    return {origin.run_frames.front().frame, origin.run_frames.back().frame};
+  return frames_to_make(run, before, origin);
+}
+
 void read_run(const Edits& edits, Origin& origin) {
   if (edits.coarsening || edits.is_fast || edits.coarsened > 1)
     throw UsageError(edits.coarsening ? "--coarsen"
@@ -211,13 +222,11 @@ void read_run(const Edits& edits, Origin& origin) {
     require_same_files(run.value("scene_files", record::FileHashes{}), origin);
     if (const Json forked = run.value("forked", Json()); forked.is_object())
       origin.first = scene::frame_of(before, whole_number<int>(forked.at("frame"))) + 1;
-    origin.frames = frames_to_make(run, before, origin);
+    origin.frames = frames_to_draw(edits, changes, run, before, origin);
   } catch (const nlohmann::json::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
                 file.string());
   }
-  if (!origin.run_frames.empty() && !edits.continues_run)
-    origin.frames = {origin.run_frames.front().frame, origin.run_frames.back().frame};
 }
 
 }  // namespace

@@ -297,6 +297,26 @@ TEST_F(Addition, ARunInAnotherShapeIsFramedAnew) {
   EXPECT_TRUE(compared() == of_run);
 }
 
+/// It ended where the run does, and said that all is well.
+TEST_F(Addition, AnotherLengthOfARunIsThatOfItsScene) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"scene.toml", "--out", "long", "--no-movie", "--set", "frames=6"});
+  render({"a", "--out", "b", "--no-movie", "--set", "frames=6"});
+  EXPECT_EQ(hashes("b"), hashes("long"));
+  EXPECT_EQ(hashes("b").size(), 7u);
+  render({"a", "--out", "c", "--no-movie", "--set", "frames=2"});
+  EXPECT_EQ(hashes("c").size(), 3u);
+  render({"a", "--from", "0.125s", "--out", "d", "--no-movie", "--set", "frames=6"});
+  EXPECT_EQ(hashes("d").rbegin()->first, 6);
+  const auto swept = neve({"sweep", "a", "--from", "0.125s", "--out", "s.cdb", "--size", "96x54",
+                           "--set", "frames=5", "-p", "material.snow.hardening=4"});
+  EXPECT_EQ(swept.exit_code, 0) << swept.errors;
+  EXPECT_EQ(hashes("s.cdb/runs/0000").rbegin()->first, 5);
+  const auto exported = neve({"export", "a", "--format", "csv", "--set", "frames=5"});
+  EXPECT_EQ(exported.exit_code, 0) << exported.errors;
+  EXPECT_TRUE(exists("a/exports/csv/0005.csv"));
+}
+
 TEST_F(Addition, FramesBetweenThoseThatAreThereAndTheNewOnesAreDrawnToo) {
   render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-1"});
   render({"a", "--view", "smoke", "--no-movie", "--frames", "3-4"});

@@ -131,16 +131,6 @@ class SceneMaker {
   std::vector<scene::Override> none_;
 };
 
-/// Counted from 0. @param source  a run may have more frames than its scene
-setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
-                            const scene::Scene& scene,
-                            const std::optional<run::RenderJob>& source = {}) {
-  if (options.frames) return setup::frames_of(scene, *options.frames);
-  if (!sweep.settings.frames.empty())
-    return setup::frames_of(scene, options::frames().read("--frames", sweep.settings.frames));
-  return {0, source ? source->last_frame() : scene::last_frame(scene)};
-}
-
 /// A setting of a run that says how many frames there are; null if none does.
 const scene::Override* frames_setting(const read::Sweep& sweep) {
   for (const read::Axis& axis : sweep.axes)
@@ -150,6 +140,18 @@ const scene::Override* frames_setting(const read::Sweep& sweep) {
     for (const scene::Override& setting : row.settings)
       if (setting.address == "frames") return &setting;
   return nullptr;
+}
+
+/// Counted from 0. @param source  a run may have more frames than its scene
+setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
+                            const scene::Scene& scene,
+                            const std::optional<run::RenderJob>& source = {}) {
+  if (options.frames) return setup::frames_of(scene, *options.frames);
+  if (!sweep.settings.frames.empty())
+    return setup::frames_of(scene, options::frames().read("--frames", sweep.settings.frames));
+  const bool is_length_set =
+      frames_setting(sweep) || std::ranges::count(scene::addresses_of(sweep.fixed), "frames") > 0;
+  return {0, source && !is_length_set ? source->last_frame() : scene::last_frame(scene)};
 }
 
 /// Frames that are the same for all runs would hide those that differ.
