@@ -239,6 +239,7 @@ record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simula
   record.changes = job.changes;
   record.coarsening = job.coarsening;
   record.prediction = job.prediction;
+  record.forked = job.forked;
   record.threads = simulation.threads();
   record.simd = simulation.simd();
   return record;
@@ -258,12 +259,28 @@ record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& be
                                          timeline.seeded().particles, 1));
 }
 
-record::RunStart start_of_fork(const timeline::Timeline& timeline,
-                               const std::filesystem::path& left, int last) {
-  record::RunStart start =
-      start_of_run(timeline, left.empty() ? Json() : record::read_run_json(left), last);
+record::RunStart start_beside(const timeline::Timeline& timeline, const RenderJob& job, int last) {
+  const Json run = job.run.empty() ? Json() : record::read_run_json(job.run);
+  // Its numbers are of before this command gave other ones.
+  const int first = scene::number_of(job.scene, 0),
+            moved = run.is_object() ? first - whole_number_or(run, "first_number", first) : 0;
+  record::RunStart start = start_of_run(timeline, run, last - moved);
+  if (start.before) start.before->frame += moved;
   if (start.before && start.before->frame > last) start.before.reset();
   return start;
+}
+
+void add_passed(const timeline::Timeline& timeline, record::Extremes& extremes) {
+  const sim::Simulation& simulation = timeline.simulation();
+  record::FrameRecord passed;
+  passed.frame = scene::number_of(timeline.start(), timeline.here().frame);
+  if (passed.frame != extremes.frame + 1) return;
+  passed.advance = timeline.here().advance;
+  passed.summary = timeline.summary();
+  passed.forces =
+      record::forces_of(passed.advance, passed.summary, timeline.here().scene->colliders);
+  passed.bodies = record::bodies_of(simulation.colliders(), simulation.time());
+  extremes.add(passed);
 }
 
 }  // namespace neve::app::run

@@ -220,8 +220,12 @@ void read_run(const Edits& edits, Origin& origin) {
                       scene::number_of(before, 0)),
           file.string(), "render the scene file into another folder");
     require_same_files(run.value("scene_files", record::FileHashes{}), origin);
-    if (const Json forked = run.value("forked", Json()); forked.is_object())
-      origin.first = scene::frame_of(before, whole_number<int>(forked.at("frame"))) + 1;
+    if (Json forked = run.value("forked", Json()); forked.is_object()) {
+      const int frame = scene::frame_of(before, whole_number<int>(forked.at("frame")));
+      origin.first = frame + 1;
+      forked["frame"] = scene::number_of(origin.scene, frame);
+      origin.forked = std::move(forked);
+    }
     origin.frames = frames_to_draw(edits, changes, run, before, origin);
   } catch (const nlohmann::json::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",

@@ -317,6 +317,20 @@ TEST_F(Addition, AnotherLengthOfARunIsThatOfItsScene) {
   EXPECT_TRUE(exists("a/exports/csv/0005.csv"));
 }
 
+/// As those of its scene do.
+TEST_F(Addition, LaterFramesOfARunKnowWhatWasBeforeThem) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"scene.toml", "--frames", "2-3", "--out", "b", "--no-movie"});
+  render({"a", "--frames", "2-3", "--out", "c", "--no-movie"});
+  const app::Json start = json_of("b/run.json")["start"];
+  ASSERT_TRUE(start.contains("before"));
+  EXPECT_EQ(json_of("c/run.json")["start"], start);
+  render({"b", "--out", "d", "--no-movie", "--set", "first_frame=1001"});
+  app::Json moved = start;
+  moved["before"]["frame"] = 1002;
+  EXPECT_EQ(json_of("d/run.json")["start"], moved);
+}
+
 TEST_F(Addition, FramesBetweenThoseThatAreThereAndTheNewOnesAreDrawnToo) {
   render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-1"});
   render({"a", "--view", "smoke", "--no-movie", "--frames", "3-4"});
