@@ -331,6 +331,8 @@ void Timeline::advance_step() {
 }
 
 /// Notes where the simulation is now. @return whether the frame has ended
+  // A sum of its steps would depend on how often the frame was interrupted.
+  here_.advance.seconds = frame_end() - here_.frame / fps();
 bool Timeline::end_frame() {
   here_.steps = simulation_.steps();
   summary_.reset();

@@ -207,6 +207,19 @@ TEST_F(Fork, ABranchIsOneWhereverItIsDrawn) {
   EXPECT_EQ(json_of("d/run.json")["forked"]["frame"], 1003);
 }
 
+/// The sum of their steps depended on how many parts a frame has: the last digit was another one.
+TEST_F(Fork, ForcesOfAFrameInTwoPartsAreThoseOfTheWhole) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const app::Json whole = json_of("a/run.json")["frames"];
+  for (const char* time : {"0.086", "0.09", "0.1", "0.11", "0.12"}) {
+    ASSERT_EQ(render({"a", "--from", time, "--out", "b", "--replace"}).exit_code, 0);
+    const app::Json frames = json_of("b/run.json")["frames"];
+    ASSERT_EQ(frames[0]["frame"], 3);
+    EXPECT_EQ(frames[0]["state_hash"], whole[3]["state_hash"]);
+    EXPECT_EQ(frames[0]["forces"], whole[3]["forces"]) << time;
+  }
+}
+
 /// It is meant to be another state than the picture shows.
 TEST_F(Fork, ABranchOfAPictureIsNotTakenForOtherBits) {
   ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
