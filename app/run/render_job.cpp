@@ -138,6 +138,15 @@ void set_sizes(const RenderOptions& options, scene::Scene& scene) {
     if (mosaic.width) mosaic.width = std::max(64, *mosaic.width / 2);
 }
 
+/// Bodies of a frame, with the rotations that the history has.
+std::vector<record::BodyRecord> with_rotations(std::vector<record::BodyRecord> bodies,
+                                               const picture::PlotSample& sample) {
+  for (record::BodyRecord& body : bodies)
+    for (const picture::BodySample& known : sample.bodies)
+      if (known.name == body.collider) body.rotation = known.rotation;
+  return bodies;
+}
+
 }  // namespace
 
 const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name) {
@@ -252,7 +261,8 @@ record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& be
   }
   const auto start_in = [&](const sim::Simulation& simulation) {
     return record::RunStart{record::measure(simulation.particles(), timeline.start()),
-                            record::bodies_of(simulation.colliders(), 0)};
+                            with_rotations(record::bodies_of(simulation.colliders(), 0),
+                                           timeline.here().history.front())};
   };
   if (timeline.simulation().steps() == 0) return start_in(timeline.simulation());
   return start_in(setup::make_simulation(setup::with_curves(timeline.start(), 0),
@@ -270,8 +280,13 @@ record::RunStart start_beside(const timeline::Timeline& timeline, const RenderJo
   return start;
 }
 
-void add_passed(const timeline::Timeline& timeline, record::Extremes& extremes) {
+std::vector<record::BodyRecord> bodies_here(const timeline::Timeline& timeline) {
   const sim::Simulation& simulation = timeline.simulation();
+  return with_rotations(record::bodies_of(simulation.colliders(), simulation.time()),
+                        timeline.here().history.back());
+}
+
+void add_passed(const timeline::Timeline& timeline, record::Extremes& extremes) {
   record::FrameRecord passed;
   passed.frame = scene::number_of(timeline.start(), timeline.here().frame);
   if (passed.frame != extremes.frame + 1) return;
@@ -279,7 +294,7 @@ void add_passed(const timeline::Timeline& timeline, record::Extremes& extremes) 
   passed.summary = timeline.summary();
   passed.forces =
       record::forces_of(passed.advance, passed.summary, timeline.here().scene->colliders);
-  passed.bodies = record::bodies_of(simulation.colliders(), simulation.time());
+  passed.bodies = bodies_here(timeline);
   extremes.add(passed);
 }
 

@@ -74,6 +74,10 @@ record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& be
 /// @param last  number of the frame of the fork, or of the frame before those of this run
 record::RunStart start_beside(const timeline::Timeline& timeline, const RenderJob& job, int last);
 
+/// The bodies of the frame that a timeline is at: their rotations have no jumps from frame to
+/// frame.
+std::vector<record::BodyRecord> bodies_here(const timeline::Timeline& timeline);
+
 /// Adds the frame that a timeline is at, which is passed on the way to those that are drawn: what
 /// was greatest in it counts. It is passed over where it is not the next one that they know.
 void add_passed(const timeline::Timeline& timeline, record::Extremes& extremes);

@@ -423,8 +423,7 @@ void RenderRun::draw_frame(int frame) {
   const sim::AdvanceReport advance = timeline_.here().advance;
   const sim::Summary summary = timeline_.summary();
   std::vector<exports::Exporter::Work> exports = ledger_.read_exports(timeline_);
-  std::vector<record::BodyRecord> bodies =
-      record::bodies_of(timeline_.simulation().colliders(), timeline_.simulation().time());
+  std::vector<record::BodyRecord> bodies = bodies_here(timeline_);
   std::optional<timeline::Moment> moment;
   if (timeline_.moments().wants(frame)) moment = timeline_.moment();
   begin_next(frame);
