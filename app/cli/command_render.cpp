@@ -452,9 +452,8 @@ int run_render(const run::RenderOptions& options) {
   timeline::Timeline timeline = timeline::open(job, seeded, options.threads, progress);
   note_start(job, plan, seeded->particles.x.size(), progress);
 
-  Json forked;
-  if (job.fork) forked = run::go_to_fork(job, timeline, progress);
-  run::RenderRun run(job, timeline, *context, renderer, progress, forked);
+  if (job.fork) run::go_to_fork(job, timeline, progress);
+  run::RenderRun run(job, timeline, *context, renderer, progress);
   const run::RenderResult result = run.run();
   const sim::Simulation& simulation = timeline.simulation();
   for (const std::string& warning : run::step_warnings(job.scene, simulation))

@@ -10,6 +10,7 @@
 #include "app/record/picture_record.h"
 #include "app/scene/live_change.h"
 #include "app/scene/read.h"
+#include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"
@@ -138,6 +139,10 @@ class PairRun {
     check_costs(pair_.a, options_);
     check_costs(pair_.b, options_);
     const setup::FrameRange frames = drawn_frames(pair_, target_);
+    if (options_.size) {
+      setup::set_size(*options_.size, pair_.a.job.scene);
+      setup::resolve_cameras(pair_.a.job.scene);
+    }
     PairPainter painter(options_, pair_, renderer);
     painter.check_sizes(target_.modes());
     timeline::Timeline a = timeline::open(pair_.a.job, options_.threads, progress_);

@@ -56,7 +56,6 @@ PairPainter::PairPainter(const PairOptions& options, const Pair& pair, render::R
                                  : scene::find_view(pair.a.job.scene, options.view)),
       range_(options.range.value_or(round_up(cells_of_range * pair.a.job.scene.solver.cell_size))),
       full_density_(std::max(densest(pair.a.job.scene), densest(pair.b.job.scene))) {
-  if (options.size) view_.size = *options.size;
   // The strip has the words.
   std::erase(view_.layers, scene::Layer::caption);
 }

@@ -95,6 +95,12 @@ std::vector<double> ids(const sim::ParticleArrays& p) {
   return out;
 }
 
+/// They are left out while all are 1.
+std::vector<double> factors(std::vector<double> of_particles, std::size_t count) {
+  of_particles.resize(count, 1.0);
+  return of_particles;
+}
+
 Listing particles_at(const sim::ParticleArrays& p) {
   Listing listing;
   listing.place = p.x;
@@ -219,6 +225,8 @@ Listing list_state(const StepInspection& inside) {
   q.push_back(quantity("kirchhoff", "Pa", inside.simulation.kirchhoff(), expected.stress()));
   q.push_back(quantity("elastic_energy", "J", elastic_energies(inside.scene, p)));
   q.push_back(quantity("C", "1/s", p.C));
+  q.push_back(quantity("stiffness", "", factors(p.stiffness, p.x.size())));
+  q.push_back(quantity("threshold", "", factors(p.threshold, p.x.size())));
   return listing;
 }
 
@@ -259,11 +267,11 @@ Listing list_stage(const StepInspection& inside, sim::Stage stage) {
 
 const std::vector<std::string>& quantity_names() {
   static const std::vector<std::string> names{
-      "id",       "x",           "v",           "m",       "V0",        "volume",
-      "F_E",      "J_E",         "stretch_min", "J_P",     "kirchhoff", "elastic_energy",
-      "C",        "stretch_max", "node",        "mass",    "v_old",     "momentum",
-      "force",    "v_free",      "dv",          "v_star",  "v_new",     "moved",
-      "dv_solve", "grad_v",      "F_E_trial",   "v_before"};
+      "id",    "x",         "v",           "m",           "V0",        "volume",
+      "F_E",   "J_E",       "stretch_min", "J_P",         "kirchhoff", "elastic_energy",
+      "C",     "stiffness", "threshold",   "stretch_max", "node",      "mass",
+      "v_old", "momentum",  "force",       "v_free",      "dv",        "v_star",
+      "v_new", "moved",     "dv_solve",    "grad_v",      "F_E_trial", "v_before"};
   return names;
 }
 

@@ -71,6 +71,11 @@ double age_of(From s, Index k) {
   return is_known ? s.state.time - s.origins.birth_of(id) : NAN;
 }
 
+/// A factor of the particle; 1 where no particle has another one.
+double factor_of(const std::vector<double>& factors, Index k) {
+  return factors.empty() ? 1.0 : factors[k];
+}
+
 /// Radius of the ball that the particle fills undeformed, m.
 double radius_of(double V0) {
   return std::cbrt(3 * V0 / (4 * std::numbers::pi));
@@ -97,6 +102,10 @@ const ColumnForm& form_of(ExportAttribute attribute) {
       {kirchhoff, "Pa", 9, of_state,
        [](From s, Index k, To to) { append(s.axes.tensor(s.state.kirchhoff[k]), to); }},
       {C, "1/s", 9, of_state, [](From s, Index k, To to) { append(s.axes.tensor(s.p.C[k]), to); }},
+      {stiffness, "", 1, of_state,
+       [](From s, Index k, To to) { append(factor_of(s.p.stiffness, k), to); }},
+      {threshold, "", 1, of_state,
+       [](From s, Index k, To to) { append(factor_of(s.p.threshold, k), to); }},
       {material, "", 1, whole, [](From s, Index k, To to) { append(double(s.p.material[k]), to); }},
       {body, "", 1, whole,
        [](From s, Index k, To to) { append(double(s.origins.body_of(s.p.id_of(k))), to); }},

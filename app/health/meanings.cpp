@@ -74,6 +74,9 @@ constexpr std::array symbols{
     std::pair{
         "C",
         "Affine velocity of all transfers but FLIP: how the velocity varies around the particle."},
+    std::pair{"stiffness", "Factor of the particle on Young's modulus, of variation."},
+    std::pair{"threshold",
+              "Factor of the particle on its critical stretches or strength, of variation."},
     std::pair{"node", "Number of the node along each axis, in cells."}};
 
 }  // namespace

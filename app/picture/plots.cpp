@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/setup/auto_ranges.h"
 #include "app/support/round_number.h"
 #include "sim/rigid/rigid_bodies.h"
+#include "sim/types/math.h"
 #include "sim/types/time_step.h"
 
 namespace neve::app::picture {
@@ -47,15 +49,32 @@ render::Plot dt_plot(const scene::PlotRanges& ranges, std::span<const PlotSample
   return plot;
 }
 
+/// Of all angles of a rotation those that are nearest to the ones before, so that a thing that
+/// turns on and on has no jump.
+sim::Vec3d degrees_next_to(const sim::Vec3d& before, const sim::Mat3d& rotation) {
+  const sim::Vec3d degrees = sim::degrees_from_rotation(rotation);
+  const auto near = [&](sim::Vec3d angles) {
+    for (int a = 0; a < 3; ++a) angles[a] -= 360 * std::round((angles[a] - before[a]) / 360);
+    return angles;
+  };
+  // All of them are one of these two and whole turns.
+  const sim::Vec3d one = near(degrees),
+                   two = near({degrees.x() + 180, 180 - degrees.y(), degrees.z() + 180});
+  return (two - before).norm() < (one - before).norm() ? two : one;
+}
+
 }  // namespace
 
 std::vector<BodySample> body_samples(const std::vector<sim::shapes::Collider>& colliders,
-                                     double time) {
+                                     double time, const std::vector<BodySample>& before) {
   std::vector<BodySample> bodies;
   for (const sim::shapes::Collider& collider : colliders) {
     if (!collider.body.moves()) continue;
     const sim::rigid::Motion motion = sim::rigid::motion_at(collider, time);
-    bodies.push_back({collider.name, motion.centre.y(), motion.velocity.norm()});
+    const auto last = std::ranges::find(before, collider.name, &BodySample::name);
+    const sim::Vec3d& next_to = last == before.end() ? collider.shape.rotation : last->rotation;
+    bodies.push_back({collider.name, motion.centre.y(), motion.velocity.norm(),
+                      degrees_next_to(next_to, sim::shapes::pose_at(collider, time).rotation)});
   }
   return bodies;
 }

@@ -50,12 +50,14 @@ render::PlotSeries curve(const char* name, Rgb color, const auto& samples, auto 
 /// A body that moves by itself at one moment, its centre of mass.
 struct BodySample {
   std::string name;
-  double height = 0;  ///< m, along y
-  double speed = 0;   ///< m/s
+  double height = 0;             ///< m, along y
+  double speed = 0;              ///< m/s
+  sim::Vec3d rotation{0, 0, 0};  ///< degrees, of its shape: without jumps of whole turns
 };
 /// @param colliders  as they are at that time
+/// @param before     of the frame before; none: rotations are next to those that are written
 std::vector<BodySample> body_samples(const std::vector<sim::shapes::Collider>& colliders,
-                                     double time);
+                                     double time, const std::vector<BodySample>& before = {});
 
 /// Data of one frame for the plots.
 struct PlotSample {

@@ -44,8 +44,7 @@ void check_exports(const scene::Scene& scene) {
 void place_camera(scene::Scene& scene) {
   const bool has_camera = std::ranges::find(scene.exports, scene::ExportFormat::usda,
                                             &scene::Export::format) != scene.exports.end();
-  if (has_camera && setup::needs_framing(scene))
-    setup::resolve_cameras(scene, setup::coarse_run(scene));
+  if (has_camera) setup::resolve_cameras(scene);
 }
 
 /// The part of an earlier list that stays: exports of other names, with the hashes of their files.

@@ -53,6 +53,14 @@ void take_live_numbers(const scene::Scene& before, Fork& fork) {
   fork.changes = std::move(changes);
 }
 
+/// Goes to a frame, and says what was greatest on the way from the start.
+record::Extremes pass_frames(int last, timeline::Timeline& timeline) {
+  record::Extremes extremes{scene::number_of(timeline.start(), 0) - 1};
+  for (int frame = 0; frame <= last && timeline.go_to(frame / timeline.fps()); ++frame)
+    add_passed(timeline, extremes);
+  return extremes;
+}
+
 }  // namespace
 
 void require_whole_frame(const scene::Scene& scene, double time, const char* flag) {
@@ -77,7 +85,11 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   const int first = timeline::frame_at(job.fork->time, job.scene.fps) + 1;
   const std::optional<setup::FrameRange> frames =
       options.frames ? std::optional(setup::frames_of(job.scene, *options.frames)) : std::nullopt;
-  const int last = frames ? frames->last : job.last_frame();
+  const bool is_length_set =
+      std::ranges::count(scene::addresses_of(job.fork->changes), "frames") > 0;
+  const int last = frames          ? frames->last
+                   : is_length_set ? scene::last_frame(forked)
+                                   : job.last_frame();
   if (last < first)
     throw UsageError("--from",
                      fmt::format("{} s is at or after frame {}, the last one", job.fork->time,
@@ -106,10 +118,13 @@ scene::Scene scene_before_fork(const RenderJob& job) {
   return timeline::with_changes(job.scene, timeline::changes_of(job.scene, job.changes), steps);
 }
 
-void walk_to_fork(const RenderJob& job, timeline::Timeline& timeline, Progress& progress) {
+void walk_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress) {
   const double time = job.fork->time;
   require_whole_frame(scene_before_fork(job), time, "--from");
-  progress.start(timeline::frame_at(time, timeline.fps()), scene::number_of(job.scene, 0));
+  const int first = scene::number_of(job.scene, 0), last = timeline::frame_at(time, timeline.fps());
+  progress.start(last, first);
+  record::RunStart start = start_beside(timeline, job, first + last);
+  if (job.run.empty()) start.before = pass_frames(last, timeline);
   const bool is_reached = timeline.go_to(time);
   progress.clear();
   if (const std::optional<sim::Divergence>& divergence = timeline.simulation().divergence())
@@ -119,17 +134,18 @@ void walk_to_fork(const RenderJob& job, timeline::Timeline& timeline, Progress& 
                 job.scene_file, "fork it at an earlier time");
   if (!is_reached) throw Error(exit_interrupted, "interrupted before the first frame");
   timeline.fork();
+  job.fork->start = std::move(start);
 }
 
-Json go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress) {
+void go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress) {
   for (const std::string& note : job.fork->notes) progress.note(note);
   walk_to_fork(job, timeline, progress);
   const sim::Simulation& simulation = timeline.simulation();
-  Json record = {{"from", job.scene_file},
-                 {"time", simulation.time()},
-                 {"frame", scene::number_of(job.scene, timeline.here().frame)},
-                 {"step", simulation.steps()},
-                 {"state_hash", record::hash_text(simulation.state_hash())}};
+  job.forked = {{"from", job.scene_file},
+                {"time", simulation.time()},
+                {"frame", scene::number_of(job.scene, timeline.here().frame)},
+                {"step", simulation.steps()},
+                {"state_hash", record::hash_text(simulation.state_hash())}};
   const scene::Scene& before = *timeline.here().scene;
   scene::Scene next = scene::apply(before, job.fork->changes, job.scene_file);
   setup::reopen(next, job.fork->changes);
@@ -138,7 +154,6 @@ Json go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress
   timeline.change(next);
   job.changes = timeline.changes();
   job.scene = timeline.start();
-  return record;
 }
 
 }  // namespace neve::app::run

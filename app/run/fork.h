@@ -19,12 +19,12 @@ void set_fork(const RenderOptions& options, RenderJob& job);
 scene::Scene scene_before_fork(const RenderJob& job);
 
 /// Brings the run of a job to its fork, from the nearest moment that is kept or from the start;
-/// later changes are forgotten.
+/// later changes are forgotten. The fork then has its start.
 /// @throws UsageError, IoError, Error when the run does not get there
-void walk_to_fork(const RenderJob& job, timeline::Timeline& timeline, Progress& progress);
+void walk_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress);
 
-/// The same, and makes the changes there. The job then has them in its list, with their step.
-/// @return the fork, for run.json
-Json go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress);
+/// The same, and makes the changes there. The job then has them in its list, with their step, and
+/// says where it left.
+void go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress);
 
 }  // namespace neve::app::run

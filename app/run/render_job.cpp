@@ -13,6 +13,7 @@
 #include "app/run/passes.h"
 #include "app/scene/read.h"
 #include "app/setup/curves.h"
+#include "app/setup/resolve.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
@@ -124,11 +125,7 @@ bool is_only_mosaics(const RenderJob& job) {
 }
 
 void set_sizes(const RenderOptions& options, scene::Scene& scene) {
-  if (options.size) {
-    scene.size = *options.size;
-    for (scene::View& view : scene.views) view.size.reset();
-    for (scene::Mosaic& mosaic : scene.mosaics) mosaic.width.reset();
-  }
+  if (options.size) setup::set_size(*options.size, scene);
   if (options.quality != setup::Quality::draft) return;
   // The size of a draft is part of its scene, so that the picture can be made again.
   const auto halve = [](scene::PictureSize& size) {
@@ -139,6 +136,15 @@ void set_sizes(const RenderOptions& options, scene::Scene& scene) {
     if (view.size) halve(*view.size);
   for (scene::Mosaic& mosaic : scene.mosaics)
     if (mosaic.width) mosaic.width = std::max(64, *mosaic.width / 2);
+}
+
+/// Bodies of a frame, with the rotations that the history has.
+std::vector<record::BodyRecord> with_rotations(std::vector<record::BodyRecord> bodies,
+                                               const picture::PlotSample& sample) {
+  for (record::BodyRecord& body : bodies)
+    for (const picture::BodySample& known : sample.bodies)
+      if (known.name == body.collider) body.rotation = known.rotation;
+  return bodies;
 }
 
 }  // namespace
@@ -242,6 +248,7 @@ record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simula
   record.changes = job.changes;
   record.coarsening = job.coarsening;
   record.prediction = job.prediction;
+  record.forked = job.forked;
   record.threads = simulation.threads();
   record.simd = simulation.simd();
   return record;
@@ -254,19 +261,41 @@ record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& be
   }
   const auto start_in = [&](const sim::Simulation& simulation) {
     return record::RunStart{record::measure(simulation.particles(), timeline.start()),
-                            record::bodies_of(simulation.colliders(), 0)};
+                            with_rotations(record::bodies_of(simulation.colliders(), 0),
+                                           timeline.here().history.front())};
   };
   if (timeline.simulation().steps() == 0) return start_in(timeline.simulation());
   return start_in(setup::make_simulation(setup::with_curves(timeline.start(), 0),
                                          timeline.seeded().particles, 1));
 }
 
-record::RunStart start_of_fork(const timeline::Timeline& timeline,
-                               const std::filesystem::path& left, int last) {
-  record::RunStart start =
-      start_of_run(timeline, left.empty() ? Json() : record::read_run_json(left), last);
+record::RunStart start_beside(const timeline::Timeline& timeline, const RenderJob& job, int last) {
+  const Json run = job.run.empty() ? Json() : record::read_run_json(job.run);
+  // Its numbers are of before this command gave other ones.
+  const int first = scene::number_of(job.scene, 0),
+            moved = run.is_object() ? first - whole_number_or(run, "first_number", first) : 0;
+  record::RunStart start = start_of_run(timeline, run, last - moved);
+  if (start.before) start.before->frame += moved;
   if (start.before && start.before->frame > last) start.before.reset();
   return start;
+}
+
+std::vector<record::BodyRecord> bodies_here(const timeline::Timeline& timeline) {
+  const sim::Simulation& simulation = timeline.simulation();
+  return with_rotations(record::bodies_of(simulation.colliders(), simulation.time()),
+                        timeline.here().history.back());
+}
+
+void add_passed(const timeline::Timeline& timeline, record::Extremes& extremes) {
+  record::FrameRecord passed;
+  passed.frame = scene::number_of(timeline.start(), timeline.here().frame);
+  if (passed.frame != extremes.frame + 1) return;
+  passed.advance = timeline.here().advance;
+  passed.summary = timeline.summary();
+  passed.forces =
+      record::forces_of(passed.advance, passed.summary, timeline.here().scene->colliders);
+  passed.bodies = bodies_here(timeline);
+  extremes.add(passed);
 }
 
 }  // namespace neve::app::run

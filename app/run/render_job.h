@@ -21,6 +21,7 @@ struct Fork {
   double time = 0;  ///< s
   std::vector<scene::Override> changes;
   std::vector<std::string> notes{};  ///< what a preset among them would set and cannot
+  record::RunStart start{};          ///< of the run that begins there, when it is reached
 };
 
 /// An origin, with the chosen views and sizes, and what is made of it.
@@ -68,11 +69,17 @@ record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simula
 /// @param before  run.json of this run; null: there is none
 /// @param last    number of the frame before those of this run
 record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& before, int last);
-/// The same of a run that leaves another one. Nothing is known of the frames before where that one
-/// begins later: what it knows is greatest may have come after the fork.
-/// @param left  the folder of that one; empty: it leaves a scene or a picture
-/// @param last  number of the frame of the fork, or of the last one before it
-record::RunStart start_of_fork(const timeline::Timeline& timeline,
-                               const std::filesystem::path& left, int last);
+/// The same of a run that leaves the run of a job, or draws it elsewhere. Nothing is known of the
+/// frames before where that one begins later: what it knows is greatest may have come after them.
+/// @param last  number of the frame of the fork, or of the frame before those of this run
+record::RunStart start_beside(const timeline::Timeline& timeline, const RenderJob& job, int last);
+
+/// The bodies of the frame that a timeline is at: their rotations have no jumps from frame to
+/// frame.
+std::vector<record::BodyRecord> bodies_here(const timeline::Timeline& timeline);
+
+/// Adds the frame that a timeline is at, which is passed on the way to those that are drawn: what
+/// was greatest in it counts. It is passed over where it is not the next one that they know.
+void add_passed(const timeline::Timeline& timeline, record::Extremes& extremes);
 
 }  // namespace neve::app::run

@@ -28,13 +28,12 @@ constexpr int threads_for_overlap = 4;
 
 record::RunRecord begin_record(const RenderJob& job, const sim::Simulation& simulation,
                                const render::gl::Context& context, const Drawing& drawing,
-                               const Json& forked, const record::PictureRecord& picture) {
+                               const record::PictureRecord& picture) {
   record::RunRecord record = run_record(job, simulation);
   record.simulation = identity_of_states(job, simulation.simd());
   record.scene_files = picture.files;
   record.backend = context.backend;
   record.gl_renderer = context.renderer;
-  record.forked = forked;
   record.views = drawing.views();
   record.passes = job.passes;
   if (!job.passes.empty()) record.views_of_passes = record.views;
@@ -57,7 +56,7 @@ std::vector<std::string> texts_of(const Json& run, const char* key) {
 
 RenderRun::RenderRun(const RenderJob& job, timeline::Timeline& timeline,
                      const render::gl::Context& context, render::Renderer& renderer,
-                     Progress& progress, const Json& forked)
+                     Progress& progress)
     : job_(job),
       timeline_(timeline),
       progress_(progress),
@@ -65,8 +64,7 @@ RenderRun::RenderRun(const RenderJob& job, timeline::Timeline& timeline,
       drawing_(job, timeline.seeded(), renderer, picture_),
       frames_(job.frames),
       ledger_(job, timeline.seeded(),
-              begin_record(job, timeline.simulation(), context, drawing_, forked, picture_),
-              progress) {
+              begin_record(job, timeline.simulation(), context, drawing_, picture_), progress) {
   if (job.options.validate) watch_laws();
   timeline_.watch({.after_step =
                        [this] {
@@ -126,7 +124,6 @@ std::vector<int> RenderRun::begin() {
   if (job_.options.checkpoint_every > 0) output::tidy_checkpoint_folder(job_.folder);
   const std::optional<EarlierRun> earlier = earlier_run(job_, record());
   const bool is_same = earlier && earlier->is_same;
-  const int begins_at = timeline_.here().frame;  // where it forks
   std::optional<Resumption> found;
   // Pictures that a later command has drawn otherwise are none of the checkpoint.
   const bool draws_otherwise = is_same && !other_drawings(*earlier, record()).empty();
@@ -137,8 +134,7 @@ std::vector<int> RenderRun::begin() {
   else if (is_same)
     ledger_.keep_views(*earlier);
   timeline_.moments() = timeline::Moments(states_folder(earlier), progress_);
-  if (!job_.run.empty() && !job_.fork && job_.folder != job_.run)
-    timeline_.moments().add_run(job_.run);
+  if (is_elsewhere()) timeline_.moments().add_run(job_.run);
   is_continued_ = found || job_.fork;
   if (is_same) keep_step_warnings(*earlier);
   if (found) {
@@ -158,11 +154,11 @@ std::vector<int> RenderRun::begin() {
   if (frames_.first > 0) {
     const bool is_known =
         earlier && (is_same || found) && record::start_of(earlier->json).has_value();
-    ledger_.record().start =
-        !is_known && job_.fork
-            ? start_of_fork(timeline_, job_.run, scene::number_of(job_.scene, begins_at))
-            : start_of_run(timeline_, is_known ? earlier->json : Json(),
-                           scene::number_of(job_.scene, frames_.first - 1));
+    const int last = scene::number_of(job_.scene, frames_.first - 1);
+    ledger_.record().start = is_known         ? start_of_run(timeline_, earlier->json, last)
+                             : job_.fork      ? job_.fork->start
+                             : is_elsewhere() ? start_beside(timeline_, job_, last)
+                                              : start_of_run(timeline_, Json(), last);
   }
   note_warnings();
   ledger_.open();
@@ -235,14 +231,17 @@ std::set<int> RenderRun::trusted_states(const std::optional<EarlierRun>& earlier
   return frames;
 }
 
+/// The run that is drawn has its folder, with its own record and states, which stay as they are.
+bool RenderRun::is_elsewhere() const {
+  return !job_.run.empty() && !job_.fork && job_.folder != job_.run;
+}
+
 timeline::StatesFolder RenderRun::states_folder(const std::optional<EarlierRun>& earlier) const {
   const std::string simd = timeline_.simulation().simd();
   const RenderOptions& options = job_.options;
-  // States of the run that is drawn stay where they are.
-  const bool is_elsewhere = !job_.run.empty() && !job_.fork && job_.folder != job_.run;
   timeline::StatesFolder states{job_.folder, identity_of_states(job_, simd), identity_of(picture_),
                                 simd, !options.validate};
-  states.are_wanted = options.keeps_all_states || (options.keeps_states && !is_elsewhere);
+  states.are_wanted = options.keeps_all_states || (options.keeps_states && !is_elsewhere());
   states.last_frame = frames_.last;
   states.trusted = trusted_states(earlier);
   if (options.keeps_all_states) return states;
@@ -424,8 +423,7 @@ void RenderRun::draw_frame(int frame) {
   const sim::AdvanceReport advance = timeline_.here().advance;
   const sim::Summary summary = timeline_.summary();
   std::vector<exports::Exporter::Work> exports = ledger_.read_exports(timeline_);
-  std::vector<record::BodyRecord> bodies =
-      record::bodies_of(timeline_.simulation().colliders(), timeline_.simulation().time());
+  std::vector<record::BodyRecord> bodies = bodies_here(timeline_);
   std::optional<timeline::Moment> moment;
   if (timeline_.moments().wants(frame)) moment = timeline_.moment();
   begin_next(frame);
@@ -460,23 +458,12 @@ void RenderRun::draw_frame(int frame) {
   timeline_.moments().keep(*std::move(moment));
 }
 
-/// A frame that is passed on the way to the first one that is drawn: what was greatest in it
-/// counts.
 void RenderRun::note_undrawn(int frame) {
   std::optional<record::RunStart>& start = ledger_.record().start;
   if (!start) return;
-  const int number = scene::number_of(job_.scene, frame);
-  if (!start->before && frame == 0) start->before = record::Extremes{number - 1};
-  if (!start->before || number != start->before->frame + 1) return;
-  const sim::Simulation& simulation = timeline_.simulation();
-  record::FrameRecord passed;
-  passed.frame = number;
-  passed.advance = timeline_.here().advance;
-  passed.summary = timeline_.summary();
-  passed.forces =
-      record::forces_of(passed.advance, passed.summary, timeline_.here().scene->colliders);
-  passed.bodies = record::bodies_of(simulation.colliders(), simulation.time());
-  start->before->add(passed);
+  if (!start->before && frame == 0)
+    start->before = record::Extremes{scene::number_of(job_.scene, 0) - 1};
+  if (start->before) add_passed(timeline_, *start->before);
 }
 
 /// The simulation of a resumed run has the warnings of the steps before. One that draws frames of

@@ -35,9 +35,8 @@ class RenderRun {
  public:
   /// @param job       with a resolved scene; must outlive the run, like the others
   /// @param timeline  at the start, or at the fork of the job
-  /// @param forked    see go_to_fork(); null: the run leaves no other
   RenderRun(const RenderJob& job, timeline::Timeline& timeline, const render::gl::Context& context,
-            render::Renderer& renderer, Progress& progress, const Json& forked = {});
+            render::Renderer& renderer, Progress& progress);
 
   /// Removes the files of an earlier run, or resumes it, then makes all frames and movies. run.json
   /// says at every moment how far it got, also when this throws.
@@ -57,6 +56,8 @@ class RenderRun {
   void keep_step_warnings(const EarlierRun& earlier);
   std::set<int> trusted_states(const std::optional<EarlierRun>& earlier) const;
   timeline::StatesFolder states_folder(const std::optional<EarlierRun>& earlier) const;
+  /// True where the run that is drawn has another folder.
+  bool is_elsewhere() const;
   void note_states();
   /// True where the run has the pictures of a frame already; of a run that was cut off its state
   /// too, if it is to be kept.

@@ -208,26 +208,13 @@ class Strip {
   std::uint64_t state_hash_ = 0;            ///< of the last of them
 };
 
-/// Places automatic cameras for the moments of the strip. A run keeps its scene with cameras in
-/// their places: those that are where an automatic camera would be are found anew, so that the
-/// strip of a run is that of its scene.
+/// Places automatic cameras for the moments of the strip: also those that neve found for a run, so
+/// that the strip of a run is that of its scene.
 void place_cameras(const StripJob& job, scene::Scene& scene) {
-  scene::Scene open = scene;
-  const bool is_of_run = !job.run.run.empty();
-  if (is_of_run) {
-    if (open.camera) open.camera->eye.reset(), open.camera->target.reset();
-    for (scene::View& view : open.views) view.camera.reset();
-  }
-  if (!setup::needs_framing(open)) return;
-  const std::vector<setup::CoarseMoment> moments = setup::coarse_run(open);
-  if (is_of_run) {
-    scene::Scene placed = open;
-    setup::resolve_cameras(placed, moments);
-    if (scene::write_scene(placed) != scene::write_scene(scene)) open = scene;
-  }
-  if (!setup::needs_framing(open)) return;
-  setup::resolve_cameras(open, setup::moments_near(moments, job.times), setup::Shown::moments);
-  scene = std::move(open);
+  if (!job.run.run.empty()) setup::reopen_cameras(scene);
+  if (!setup::needs_framing(scene)) return;
+  const std::vector<setup::CoarseMoment> moments = setup::coarse_run(scene);
+  setup::resolve_cameras(scene, setup::moments_near(moments, job.times), setup::Shown::moments);
 }
 
 }  // namespace

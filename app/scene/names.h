@@ -132,8 +132,8 @@ constexpr auto names(ExportFormat) {
 }
 constexpr auto names(ExportAttribute) {
   return in_order<ExportAttribute::age>("id", "x", "v", "m", "V0", "density", "J_E", "J_P", "F_E",
-                                        "stress", "kirchhoff", "C", "material", "body", "radius",
-                                        "age");
+                                        "stress", "kirchhoff", "C", "stiffness", "threshold",
+                                        "material", "body", "radius", "age");
 }
 constexpr auto names(UpAxis) {
   return in_order<UpAxis::z>("y", "z");

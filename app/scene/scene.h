@@ -193,6 +193,8 @@ enum class ExportAttribute {
   stress,
   kirchhoff,
   C,
+  stiffness,
+  threshold,
   material,
   body,
   radius,

@@ -103,6 +103,21 @@ void reopen(scene::CameraSettings& camera, const std::string& address,
   if (is_changed && camera.found != scene::FoundCamera::nothing) camera = without_place(camera);
 }
 
+/// Leaves a camera of a view open again that neve found.
+void reopen(scene::View& view) {
+  if (!view.camera) return;
+  if (view.camera->found == scene::FoundCamera::camera)
+    view.camera.reset();
+  else if (view.camera->found == scene::FoundCamera::place)
+    view.camera = without_place(*view.camera);
+}
+
+/// The same of the camera of all views.
+void reopen_shared(scene::Scene& scene) {
+  if (scene.camera && scene.camera->found != scene::FoundCamera::nothing)
+    scene.camera = without_place(*scene.camera);
+}
+
 /// A range is of its quantity, and a point of what it follows.
 void reopen_values(scene::View& view, const auto& is_set) {
   if (is_set("particles.color_by") && !is_set("particles.range")) view.particles.range.reset();
@@ -163,8 +178,7 @@ void reopen(scene::Scene& scene, const std::vector<scene::Override>& changes) {
   };
   if (scene.camera) {
     reopen(*scene.camera, "camera", changes);
-    if (scene.camera->found != scene::FoundCamera::nothing && any("output.size"))
-      scene.camera = without_place(*scene.camera);
+    if (any("output.size")) reopen_shared(scene);
   }
   for (scene::View& view : scene.views) {
     const std::string address = "view." + view.name + ".";
@@ -172,17 +186,34 @@ void reopen(scene::Scene& scene, const std::vector<scene::Override>& changes) {
     reopen_values(view, is_set);
     if (!view.camera) continue;
     reopen(*view.camera, address + "camera", changes);
-    if (view.camera->found == scene::FoundCamera::nothing) continue;
     const bool is_turned = is_set("size") || is_set("slice") || any("output.size");
-    if (view.camera->found == scene::FoundCamera::camera && (is_turned || any("camera")))
-      view.camera.reset();
-    else if (is_turned)
-      view.camera = without_place(*view.camera);
+    if (is_turned || (view.camera->found == scene::FoundCamera::camera && any("camera")))
+      reopen(view);
   }
 }
 
-void resolve(scene::Scene& scene, std::size_t particle_count) {
+void reopen_cameras(scene::Scene& scene) {
+  reopen_shared(scene);
+  for (scene::View& view : scene.views) reopen(view);
+}
+
+void set_size(const scene::PictureSize& size, scene::Scene& scene) {
+  const double aspect = aspect_of(size);
+  if (!is_of_shape(aspect, aspect_of(scene.size))) reopen_shared(scene);
+  for (scene::View& view : scene.views) {
+    if (!is_of_shape(aspect, aspect_of(size_of(scene, view)))) reopen(view);
+    view.size.reset();
+  }
+  for (scene::Mosaic& mosaic : scene.mosaics) mosaic.width.reset();
+  scene.size = size;
+}
+
+void resolve_cameras(scene::Scene& scene) {
   if (needs_framing(scene)) resolve_cameras(scene, coarse_run(scene));
+}
+
+void resolve(scene::Scene& scene, std::size_t particle_count) {
+  resolve_cameras(scene);
   resolve_ranges(scene, particle_count);
 }
 

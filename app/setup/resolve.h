@@ -21,12 +21,21 @@ void resolve(scene::Scene& scene, std::size_t particle_count);
 /// @param changes  that the scene has already
 void reopen(scene::Scene& scene, const std::vector<scene::Override>& changes);
 
+/// Leaves open again all cameras of such a scene that neve found.
+void reopen_cameras(scene::Scene& scene);
+
+/// Gives all pictures of a scene this size; cameras that neve found for another shape are open
+/// again.
+void set_size(const scene::PictureSize& size, scene::Scene& scene);
+
 /// True if a camera of the scene has no place yet.
 bool needs_framing(const scene::Scene& scene);
 
 /// Places those cameras for the snow of coarse runs, in order of time.
 void resolve_cameras(scene::Scene& scene, const std::vector<CoarseMoment>& moments,
                      Shown shown = Shown::fall);
+/// Where there are any: for the snow of a coarse run of the scene.
+void resolve_cameras(scene::Scene& scene);
 
 void resolve_ranges(scene::Scene& scene, std::size_t particle_count);
 

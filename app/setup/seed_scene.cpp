@@ -18,7 +18,8 @@ namespace {
 /// Apart from the keys of places.
 constexpr std::uint64_t variation_key = 0x76617279;
 
-/// Factors of the particles that were appended last. They are left out while all are 1.
+/// Factors of the particles that were appended last, but for what their file says: snow that
+/// continues has had them. They are left out while all are 1.
 void vary_body(const scene::Scene& scene, std::size_t index, const sim::seeding::SeededBody& seeded,
                sim::ParticleArrays& particles) {
   const std::size_t material = material_index(scene, scene.bodies[index].material);
@@ -34,10 +35,10 @@ void vary_body(const scene::Scene& scene, std::size_t index, const sim::seeding:
   for (std::size_t p = first; p < end; ++p) {
     const sim::shapes::Factors factors =
         sim::shapes::vary(variation, key, p - first, particles.x[p] - seeded.center);
-    particles.m[p] *= factors.density;
+    if (seeded.m.empty()) particles.m[p] *= factors.density;
     if (!is_varied) continue;
-    particles.stiffness[p] = factors.stiffness;
-    particles.threshold[p] = factors.threshold;
+    if (seeded.stiffness.empty()) particles.stiffness[p] = factors.stiffness;
+    if (seeded.threshold.empty()) particles.threshold[p] = factors.threshold;
   }
 }
 

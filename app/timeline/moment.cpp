@@ -36,15 +36,21 @@ double number_of(const Json& json, const std::string& name) {
 Json bodies_json(const std::vector<picture::BodySample>& bodies) {
   Json list = Json::array();
   for (const picture::BodySample& body : bodies)
-    list.push_back({body.name, number_or_null(body.height), number_or_null(body.speed)});
+    list.push_back({body.name, number_or_null(body.height), number_or_null(body.speed),
+                    output::vector_json(body.rotation)});
   return list;
 }
 
 std::vector<picture::BodySample> bodies_of(const Json& list) {
   std::vector<picture::BodySample> bodies;
-  for (const Json& body : list)
+  for (const Json& body : list) {
     bodies.push_back({body.at(0).get<std::string>(), number_of(body.at(1), "history height"),
                       number_of(body.at(2), "history speed")});
+    // Checkpoints of earlier versions have no rotations.
+    for (int a = 0; a < 3 && body.size() > 3; ++a)
+      bodies.back().rotation[a] =
+          number_of(body.at(3).at(static_cast<std::size_t>(a)), "history rotation");
+  }
   return bodies;
 }
 

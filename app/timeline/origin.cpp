@@ -174,6 +174,17 @@ setup::FrameRange frames_to_make(const Json& run, const scene::Scene& before,
   return {first, has_them ? std::max(last, end) : last};
 }
 
+/// Of a run, with the edits. A length that is set is asked for, as with --frames.
+setup::FrameRange frames_to_draw(const Edits& edits, const std::vector<scene::Override>& changes,
+                                 const Json& run, const scene::Scene& before,
+                                 const Origin& origin) {
+  if (std::ranges::count(scene::addresses_of(changes), "frames") > 0)
+    return {origin.first, std::max(origin.first, scene::last_frame(origin.scene))};
+  if (!origin.run_frames.empty() && !edits.continues_run)
+    return {origin.run_frames.front().frame, origin.run_frames.back().frame};
+  return frames_to_make(run, before, origin);
+}
+
 void read_run(const Edits& edits, Origin& origin) {
   if (edits.coarsening || edits.is_fast || edits.coarsened > 1)
     throw UsageError(edits.coarsening ? "--coarsen"
@@ -209,15 +220,17 @@ void read_run(const Edits& edits, Origin& origin) {
                       scene::number_of(before, 0)),
           file.string(), "render the scene file into another folder");
     require_same_files(run.value("scene_files", record::FileHashes{}), origin);
-    if (const Json forked = run.value("forked", Json()); forked.is_object())
-      origin.first = scene::frame_of(before, whole_number<int>(forked.at("frame"))) + 1;
-    origin.frames = frames_to_make(run, before, origin);
+    if (Json forked = run.value("forked", Json()); forked.is_object()) {
+      const int frame = scene::frame_of(before, whole_number<int>(forked.at("frame")));
+      origin.first = frame + 1;
+      forked["frame"] = scene::number_of(origin.scene, frame);
+      origin.forked = std::move(forked);
+    }
+    origin.frames = frames_to_draw(edits, changes, run, before, origin);
   } catch (const nlohmann::json::exception&) {
     throw Error(exit_invalid_scene, file.string() + ": error: is not a run.json of neve",
                 file.string());
   }
-  if (!origin.run_frames.empty() && !edits.continues_run)
-    origin.frames = {origin.run_frames.front().frame, origin.run_frames.back().frame};
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ struct Origin {
   std::optional<record::PictureRecord> picture;  ///< the origin is this picture
   std::filesystem::path run;                     ///< the origin is the run in this folder
   Json prediction;  ///< of that run, for full resolution; null: it has none
+  Json forked;      ///< where that run left another one; null: nowhere
   std::vector<record::FrameRecord> run_frames;  ///< that the run lists, counted from 0
 
   /// @param named  a scene file, a picture made by neve, the folder of a run; empty: the default

@@ -23,10 +23,6 @@ namespace {
 
 constexpr std::size_t no_step = std::numeric_limits<std::size_t>::max();
 
-std::vector<picture::BodySample> body_samples(const sim::Simulation& simulation) {
-  return picture::body_samples(simulation.colliders(), simulation.time());
-}
-
 /// The loads of a frame go with their colliders: those of one that is gone are gone.
 std::vector<sim::ColliderLoad> with_colliders(const std::vector<sim::ColliderLoad>& loads,
                                               const std::vector<scene::Collider>& before,
@@ -79,8 +75,8 @@ void Timeline::begin() {
   curves_at_ = 0;
   summary_.reset();
   make_due();
-  here_.history.push_back(
-      picture::plot_sample(0, 1 / fps(), summary(), {}, body_samples(simulation_)));
+  here_.history.push_back(picture::plot_sample(0, 1 / fps(), summary(), {},
+                                               picture::body_samples(simulation_.colliders(), 0)));
 }
 
 Moment Timeline::moment() const {
@@ -335,10 +331,14 @@ bool Timeline::end_frame() {
   here_.steps = simulation_.steps();
   summary_.reset();
   if (simulation_.divergence() || !is_not_after(frame_end(), simulation_.time())) return false;
+  // A sum of its steps would depend on how often the frame was interrupted.
+  here_.advance.seconds = frame_end() - here_.frame / fps();
   ++here_.frame;
   here_.steps_of_frame = here_.steps;
-  here_.history.push_back(picture::plot_sample(here_.frame / fps(), 1 / fps(), summary(),
-                                               here_.advance, body_samples(simulation_)));
+  here_.history.push_back(
+      picture::plot_sample(here_.frame / fps(), 1 / fps(), summary(), here_.advance,
+                           picture::body_samples(simulation_.colliders(), simulation_.time(),
+                                                 here_.history.back().bodies)));
   if (watch_.after_frame) watch_.after_frame(here_.frame);
   return true;
 }

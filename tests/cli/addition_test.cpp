@@ -268,6 +268,69 @@ TEST_F(Addition, ARunIsDrawnElsewhereWithAnotherCamera) {
       << refused.errors;
 }
 
+/// The camera that was found for the shape of the run cut the snow off.
+TEST_F(Addition, ARunInAnotherShapeIsFramedAnew) {
+  const std::vector<std::string> tall{"--size", "48x120", "--no-movie"};
+  const auto drawn = [&](const char* source, const char* out) {
+    std::vector<std::string> words{source, "--out", out};
+    words.insert(words.end(), tall.begin(), tall.end());
+    render(words);
+    return pictures(std::string(out) + "/particles");
+  };
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const auto fresh = drawn("scene.toml", "b");
+  EXPECT_TRUE(drawn("a", "c") == fresh);
+  const auto pixels = [&](const std::string& file) {
+    return render::decode_png(app::output::read_file(folder / file)).pixels;
+  };
+  drawn("a/particles/0003.png", "d");
+  EXPECT_TRUE(pixels("d/particles/0003.png") == pixels("b/particles/0003.png"));
+  const auto compared = [&] {
+    const auto done = neve({"compare", "a", "a", "--mode", "beside", "--frames", "3-3", "--size",
+                            "48x120", "--out", "pair.png"});
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    return pixels("pair.png");
+  };
+  const auto of_run = compared();
+  fs::rename(folder / "a", folder / "wide");
+  fs::rename(folder / "c", folder / "a");
+  EXPECT_TRUE(compared() == of_run);
+}
+
+/// It ended where the run does, and said that all is well.
+TEST_F(Addition, AnotherLengthOfARunIsThatOfItsScene) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"scene.toml", "--out", "long", "--no-movie", "--set", "frames=6"});
+  render({"a", "--out", "b", "--no-movie", "--set", "frames=6"});
+  EXPECT_EQ(hashes("b"), hashes("long"));
+  EXPECT_EQ(hashes("b").size(), 7u);
+  render({"a", "--out", "c", "--no-movie", "--set", "frames=2"});
+  EXPECT_EQ(hashes("c").size(), 3u);
+  render({"a", "--from", "0.125s", "--out", "d", "--no-movie", "--set", "frames=6"});
+  EXPECT_EQ(hashes("d").rbegin()->first, 6);
+  const auto swept = neve({"sweep", "a", "--from", "0.125s", "--out", "s.cdb", "--size", "96x54",
+                           "--set", "frames=5", "-p", "material.snow.hardening=4"});
+  EXPECT_EQ(swept.exit_code, 0) << swept.errors;
+  EXPECT_EQ(hashes("s.cdb/runs/0000").rbegin()->first, 5);
+  const auto exported = neve({"export", "a", "--format", "csv", "--set", "frames=5"});
+  EXPECT_EQ(exported.exit_code, 0) << exported.errors;
+  EXPECT_TRUE(exists("a/exports/csv/0005.csv"));
+}
+
+/// As those of its scene do.
+TEST_F(Addition, LaterFramesOfARunKnowWhatWasBeforeThem) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"scene.toml", "--frames", "2-3", "--out", "b", "--no-movie"});
+  render({"a", "--frames", "2-3", "--out", "c", "--no-movie"});
+  const app::Json start = json_of("b/run.json")["start"];
+  ASSERT_TRUE(start.contains("before"));
+  EXPECT_EQ(json_of("c/run.json")["start"], start);
+  render({"b", "--out", "d", "--no-movie", "--set", "first_frame=1001"});
+  app::Json moved = start;
+  moved["before"]["frame"] = 1002;
+  EXPECT_EQ(json_of("d/run.json")["start"], moved);
+}
+
 TEST_F(Addition, FramesBetweenThoseThatAreThereAndTheNewOnesAreDrawnToo) {
   render({"scene.toml", "--out", "a", "--no-movie", "--frames", "0-1"});
   render({"a", "--view", "smoke", "--no-movie", "--frames", "3-4"});

@@ -74,6 +74,48 @@ TEST_F(Bodies, RunJsonHasThemAtEveryFrame) {
   EXPECT_LT(last[0]["velocity"][0].get<double>(), 4.0) << "snow has braked it";
 }
 
+/// They jumped by whole turns, and such a list was refused.
+TEST_F(Bodies, ARotationThatGoesOnIsAListOfKeyframes) {
+  const auto scene = [](const std::string& motion) {
+    return R"(
+frames = 12
+solver = { cell_size = 0.04, gravity = [0, 0, 0] }
+[[body]]
+name = "crumb"
+shape = { sphere = { center = [2, 0, 0], radius = 0.04 } }
+[[collider]]
+name = "top"
+shape = { box = { center = [0, 0, 0], size = [0.2, 0.3, 0.4], rotation = [10, 200, 30] } }
+)" + motion +
+           R"(
+[[view]]
+name = "particles"
+[output]
+size = [64, 36]
+)";
+  };
+  for (const std::string spin : {"[0, 19, 0]", "[3, -21, 17]"}) {
+    folder.write("spun.toml", scene("density = 700\nangular_velocity = " + spin));
+    ASSERT_EQ(render({"spun.toml", "--out", "whole", "--replace"}).exit_code, 0);
+    ASSERT_EQ(render({"spun.toml", "--frames", "7-12", "--out", "late", "--replace"}).exit_code, 0);
+    const app::Json frames = json_of("whole/run.json")["frames"];
+    const app::Json late = json_of("late/run.json");
+    const auto bodies_of = [](const app::Json& frame) { return frame["bodies"][0]; };
+    EXPECT_EQ(bodies_of(late["start"]), bodies_of(frames[0]));
+    EXPECT_EQ(bodies_of(late["frames"][0]), bodies_of(frames[7]));
+    EXPECT_NEAR(bodies_of(frames[0])["rotation"][1].get<double>(), 200, 1e-9) << "as it is written";
+    std::string keyframes = "keyframes = [";
+    for (const app::Json& frame : frames) {
+      const app::Json body = bodies_of(frame);
+      keyframes += "{ time = " + frame["time"].dump() + ", position = " + body["position"].dump() +
+                   ", rotation = " + body["rotation"].dump() + " }, ";
+    }
+    folder.write("again.toml", scene(keyframes + "]"));
+    const auto checked = neve({"check", "again.toml"});
+    EXPECT_EQ(checked.exit_code, 0) << checked.errors;
+  }
+}
+
 /// Whatever kills the run, and in pictures, plots and the stage too.
 TEST_F(Bodies, KilledAndResumedTheyAreWhereTheyWere) {
   ASSERT_EQ(render({"scene.toml", "--out", "whole"}).exit_code, 0);

@@ -128,6 +128,11 @@ TEST_F(Fork, APictureAndASceneAreForkedLikeTheRunThatMadeThem) {
   EXPECT_EQ(of_run.size(), 1u);
   EXPECT_EQ(fork("a/particles/0002.png", "c"), of_run);
   EXPECT_EQ(fork("scene.toml", "d"), of_run);
+  // What was greatest before them, too.
+  const app::Json start = json_of("b/run.json")["start"];
+  ASSERT_TRUE(start.contains("before"));
+  for (const char* of : {"c", "d"})
+    EXPECT_EQ(json_of(std::string(of) + "/run.json")["start"], start) << of;
   // Without a change it is the run itself.
   ASSERT_EQ(render({"a", "--from", "0.125", "--out", "same"}).exit_code, 0);
   EXPECT_EQ(hashes("same")[4], hashes("a")[4]);
@@ -183,6 +188,36 @@ TEST_F(Fork, ABranchBeginsAtItsForkWhateverIsDrawnOfItLater) {
   EXPECT_EQ(neve({"export", "b", "--format", "csv", "--frames", "5"}).exit_code, 0);
   EXPECT_FALSE(exists("b/exports/csv/0002.csv"));
   EXPECT_TRUE(exists("b/exports/csv/0003.csv") && exists("b/exports/csv/0005.csv"));
+}
+
+/// Drawn elsewhere it began with the frames of the run that it left.
+TEST_F(Fork, ABranchIsOneWhereverItIsDrawn) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  ASSERT_EQ(render({"a", "--from", "0.084", "--set", "material.snow.hardening=4", "--out", "b"})
+                .exit_code,
+            0);
+  ASSERT_EQ(render({"b", "--view", "smoke", "--out", "c"}).exit_code, 0);
+  const app::Json branch = json_of("b/run.json"), drawn = json_of("c/run.json");
+  EXPECT_EQ(drawn["forked"], branch["forked"]);
+  EXPECT_EQ(drawn["start"], branch["start"]);
+  ASSERT_EQ(render({"c", "--frames", "6"}).exit_code, 0);
+  EXPECT_EQ(hashes("c").begin()->first, 3);
+  EXPECT_EQ(hashes("c").rbegin()->first, 6);
+  ASSERT_EQ(render({"b", "--set", "first_frame=1001", "--out", "d"}).exit_code, 0);
+  EXPECT_EQ(json_of("d/run.json")["forked"]["frame"], 1003);
+}
+
+/// The sum of their steps depended on how many parts a frame has: the last digit was another one.
+TEST_F(Fork, ForcesOfAFrameInTwoPartsAreThoseOfTheWhole) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const app::Json whole = json_of("a/run.json")["frames"];
+  for (const char* time : {"0.086", "0.09", "0.1", "0.11", "0.12"}) {
+    ASSERT_EQ(render({"a", "--from", time, "--out", "b", "--replace"}).exit_code, 0);
+    const app::Json frames = json_of("b/run.json")["frames"];
+    ASSERT_EQ(frames[0]["frame"], 3);
+    EXPECT_EQ(frames[0]["state_hash"], whole[3]["state_hash"]);
+    EXPECT_EQ(frames[0]["forces"], whole[3]["forces"]) << time;
+  }
 }
 
 /// It is meant to be another state than the picture shows.

@@ -269,6 +269,33 @@ TEST_F(PointFiles, AStateInOtherAxesAndUnitsContinuesAsItWas) {
     EXPECT_NEAR(scaled[k], plain[k], 1e-6 * (1 + std::abs(plain[k]))) << k;
 }
 
+/// Its masses got the factors of `variation` a second time, and nobody could write the others.
+TEST_F(PointFiles, VariedSnowContinuesAsItIs) {
+  const std::string varied =
+                        "[material.snow]\nvariation = { density = 0.2, youngs_modulus = 0.3, "
+                        "thresholds = 0.3 }\n",
+                    attributes = std::string(state) + ",stiffness,threshold";
+  folder.write("moving.toml", moving_scene + varied);
+  const auto exported = [&](const char* scene, const std::string& frame) {
+    const auto done = neve({"export", scene, "--format", "csv", "--attributes", attributes,
+                            "--frames", frame + "-" + frame, "--out", scene + frame, "-q"});
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    return read_text(folder / (scene + frame + "/csv/000" + frame + ".csv"));
+  };
+  const std::string before = exported("moving.toml", "3");
+  folder.write("of_export.toml", continued("moving.toml3/csv/0003.csv") + varied);
+  EXPECT_TRUE(exported("of_export.toml", "0") == before);
+  ASSERT_EQ(neve({"dump", "moving.toml", "--at", "0.125", "--out", "state.txt"}).exit_code, 0);
+  folder.write("of_dump.toml", continued("state.txt") + varied);
+  EXPECT_TRUE(exported("of_dump.toml", "0") == before);
+  // Factors that the file does not have are drawn.
+  folder.write("points/block.csv", block_csv(3.2e-3));
+  folder.write("block.toml", block_scene + varied);
+  const std::string block = exported("block.toml", "0");
+  EXPECT_FALSE(contains(block, ",1,1\n"));
+  EXPECT_TRUE(contains(block, ",0.0032"));
+}
+
 TEST_F(PointFiles, ADumpContinuesToTheBit) {
   folder.write("moving.toml", moving_scene);
   ASSERT_EQ(neve({"dump", "moving.toml", "--at", "0.125", "--out", "state.txt"}).exit_code, 0);

@@ -73,6 +73,27 @@ TEST_F(Strip, ARunWithCheckpointsGivesTheSamePictureAsItsScene) {
             0);
 }
 
+/// Whatever is before the plane of a slice: its camera was not found anew.
+TEST_F(Strip, ARunWithSlicesGivesTheSamePictureAsItsScene) {
+  folder.write("slices.toml", std::string(falling) + R"(
+[[view]]
+name = "snow"
+[[view]]
+name = "slice"
+layers = ["heatmap", "arrows", "legend"]
+)");
+  ASSERT_EQ(neve({"render", "slices.toml", "--no-movie", "--out", "run"}).exit_code, 0);
+  const auto strip = [&](const std::string& source) {
+    EXPECT_EQ(neve({"strip", source, "--view", "slice", "--at", "0.05,0.1", "--columns", "2",
+                    "--width", "320", "--out", "s.png"})
+                  .exit_code,
+              0);
+    return picture("s.png");
+  };
+  const render::Image of_scene = strip("slices.toml");
+  EXPECT_EQ(render::compare(of_scene, strip("run")).max, 0);
+}
+
 TEST_F(Strip, MakesItselfAgain) {
   ASSERT_EQ(neve({"strip", "fall.toml", "--view", "slice", "--at", "0.05,0.1,0.2", "--columns", "2",
                   "--width", "500", "--set", "body.ball.velocity=[0.5,-1,0]", "--out", "a.png"})

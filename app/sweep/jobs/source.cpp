@@ -37,8 +37,7 @@ void take_beginning(const plan::SweepPlan& plan, const store::Beginning& beginni
   run::walk_to_fork(job, timeline, progress);
   record::RunRecord record = run::run_record(job, timeline.simulation());
   record.changes = timeline.changes();
-  record.start =
-      run::start_of_fork(timeline, job.run, scene::number_of(job.scene, timeline.here().frame));
+  record.start = job.fork->start;
   timeline::write_origin(folder, std::move(record), timeline.moment());
   store::RunStatus status = store::read_status(folder);
   status.state = store::RunState::ok;

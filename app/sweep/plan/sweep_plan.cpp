@@ -18,6 +18,7 @@
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/setup/curves.h"
+#include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/out_folder.h"
 #include "app/support/text.h"
@@ -59,13 +60,12 @@ scene::View chosen_view(const SweepOptions& options, const read::Sweep& sweep,
 
 /// One view, as large as a tile, without the words that the sheet has once.
 void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::Scene& scene) {
-  scene::View view = chosen_view(options, sweep, scene);
-  scene.size = tile_size(options, sweep, scene, view);
-  view.size.reset();
+  scene.views = {chosen_view(options, sweep, scene)};
+  scene.mosaics.clear();
+  scene::View& view = scene.views.front();
+  setup::set_size(tile_size(options, sweep, scene, view), scene);
   std::erase(view.layers, scene::Layer::legend);
   std::erase(view.layers, scene::Layer::caption);
-  scene.views = {view};
-  scene.mosaics.clear();
 }
 
 /// Whether runs branch off a common beginning, and do not have their values from the start.
@@ -131,16 +131,6 @@ class SceneMaker {
   std::vector<scene::Override> none_;
 };
 
-/// Counted from 0. @param source  a run may have more frames than its scene
-setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
-                            const scene::Scene& scene,
-                            const std::optional<run::RenderJob>& source = {}) {
-  if (options.frames) return setup::frames_of(scene, *options.frames);
-  if (!sweep.settings.frames.empty())
-    return setup::frames_of(scene, options::frames().read("--frames", sweep.settings.frames));
-  return {0, source ? source->last_frame() : scene::last_frame(scene)};
-}
-
 /// A setting of a run that says how many frames there are; null if none does.
 const scene::Override* frames_setting(const read::Sweep& sweep) {
   for (const read::Axis& axis : sweep.axes)
@@ -150,6 +140,18 @@ const scene::Override* frames_setting(const read::Sweep& sweep) {
     for (const scene::Override& setting : row.settings)
       if (setting.address == "frames") return &setting;
   return nullptr;
+}
+
+/// Counted from 0. @param source  a run may have more frames than its scene
+setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
+                            const scene::Scene& scene,
+                            const std::optional<run::RenderJob>& source = {}) {
+  if (options.frames) return setup::frames_of(scene, *options.frames);
+  if (!sweep.settings.frames.empty())
+    return setup::frames_of(scene, options::frames().read("--frames", sweep.settings.frames));
+  const bool is_length_set =
+      frames_setting(sweep) || std::ranges::count(scene::addresses_of(sweep.fixed), "frames") > 0;
+  return {0, source && !is_length_set ? source->last_frame() : scene::last_frame(scene)};
 }
 
 /// Frames that are the same for all runs would hide those that differ.
