@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/scene/read.h"
 #include "app/setup/seed_scene.h"
 #include "app/timeline/timeline.h"
 #include "app/view/panels/viewer_state.h"
