@@ -2,7 +2,6 @@
 
 #include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
-#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -12,6 +11,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/rigid/contact_search.h"
 #include "sim/rigid/held.h"
 #include "sim/rigid/rigid_shape.h"
 #include "sim/rigid/triangles.h"
@@ -23,12 +23,6 @@ namespace {
 
 /// Bodies are few and a step is short: contact is solved to the end.
 constexpr int iterations = 50;
-/// Where a body with edges touches a plane, Bullet looks for more points beside the first one in so
-/// many directions, turned by 0.02 units over its size. Other pairs with edges are clipped face
-/// against face (rigid_shape.cpp). Round ones have one point: further ones, a little beside it,
-/// would let a cylinder that lies still roll away, and turn one that comes down on its edge round
-/// the vertical by 90 degrees.
-constexpr int perturbations = 8, wanted_points = 4;
 /// No body is larger in Bullet's units, and the largest no smaller than half of it: some of its
 /// lengths are absolute, and small and large bodies are to move alike.
 constexpr double largest_in_units = 0.2;
@@ -71,7 +65,6 @@ class RigidBodies::World {
   World(const std::vector<Body>& bodies, const std::vector<shapes::Collider>& colliders)
       : unit_(unit_of_length(bodies)) {
     for (const Body& body : bodies) heaviest_ = std::max(heaviest_, body.mass.mass);
-    configuration_.setPlaneConvexMultipointIterations(perturbations, wanted_points);
     auto next = bodies.begin();
     for (std::size_t k = 0; k < colliders.size(); ++k) {
       const bool moves = next != bodies.end() && next->collider == k;
@@ -285,63 +278,18 @@ class RigidBodies::World {
       thing.body->setUserIndex(static_cast<int>(k));
       world_->addCollisionObject(thing.body.get());
     }
-    // Without it a body with edges touches each triangle in one point alone.
-    world_->getDispatchInfo().m_enableSatConvex = true;
     world_->computeOverlappingPairs();
     dispatcher_->dispatchAllCollisionPairs(broadphase_->getOverlappingPairCache(),
                                            world_->getDispatchInfo(), dispatcher_.get());
-    turn_to_faces();
     distances_.clear();
-    each_point([&](const btPersistentManifold&, btManifoldPoint& point) {
-      distances_.push_back(point.getDistance());
-    });
-  }
-
-  /// A body that passes from face to face of a surface meets the edge of the next one, which its
-  /// neighbours hide: such contact pushed bodies back that slid over flat ground, or threw them up.
-  /// Where no face and no ridge has the normal of a contact, it gets that of the nearest face.
-  void turn_to_faces() {
     each_point([&](const btPersistentManifold& manifold, btManifoldPoint& point) {
       for (const bool is_first : {true, false}) {
         const btCollisionObject* object = is_first ? manifold.getBody0() : manifold.getBody1();
-        const RigidShape& shape = *things_[static_cast<std::size_t>(object->getUserIndex())].shape;
-        const btTransform& at = object->getWorldTransform();
-        const double side = is_first ? -1 : 1;
-        const btVector3 &own = is_first ? point.m_positionWorldOnA : point.m_positionWorldOnB,
-                        &other = is_first ? point.m_positionWorldOnB : point.m_positionWorldOnA;
-        const std::vector<Face> faces = shape.faces_at(
-            is_first ? point.m_index0 : point.m_index1, from_bullet(at.invXform(own)),
-            manifold.getContactBreakingThreshold() + std::abs(point.getDistance()));
-        const Vec3d normal =
-            side * (from_bullet(at.getBasis()).transpose() * from_bullet(point.m_normalWorldOnB));
-        const Face* face = hidden_by(faces, normal);
-        if (!face) continue;
-        const Vec3d body = from_bullet(at.invXform(other));
-        const double gap = face->normal.dot(body - face->middle);
-        point.m_normalWorldOnB = side * (at.getBasis() * to_bullet(face->normal));
-        point.setDistance(gap);
-        (is_first ? point.m_positionWorldOnA : point.m_positionWorldOnB) =
-            at * to_bullet(Vec3d(body - gap * face->normal));
+        const Thing& thing = things_[static_cast<std::size_t>(object->getUserIndex())];
+        turn_to_face(*thing.shape, is_first, manifold, point);
       }
+      distances_.push_back(point.getDistance());
     });
-  }
-
-  /// The face that has the place of a contact whose normal is of none of them, and of no ridge
-  /// between two; nothing where it is, or where the contact is from behind.
-  static const Face* hidden_by(const std::vector<Face>& faces, const Vec3d& normal) {
-    constexpr double near = 1e-4, behind = -0.5;
-    if (faces.empty() || normal.dot(faces[0].normal) < behind) return nullptr;
-    const Face* best = &faces[0];
-    for (const Face& face : faces) {
-      if (normal.dot(face.normal) > normal.dot(best->normal)) best = &face;
-      for (const Face& next : faces) {
-        const double both = face.normal.dot(next.normal);
-        const bool is_ridge = face.normal.dot(next.middle - face.middle) < 0;
-        if (is_ridge && std::min(normal.dot(face.normal), normal.dot(next.normal)) > both - near)
-          return nullptr;
-      }
-    }
-    return normal.dot(best->normal) > 1 - near ? nullptr : best;
   }
 
   /// body(manifold, point)
@@ -469,7 +417,7 @@ class RigidBodies::World {
   std::vector<std::size_t> moving_;  ///< per body: its thing
   std::vector<double> distances_;    ///< per point of contact, as they were found
   bool any_bounces_ = false;
-  btDefaultCollisionConfiguration configuration_;
+  ContactSearch configuration_;
   std::unique_ptr<Dispatcher> dispatcher_;
   std::unique_ptr<btSimpleBroadphase> broadphase_;
   std::unique_ptr<btCollisionWorld> world_;
