@@ -32,7 +32,7 @@ double largest_force(const timeline::Timeline& timeline) {
 void run(const scene::Scene& scene, int last, int threads, std::function<void(int frame)> say,
          Copy& copy) {
   timeline::Watch watch;
-  watch.after_step = [] { return is_interrupted(); };
+  watch.after_step = [](double) { return is_interrupted(); };
   watch.after_frame = std::move(say);
   timeline::Timeline timeline(scene, {},
                               std::make_shared<const setup::SeededScene>(setup::seed_scene(scene)),

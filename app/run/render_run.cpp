@@ -67,8 +67,8 @@ RenderRun::RenderRun(const RenderJob& job, timeline::Timeline& timeline,
               begin_record(job, timeline.simulation(), context, drawing_, picture_), progress) {
   if (job.options.validate) watch_laws();
   timeline_.watch({.after_step =
-                       [this] {
-                         progress_.step(timeline_.simulation().time());
+                       [this](double time) {
+                         progress_.step(time);
                          look_at_laws();
                          return is_interrupted() || is_abandoned_;
                        },

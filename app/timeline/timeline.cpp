@@ -41,8 +41,10 @@ Watch watched_by(Progress& progress, const scene::Scene& scene) {
   const double fps = scene.fps;
   const int first = scene::number_of(scene, 0);
   Watch watch;
-  watch.has_reached = [&progress](double time) { progress.step(time); };
-  watch.after_step = [] { return is_interrupted(); };
+  watch.after_step = [&progress](double time) {
+    progress.step(time);
+    return is_interrupted();
+  };
   watch.after_frame = [&progress, fps](int frame) { progress.frame(frame, frame / fps); };
   watch.after_jump = [&progress, first, is_told = false](int frame) mutable {
     if (!is_told)
@@ -244,8 +246,7 @@ bool Timeline::go_to(double time) {
 
 /// @return whether to stop
 bool Timeline::look_after_step() {
-  if (watch_.has_reached) watch_.has_reached(simulation_.time());
-  return is_stopped_ = watch_.after_step && watch_.after_step();
+  return is_stopped_ = watch_.after_step && watch_.after_step(simulation_.time());
 }
 
 /// As far as the last step, or to the end of the frame.

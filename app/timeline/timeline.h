@@ -17,11 +17,10 @@ namespace neve::app::timeline {
 
 /// Told while a run moves, in the thread that moves it; each may be empty.
 struct Watch {
-  sim::StepObserver after_step{};  ///< @return whether to stop
+  std::function<bool(double time)> after_step{};  ///< s, that it ends at; @return whether to stop
   std::function<void(int frame)> after_frame{};
   std::function<void(int frame)> after_jump{};  ///< to a kept moment of this frame
   std::function<void(const scene::Scene& scene)> after_change{};
-  std::function<void(double time)> has_reached{};  ///< s, after each step, before after_step
 };
 
 /// Shows how far it is, and stops at an interrupt. @param progress  outlives it

@@ -87,7 +87,7 @@ struct Counted {
       : timeline(scene, std::move(changes),
                  std::make_shared<setup::SeededScene>(setup::seed_scene(scene)), 1,
                  std::move(moments)) {
-    timeline.watch({[this] {
+    timeline.watch({[this](double) {
       ++steps;
       return stop_after > 0 && --stop_after == 0;
     }});

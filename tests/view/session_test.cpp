@@ -329,7 +329,7 @@ TEST(Samples, ForcesAreUnknownInsideAFrameAndKnownAtItsEnd) {
   timeline::Timeline* running = nullptr;
   timeline::Timeline run(*scene, {},
                          std::make_shared<setup::SeededScene>(setup::seed_scene(*scene)), 0, {},
-                         timeline::Watch{[&] {
+                         timeline::Watch{[&](double) {
                            samples.note_if_cheap(*running);
                            return false;
                          }});

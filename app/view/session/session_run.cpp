@@ -35,7 +35,8 @@ void Session::start(const std::shared_ptr<const scene::Scene>& scene,
   auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(*scene));
   auto next = std::make_unique<timeline::Timeline>(
       *scene, past ? past->changes : std::vector<scene::LiveChange>{}, std::move(seeded),
-      options_.threads, std::move(moments), timeline::Watch{[this] { return after_step(); }});
+      options_.threads, std::move(moments),
+      timeline::Watch{[this](double) { return after_step(); }});
   reading.reset();
   next->keep();
   if (past) next->restore(*past->newest);
