@@ -85,8 +85,7 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   const int first = timeline::frame_at(job.fork->time, job.scene.fps) + 1;
   const std::optional<setup::FrameRange> frames =
       options.frames ? std::optional(setup::frames_of(job.scene, *options.frames)) : std::nullopt;
-  const bool is_length_set =
-      std::ranges::count(scene::addresses_of(job.fork->changes), "frames") > 0;
+  const bool is_length_set = scene::sets(job.fork->changes, "frames");
   const int last = frames          ? frames->last
                    : is_length_set ? scene::last_frame(forked)
                                    : job.last_frame();

@@ -313,6 +313,10 @@ std::vector<std::string> addresses_of(const std::vector<Override>& changes) {
   return addresses;
 }
 
+bool sets(const std::vector<Override>& changes, std::string_view address) {
+  return std::ranges::find(changes, address, &Override::address) != changes.end();
+}
+
 std::vector<std::string> texts_of(const std::vector<Override>& changes) {
   std::vector<std::string> texts;
   for (const Override& change : changes) texts.push_back(change.address + "=" + change.value);

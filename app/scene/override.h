@@ -29,6 +29,8 @@ Override parse_override(std::string_view argument);
 std::vector<Override> parse_overrides(const std::vector<std::string>& arguments);
 
 std::vector<std::string> addresses_of(const std::vector<Override>& changes);
+/// True if one of them has this address.
+bool sets(const std::vector<Override>& changes, std::string_view address);
 /// "ADDRESS=VALUE" of each, as parse_overrides() reads them.
 std::vector<std::string> texts_of(const std::vector<Override>& changes);
 

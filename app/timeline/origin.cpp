@@ -174,11 +174,11 @@ setup::FrameRange frames_to_make(const Json& run, const scene::Scene& before,
   return {first, has_them ? std::max(last, end) : last};
 }
 
-/// Of a run, with the edits. A length that is set is asked for, as with --frames.
+/// The frames of a run that the edits ask for: a length that is set counts as --frames does.
 setup::FrameRange frames_to_draw(const Edits& edits, const std::vector<scene::Override>& changes,
                                  const Json& run, const scene::Scene& before,
                                  const Origin& origin) {
-  if (std::ranges::count(scene::addresses_of(changes), "frames") > 0)
+  if (scene::sets(changes, "frames"))
     return {origin.first, std::max(origin.first, scene::last_frame(origin.scene))};
   if (!origin.run_frames.empty() && !edits.continues_run)
     return {origin.run_frames.front().frame, origin.run_frames.back().frame};

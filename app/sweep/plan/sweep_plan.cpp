@@ -149,8 +149,7 @@ setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& swee
   if (options.frames) return setup::frames_of(scene, *options.frames);
   if (!sweep.settings.frames.empty())
     return setup::frames_of(scene, options::frames().read("--frames", sweep.settings.frames));
-  const bool is_length_set =
-      frames_setting(sweep) || std::ranges::count(scene::addresses_of(sweep.fixed), "frames") > 0;
+  const bool is_length_set = frames_setting(sweep) || scene::sets(sweep.fixed, "frames");
   return {0, source && !is_length_set ? source->last_frame() : scene::last_frame(scene)};
 }
 
