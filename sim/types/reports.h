@@ -163,6 +163,10 @@ struct PhaseSeconds {
   double grid_to_particles = 0;  ///< deformation to advection
   double checks = 0;             ///< limits of the next dt, rules of a healthy run
   double dust = 0;               ///< air and dust, where there is any
+
+  double total() const {
+    return partition + particles_to_grid + grid_update + solve + grid_to_particles + checks + dust;
+  }
 };
 
 }  // namespace neve::sim

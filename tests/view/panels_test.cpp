@@ -377,7 +377,7 @@ TEST(ProbeTrace, ProbeTraceHasAllMomentsOfTheRunInTheOrderOfTime) {
 TEST(Plots, SharesOfPhasesAreOfAllOfThem) {
   app::view::session::LiveFrame live;
   live.phases = {1, 2, 4, 8, 16, 32, 64};
-  EXPECT_EQ(live.phases_total(), 127);
+  EXPECT_EQ(live.phases.total(), 127);
 }
 
 }  // namespace

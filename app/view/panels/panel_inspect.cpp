@@ -132,7 +132,7 @@ std::string stage_time_text(const session::LiveFrame& live, sim::Stage stage) {
   const StagePhase phase = phase_of(stage, live.phases);
   if (!(phase.seconds > 0)) return "";
   if (stage != phase.first) return "as above";
-  return fixed_text(100 * phase.seconds / live.phases_total(), 0) + " %, " + phase.name;
+  return fixed_text(100 * phase.seconds / live.phases.total(), 0) + " %, " + phase.name;
 }
 
 /// A row: the switch that skips the stage, its name, its time.

@@ -83,7 +83,7 @@ void draw_phases(const session::LiveFrame& live) {
                                                    {"grid to particles", p.grid_to_particles},
                                                    {"dust", p.dust},
                                                    {"checks", p.checks}};
-  const double all = live.phases_total();
+  const double all = p.total();
   if (!(all > 0) || live.steps == 0) return;
   ImGui::TextUnformatted("where the time of a step goes");
   for (const auto& [name, seconds] : phases) {

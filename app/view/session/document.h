@@ -30,7 +30,7 @@ struct ChangedValue {
   std::string in_file;  ///< TOML; empty: the file has none, and a default counts
 };
 
-/// Where the text of a document is beside the document.
+/// Where else the text of a document is kept.
 enum class Source {
   own_file,      ///< in a file of the user
   shipped_file,  ///< in one that came with the program, which nobody named
@@ -55,7 +55,8 @@ class Document {
   const std::string& text() const { return text_; }
   const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
   double coarsening() const { return coarsening_; }
-  /// Of its cells, for captions and records: that of a run or a picture that was opened included.
+  /// How coarse its cells are, for captions and records, with what a run or a picture that was
+  /// opened had already.
   double whole_coarsening() const { return coarsened_ * coarsening_; }
   /// What --coarsen sets in the scene beside lengths and times, as --set would.
   const std::vector<std::string>& set_by_coarsening() const { return set_by_coarsening_; }

@@ -111,12 +111,8 @@ struct LiveFrame {
 
   std::uint64_t state_hash = 0;  ///< at the end of a frame
   sim::PhaseSeconds phases;      ///< of the steps since the start
-  double phases_total() const {  ///< s
-    return phases.partition + phases.particles_to_grid + phases.grid_update + phases.solve +
-           phases.grid_to_particles + phases.dust + phases.checks;
-  }
-  double speed = 0;          ///< simulated over wall seconds while it ran last
-  std::uint64_t memory = 0;  ///< bytes of the simulation
+  double speed = 0;              ///< simulated over wall seconds while it ran last
+  std::uint64_t memory = 0;      ///< bytes of the simulation
   int threads = 1;
   std::string simd;
 
