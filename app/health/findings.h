@@ -111,7 +111,7 @@ void check_rounding(const scene::Scene& scene, std::vector<Finding>& findings,
 /// Fixed steps against the limits, the transfer, speed against sound.
 void check_steps(const scene::Scene& scene, const Check& check, std::vector<Finding>& findings);
 
-/// Of a run with fixed steps in which sound crossed more cells than any step may: "" of others.
+/// Says that sound crossed more cells in a fixed step than any step may; "" where it did not.
 std::string unstable_steps(const sim::SolverSettings& settings, const sim::Warnings& warnings);
 
 /// Snow that cameras named by the scene do not see. @param scene resolved

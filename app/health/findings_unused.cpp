@@ -165,7 +165,7 @@ bool never_yields(const sim::Material& m) {
   return !sim::laws::of(m).is_plastic && !m.yields;
 }
 
-/// Of a setting of the transfer whose number, or the snow itself, leaves it nothing to do.
+/// A setting of the transfer is idle where its number, or the snow itself, leaves it nothing to do.
 std::optional<Idle> idle_in_transfer(const scene::Scene& scene, const std::string& key) {
   const sim::SolverSettings& s = scene.solver;
   const auto is_ratio = [&](double at) {
@@ -229,7 +229,8 @@ std::optional<Idle> idle_in_solver(const scene::Scene& scene, const std::string&
   return idle_in_transfer(scene, key);
 }
 
-/// Of a parameter of another law than the material's, or that another of its numbers switches off.
+/// A parameter is idle that another law than the material's has, or that another number switches
+/// off.
 std::optional<Idle> idle_in_material(const scene::Scene& scene, const sim::Material& m,
                                      const std::string& key) {
   const auto has = [&](std::span<const sim::laws::Parameter> list) {

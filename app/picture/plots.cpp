@@ -49,8 +49,8 @@ render::Plot dt_plot(const scene::PlotRanges& ranges, std::span<const PlotSample
   return plot;
 }
 
-/// Of all angles of a rotation those that are nearest to the ones before, so that a thing that
-/// turns on and on has no jump.
+/// A rotation has many angles: these are nearest to the ones before, so that a thing that turns on
+/// and on has no jump.
 sim::Vec3d degrees_next_to(const sim::Vec3d& before, const sim::Mat3d& rotation) {
   const sim::Vec3d degrees = sim::degrees_from_rotation(rotation);
   const auto near = [&](sim::Vec3d angles) {

@@ -19,7 +19,7 @@ constexpr double loosest = 2;
 
 using sim::Vec3d;
 
-/// What snow may rest on.
+/// A collider that snow may rest on.
 class Solid {
  public:
   /// @param reach  m, from where it matters

@@ -34,7 +34,7 @@ bool needs_framing(const scene::Scene& scene);
 /// Places those cameras for the snow of coarse runs, in order of time.
 void resolve_cameras(scene::Scene& scene, const std::vector<CoarseMoment>& moments,
                      Shown shown = Shown::fall);
-/// Where there are any: for the snow of a coarse run of the scene.
+/// Places them for the snow of a coarse run of the scene, which is made only where there are any.
 void resolve_cameras(scene::Scene& scene);
 
 void resolve_ranges(scene::Scene& scene, std::size_t particle_count);

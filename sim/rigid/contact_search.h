@@ -9,7 +9,8 @@
 
 namespace neve::sim::rigid {
 
-/// Bodies with edges touch in the corners of what two faces share, round ones in one point.
+/// Bodies with edges touch in the corners of what two faces share, round ones in one point unless
+/// they stand on an end.
 class ContactSearch final : public btDefaultCollisionConfiguration {
  public:
   ContactSearch();
