@@ -410,7 +410,7 @@ void check_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
                     std::vector<Finding>& findings) {
   check_body_overlaps(scene, seeded, findings);
   check_collider_overlaps(scene, seeded, findings);
-  check_point_masses(scene, seeded, findings);
+  check_points(scene, seeded, findings);
 }
 
 /// m/s, that a body may have at the end of the scene: what it would hit later counts for nothing.

@@ -246,8 +246,16 @@ std::optional<Idle> idle_in_material(const scene::Scene& scene, const sim::Mater
   if (key == "variation.thresholds" && never_yields(m))
     return Idle{fmt::format("material {} has model = \"{}\", which never yields", m.name, law.name),
                 fmt::format("material.{}.variation.youngs_modulus varies its stiffness", m.name)};
-  if (key == "max_hardening" && law.hardens &&
-      stays(scene, "material." + m.name + ".hardening", m.hardening, 0))
+  if ((key == "min_J_P" || key == "max_J_P") && never_yields(m))
+    return Idle{fmt::format("material {} has model = \"{}\", which never yields", m.name, law.name),
+                "remove it: J_P changes by yielding alone"};
+  if (key == "min_J_P" && law.is_granular)
+    return Idle{fmt::format("grains of material {} are never packed", m.name), "remove it"};
+  if (key == "max_hardening" && !law.hardens)
+    return Idle{
+        fmt::format("material {} has model = \"{}\", whose stiffness stays", m.name, law.name),
+        "remove it"};
+  if (key == "max_hardening" && stays(scene, "material." + m.name + ".hardening", m.hardening, 0))
     return Idle{fmt::format("material {} does not harden: hardening = 0", m.name), "remove it"};
   if (!has(sim::laws::all_parameters()) || has(law.parameters)) return std::nullopt;
   return Idle{

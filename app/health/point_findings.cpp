@@ -1,13 +1,18 @@
 #include "app/health/point_findings.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
+#include <string>
 
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
 #include "app/support/text.h"
+#include "sim/laws/law.h"
 
 namespace neve::app::health {
 
@@ -62,31 +67,66 @@ double density_where_they_lie(const sim::ParticleArrays& particles, std::size_t 
   return (weighted - alone) / mass / (h * h * h);
 }
 
+/// What check_range_of_packing() says of a number in the scene, of the points' own.
+void check_packing_of_points(const scene::Scene& scene, const sim::seeding::Body& body,
+                             std::span<const double> J_P, std::vector<Finding>& findings) {
+  const sim::Material& m = scene.materials[setup::material_index(scene, body.material)];
+  if (!sim::laws::of(m).is_plastic) return;
+  const double least = sim::laws::of(m).is_granular ? 1 : m.min_J_P;
+  const auto [low, high] = std::ranges::minmax(J_P);
+  const bool is_loose = high > m.max_J_P;
+  if (!is_loose && !(low < least)) return;
+  const auto outside = std::ranges::count_if(
+      J_P, [&](double value) { return is_loose ? value > m.max_J_P : value < least; });
+  const std::string end = number_text(is_loose ? m.max_J_P : least),
+                    key = fmt::format("material.{}.{}", m.name, is_loose ? "max_J_P" : "min_J_P");
+  findings.push_back(
+      {Severity::warning, "body." + body.name + ".shape.points",
+       fmt::format("{} of {} points have a J_P {} {}, as {} as {}: {} makes it {} where it first "
+                   "yields, without a load that moved it there",
+                   outside, J_P.size(), is_loose ? "above" : "below", end,
+                   is_loose ? "large" : "small", rough_text(is_loose ? high : low), m.name, end),
+       is_loose || !sim::laws::of(m).is_granular
+           ? fmt::format("{} = {}", key, number_text(is_loose ? high : low))
+           : "grains are never packed: give them a J_P of 1"});
+}
+
+/// Points that weigh where they lie something else than their material says: masses, volumes and
+/// positions are not of the same units.
+void check_density_of_points(const scene::Scene& scene, const sim::seeding::Body& body,
+                             const sim::ParticleArrays& particles, std::size_t begin,
+                             std::size_t end, std::vector<Finding>& findings) {
+  if (end - begin < fewest_points) return;
+  // Large enough for some points: what one of them weighs itself is left out.
+  const double h = scene.solver.cell_size;
+  const double edge = h * std::max(1.0, std::cbrt(8 / particles_in_cell(body, h)));
+  const double found = density_where_they_lie(particles, begin, end, edge);
+  const double wanted = scene.materials[setup::material_index(scene, body.material)].density;
+  // Thin bodies fill a part of their cells; a tenth is a mistake of units.
+  if (found < 2.5 * wanted && found > 0.1 * wanted) return;
+  const std::string points = "the points of " + display_name("body", body.name);
+  const std::string of_material =
+      " kg/m3; material " + body.material + " has " + rough_text(wanted);
+  findings.push_back(
+      {Severity::warning, "body." + body.name + ".shape.points",
+       found < wanted
+           ? points + " are too far apart: their density is " + rough_text(found) + of_material
+           : points + " have a density of " + rough_text(found) + of_material,
+       "positions are in m, masses in kg, volumes in m3; spacing is the distance between "
+       "neighbours in m"});
+}
+
 }  // namespace
 
-void check_point_masses(const scene::Scene& scene, const setup::SeededScene& seeded,
-                        std::vector<Finding>& findings) {
+void check_points(const scene::Scene& scene, const setup::SeededScene& seeded,
+                  std::vector<Finding>& findings) {
   for (std::size_t k = 0; k < seeded.body_end.size(); ++k) {
     const sim::seeding::Body& body = scene.bodies[k];
     const std::size_t begin = seeded.body_begin(k), end = seeded.body_end[k];
-    if (!is_from_points(body) || end - begin < fewest_points) continue;
-    // Large enough for some points: what one of them weighs itself is left out.
-    const double h = scene.solver.cell_size;
-    const double edge = h * std::max(1.0, std::cbrt(8 / particles_in_cell(body, h)));
-    const double found = density_where_they_lie(seeded.particles, begin, end, edge);
-    const double wanted = scene.materials[setup::material_index(scene, body.material)].density;
-    // Thin bodies fill a part of their cells; a tenth is a mistake of units.
-    if (found < 2.5 * wanted && found > 0.1 * wanted) continue;
-    const std::string points = "the points of " + display_name("body", body.name);
-    const std::string of_material =
-        " kg/m3; material " + body.material + " has " + rough_text(wanted);
-    findings.push_back(
-        {Severity::warning, "body." + body.name + ".shape.points",
-         found < wanted
-             ? points + " are too far apart: their density is " + rough_text(found) + of_material
-             : points + " have a density of " + rough_text(found) + of_material,
-         "positions are in m, masses in kg, volumes in m3; spacing is the distance between "
-         "neighbours in m"});
+    if (!is_from_points(body) || begin == end) continue;
+    check_density_of_points(scene, body, seeded.particles, begin, end, findings);
+    if (const std::span<const double> J_P = seeded.particles.J_P; !J_P.empty())
+      check_packing_of_points(scene, body, J_P.subspan(begin, end - begin), findings);
   }
 }
 

@@ -19,9 +19,9 @@ double particles_in_cell(const sim::seeding::Body& body, double cell_size);
 void check_point_distance(const sim::seeding::Body& body, double cell_size, double coarsening,
                           std::vector<Finding>& findings);
 
-/// Points that weigh where they lie something else than their material says: masses, volumes and
-/// positions are not of the same units.
-void check_point_masses(const scene::Scene& scene, const setup::SeededScene& seeded,
-                        std::vector<Finding>& findings);
+/// What the points of all bodies are beside their materials: their density, and how packed they
+/// are.
+void check_points(const scene::Scene& scene, const setup::SeededScene& seeded,
+                  std::vector<Finding>& findings);
 
 }  // namespace neve::app::health

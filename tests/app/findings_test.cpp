@@ -138,6 +138,13 @@ TEST(Findings, SettingsThatOtherNumbersSwitchOffAreFound) {
   EXPECT_EQ(idle("", sand + varied) + idle("", varied), "") << "strength of its surface";
   EXPECT_EQ(idle("", "hardening = 0\nmax_hardening = 20\n"), "material.m.max_hardening ");
   EXPECT_EQ(idle("", "hardening = 1\nmax_hardening = 20\n"), "");
+  for (const char* stays : {"sand", "cam_clay"})
+    EXPECT_EQ(idle("", fmt::format("model = \"{}\"\nmax_hardening = 20\n", stays)),
+              "material.m.max_hardening ");
+  EXPECT_EQ(idle("", elastic + "min_J_P = 0.2\nmax_J_P = 3\n"),
+            "material.m.min_J_P material.m.max_J_P ");
+  EXPECT_EQ(idle("", sand + "min_J_P = 0.2\nmax_J_P = 3\n"), "material.m.min_J_P ");
+  EXPECT_EQ(idle("", "min_J_P = 0.2\nmax_J_P = 3\n"), "");
   const std::string curve =
       "[[curve]]\nname = \"c\"\nkeyframes = [{ time = 0, value = 0 }, { time = 0.1, value = 0.5 "
       "}]\n"

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
+#include <string>
 
 #include "tests/cli/run_neve.h"
 
@@ -161,6 +162,20 @@ TEST_F(PointFiles, PointFilesAreExaminedByTheirDistanceAndMass) {
   folder.write("scene.toml", block_scene);
   EXPECT_TRUE(contains(warnings(), "shape.points: the points of block are too far apart"))
       << warnings();
+}
+
+/// Points outside of the range of their material came to its end in their first step that yields.
+TEST_F(PointFiles, PackingOfPointsOutsideTheRangeOfTheirMaterialIsSaid) {
+  std::istringstream block(block_csv(3.2e-3));
+  std::string packed, line;
+  for (int k = 0; std::getline(block, line); ++k)
+    packed += line + (k == 0 ? ",J_P\n" : k % 10 == 0 ? ",5\n" : ",2\n");
+  folder.write("points/block.csv", packed);
+  EXPECT_EQ(warnings(), "");
+  folder.write("scene.toml", block_scene + std::string("[material.snow]\nmax_J_P = 4\n"));
+  const std::string told = warnings();
+  EXPECT_TRUE(contains(told, "100 of 1000 points have a J_P above 4, as large as 5: snow makes it 4"))
+      << told;
 }
 
 constexpr const char* moving_scene = R"(
