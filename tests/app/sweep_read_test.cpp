@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "app/cli/commands.h"
@@ -148,6 +149,18 @@ TEST_F(SweepFileTest, LatinHypercubesMeetEveryPartOfEveryAxisOnce) {
   EXPECT_EQ(first.size(), 20u);
   EXPECT_EQ(second.size(), 20u);
   EXPECT_EQ(flips, 10);
+}
+
+/// With four samples of three entries, places at random left one of them out for every ninth seed.
+TEST_F(SweepFileTest, LatinHypercubesMeetEveryEntryOfAListEquallyOften) {
+  for (int seed = 1; seed <= 20; ++seed) {
+    std::map<std::string, int> counts;
+    for (const app::sweep::Run& run :
+         runs(head + "method = \"lhs\"\nsamples = 4\nseed = " + std::to_string(seed) +
+              "\n[axis]\n\"solver.transfer\" = [\"flip\", \"apic\", \"mls\"]\n"))
+      ++counts[run.settings[0].value];
+    EXPECT_EQ(counts.size(), 3u) << "seed " << seed;
+  }
 }
 
 TEST_F(SweepFileTest, DrawnValuesDependOnTheSeedAlone) {

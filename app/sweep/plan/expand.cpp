@@ -111,11 +111,15 @@ std::vector<Run> latin_hypercube(const read::Sweep& sweep) {
   for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
     const std::uint64_t seed = mix64(sweep.settings.seed, a);
     const std::vector<std::size_t> stratum = shuffled(count, seed);
-    for (std::size_t k = 0; k < count; ++k)
-      append_at(runs[k], sweep.axes[a],
-                (static_cast<double>(stratum[k]) + unit_double(mix64(seed + 1, k))) /
-                    static_cast<double>(count),
-                sample_at);
+    const read::Axis& axis = sweep.axes[a];
+    // A list that is no longer than the samples gives each entry as often as the others, or once
+    // more: with places at random within their parts an entry could be left out.
+    const bool is_short_list = !axis.parameters.front().drawn && axis.size() <= count;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double within = is_short_list ? 0.5 : unit_double(mix64(seed + 1, k));
+      append_at(runs[k], axis,
+                (static_cast<double>(stratum[k]) + within) / static_cast<double>(count), sample_at);
+    }
   }
   return runs;
 }
