@@ -12,7 +12,7 @@ const KindInfo& info_of(Kind kind) {
        "%", 100, "stress", "Pa", 1},
       {"tear", "Tear", "pulled apart by plates that hold it", "strain", "stress", "longer by", "%",
        100, "stress", "Pa", 1},
-      {"shear", "Shear", "plates moved sideways under 500 Pa", "strain", "stress",
+      {"shear", "Shear", "plates moved sideways, 500 Pa at most", "strain", "stress",
        "sideways over height", "%", 100, "shear stress", "Pa", 1},
       {"drop", "Drop", "a ball of 30 cm hits the floor at 4 m/s", "time", "spread", "time", "s", 1,
        "radius around 90 %", "cm", 100},

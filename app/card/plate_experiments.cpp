@@ -19,7 +19,7 @@ struct Slope {
 
   void add(double e, double s) { strain.push_back(e), stress.push_back(s); }
   /// Stress per strain over the strains up to the largest, by least squares through the origin; no
-  /// number of snow that was not strained so far.
+  /// number of snow that was not strained so far, or not watched below.
   double value(double largest) const {
     if (strain.empty() || !(*std::ranges::max_element(strain) >= largest)) return NAN;
     double product = 0, square = 0;
@@ -28,7 +28,7 @@ struct Slope {
         product += strain[k] * stress[k];
         square += strain[k] * strain[k];
       }
-    return square > 0 ? product / square : 0;
+    return square > 0 ? product / square : NAN;
   }
 };
 
@@ -38,9 +38,14 @@ constexpr double linear = 0.006;
 constexpr double no_elasticity = 1e-3;
 constexpr double yields_below = 0.97;  // of the stress that it would have without
 
-/// Strains whose slope is the modulus.
+bool is_elastic_at_first(const std::optional<double>& yield) {
+  return !yield || *yield > no_elasticity;
+}
+
+/// Strains whose slope is the modulus. What yields at once has a slope, too, over the strains of
+/// all others; no formula has it.
 double linear_up_to(const std::optional<double>& yield) {
-  return std::min(linear, yield ? 0.6 * *yield : linear);
+  return yield && is_elastic_at_first(yield) ? std::min(linear, 0.6 * *yield) : linear;
 }
 
 std::string percent_text(double share) {
@@ -68,14 +73,31 @@ double free_height(const sim::SolverSettings& solver) {
   return Plates::height + (solver.is_contact_at_particles() ? -0.55 : 1.74) * Plates::cell;
 }
 
-/// The strain, 0.05 at most, at which the plates bear so much where the law does not yield.
-double strain_under(const sim::Material& material, double pressure) {
-  double low = 0, high = 0.05;
+/// By which a block is pressed at most before it is sheared.
+constexpr double most_pressed = 0.05;
+
+/// The strain at which the plates bear so much; most_pressed where they bear less there. Of what
+/// yields before, no formula tells it, but a block that is pressed.
+double strain_under(const Subject& subject, double pressure, Experiment& e) {
+  const sim::Material& m = subject.material;
+  double low = 0, high = most_pressed;
   for (int k = 0; k < 40; ++k) {
     const double middle = 0.5 * (low + high);
-    (-elastic_stress(material, stretched(-middle))(1, 1) < pressure ? low : high) = middle;
+    (-elastic_stress(m, stretched(-middle))(1, 1) < pressure ? low : high) = middle;
   }
-  return high;
+  if (!first_yield(
+          m, [](double strain) { return stretched(-strain); }, high))
+    return high;
+  const double way = most_pressed * free_height(subject.solver);
+  Plates plates(subject, {{slow_seconds(m), {0, -way, 0}}}, e);
+  std::vector<double> stress, strain;
+  PlateSample sample;
+  while (plates.next(sample) && (stress.empty() || stress.back() <= pressure)) {
+    stress.push_back(-sample.stress.y());
+    strain.push_back(-sample.moved.y() / free_height(subject.solver));
+  }
+  const double found = interpolated(stress, strain, pressure);
+  return std::isfinite(found) ? found : most_pressed;
 }
 
 }  // namespace
@@ -105,12 +127,10 @@ Experiment press(const Subject& subject) {
   }
   plates.show();
   const sim::Lame lame = sim::lame(m.youngs_modulus, m.poisson_ratio);
-  // What yields at once has another slope.
-  const bool is_elastic_at_first = !yield || *yield > no_elasticity;
   e.measures.push_back(
       {"modulus", slope.value(linear_up_to(yield)),
-       is_elastic_at_first ? std::optional(lame.lambda + 2 * lame.mu) : std::nullopt});
-  if (yield && is_elastic_at_first && yields_at > 0)
+       is_elastic_at_first(yield) ? std::optional(lame.lambda + 2 * lame.mu) : std::nullopt});
+  if (yield && is_elastic_at_first(yield) && yields_at > 0)
     e.measures.push_back({"yield_strain", yields_at, yield});
   for (const auto& [name, at] :
        {std::pair{"stress_at_10_percent", 0.1}, {"stress_at_20_percent", 0.2}})
@@ -177,10 +197,10 @@ Experiment shear(const Subject& subject) {
   constexpr int last_samples = Plates::samples / 16;
   const sim::Material& m = subject.material;
   const sim::Lame lame = sim::lame(m.youngs_modulus, m.poisson_ratio);
-  const double pressed = strain_under(m, normal_stress);
   const double slow = slow_seconds(m);
   Experiment e;
   e.kind = Kind::shear;
+  const double pressed = strain_under(subject, normal_stress, e);
   Plates plates(subject,
                 {{0.25 * slow, {0, -pressed * free_height(subject.solver), 0}},
                  {slow, {furthest * Plates::height, 0, 0}}},
@@ -193,6 +213,7 @@ Experiment shear(const Subject& subject) {
   const std::optional<double> yield = first_yield(m, sheared, furthest);
   Slope slope;
   double strength = 0, shear_sum = 0, normal_sum = 0, pressure = 0;
+  int at_last = 0;
   PlateSample sample;
   for (int k = 1; plates.next(sample); ++k) {
     // The plate comes to rest at last, and waves run: a mean.
@@ -207,18 +228,23 @@ Experiment shear(const Subject& subject) {
     if (k <= 2 * Plates::samples * 7 / 8) continue;
     shear_sum += stress;
     normal_sum -= sample.stress.y();
+    ++at_last;
   }
   plates.show();
   // What never yields bears more the further it is sheared: the stress at the end is no strength,
   // and no friction.
   const bool is_known = yield && e.failure.empty(), is_pressed = !e.x.empty();
   e.measures = {{"strength", is_known ? strength : NAN}, {"pressure", is_pressed ? pressure : NAN}};
-  if (!yield || *yield > no_elasticity)
+  if (is_elastic_at_first(yield))
     e.measures.push_back({"modulus", slope.value(linear_up_to(yield)), lame.mu});
-  if (!is_known || (shear_sum > 0 && normal_sum > 0))
+  // Snow that hardly presses any more has no friction: what it bears is cohesion.
+  constexpr double hardly = 0.1;
+  if (!is_known || (shear_sum > 0 && normal_sum > hardly * pressure * at_last))
     e.measures.push_back({"friction", is_known ? shear_sum / normal_sum : NAN});
   if (is_known || strength > 0)
     e.words.push_back((is_known ? "bears " : "bears at least ") + pressure_text(strength));
+  if (is_pressed && pressed >= most_pressed)
+    e.words.push_back("under " + pressure_text(pressure) + ", pressed by 5 %");
   if (std::isfinite(e.value("modulus").value_or(NAN)))
     e.words.push_back(modulus_words(e.measures[2]));
   if (const double friction = e.value("friction").value_or(NAN); std::isfinite(friction))

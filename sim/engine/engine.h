@@ -52,7 +52,7 @@ class Engine final : public Stepper {
   std::vector<shapes::Collider> colliders() const override { return colliders_now(state_); }
   Summary summary() const override;
   EnergyAccount energy_account() const override {
-    return engine::energy_account(state_.method.settings, state_.progress.energy, summary());
+    return engine::energy_account(state_.method.settings, state_.progress, summary());
   }
   ParticleArrays particles() const override { return StateReader<Real>(state_).particles(); }
   DustArrays dust() const override { return has_dust() ? dust_.arrays() : DustArrays{}; }

@@ -214,7 +214,7 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
       has_new_stress || before.gravity != settings.gravity || before.bypass != settings.bypass;
   const Summary found = has_new_accounts ? StateReader<Real>(state).summary() : Summary{};
   const EnergyAccount account =
-      has_new_accounts ? energy_account(before, progress.energy, found) : EnergyAccount{};
+      has_new_accounts ? energy_account(before, progress, found) : EnergyAccount{};
   const double longest_before = longest_step(before, progress.limits);
   const double met_before = state.fastest_near(0, state.particles.size());
 

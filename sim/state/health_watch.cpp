@@ -98,8 +98,9 @@ std::vector<StepRecord> HealthWatch::last_steps(std::uint64_t step) const {
   return records;
 }
 
-EnergyAccount energy_account(const SolverSettings& settings, const EnergyBudget& budget,
+EnergyAccount energy_account(const SolverSettings& settings, const Progress& progress,
                              const Summary& now) {
+  const EnergyBudget& budget = progress.energy;
   const double gravity_work =
       settings.gravity.dot(now.mass * now.centre_of_mass - moment_of(budget));
   EnergyAccount account;
@@ -107,9 +108,13 @@ EnergyAccount energy_account(const SolverSettings& settings, const EnergyBudget&
   account.explained = budget.start + gravity_work + budget.contact_work;
   if (settings.has_affine_and_own_velocity())
     account.traded = health::traded_share * now.affine_energy;
-  // A cell's fall: what rounding and the first contact may do to snow that starts at rest.
-  const double floor = now.mass * settings.gravity.norm() * settings.cell_size;
-  account.scale = std::max({budget.largest, account.explained, floor}) + 1e-11 * now.mass;
+  // What rounding and the first contact may do to snow that starts at rest: a cell's fall; without
+  // gravity, snow that is strained so little that single precision knows it to a tenth.
+  constexpr double strain = 1e-5;
+  const double fall = settings.gravity.norm() * settings.cell_size,
+               moved = strain * progress.limits.max_sound_speed;
+  account.scale =
+      std::max({budget.largest, account.explained, now.mass * std::max(fall, 0.5 * moved * moved)});
   return account;
 }
 
@@ -119,7 +124,7 @@ std::optional<BrokenRule> HealthWatch::check_sums(const SolverSettings& settings
     const double holds = stable_dt(settings, progress.limits);
     return BrokenRule{rule, stage, progress.last_dt, holds, value, limit};
   };
-  const EnergyAccount account = energy_account(settings, progress.energy, now);
+  const EnergyAccount account = energy_account(settings, progress, now);
   progress.energy.largest = std::max(progress.energy.largest, account.explained);
   const double allowed = account.explained + account.traded +
                          (health::limits_of(Law::energy).stop - 1) * account.scale;

@@ -74,7 +74,7 @@ class HealthWatch {
 };
 
 /// Energy that the run has, and that gravity and colliders explain.
-EnergyAccount energy_account(const SolverSettings& settings, const EnergyBudget& budget,
+EnergyAccount energy_account(const SolverSettings& settings, const Progress& progress,
                              const Summary& now);
 
 /// kg m, see EnergyBudget.

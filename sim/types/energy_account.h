@@ -8,7 +8,7 @@ namespace neve::sim {
 struct EnergyAccount {
   double found = 0;      ///< J, kinetic and elastic, now
   double explained = 0;  ///< J, at the start plus the work of gravity and of moving colliders
-  double scale = 0;      ///< J, the most that was explained so far, and at least a cell's fall
+  double scale = 0;      ///< J, the most that was explained so far; at least what rounding may do
   /// J, that may come when the affine velocities of particles and their own ones trade momentum;
   /// see health::traded_share.
   double traded = 0;

@@ -47,6 +47,16 @@ TEST(CardPress, ThePressHasTheModulusOfConfinedCompression) {
   }
 }
 
+/// Its slope is below that of the same sand without yielding, and no formula is beside it.
+TEST(CardPress, WhatYieldsAtOnceHasASlopeToo) {
+  Material sand = dry_sand(15);
+  const Experiment pressed = press(subject_of(sand));
+  const Lame l = lame_of(sand);
+  EXPECT_GT(value(pressed, "modulus"), 0.7 * (l.lambda + 2 * l.mu));
+  EXPECT_LT(value(pressed, "modulus"), l.lambda + 2 * l.mu);
+  EXPECT_FALSE(pressed.measures.front().formula);
+}
+
 /// Known when the stress has fallen behind that of the law without yielding by 3 %: after theta_c,
 /// by what it takes to fall so far, and by a sample of the plate, each at most 0.07 of it.
 TEST(CardPress, SnowYieldsAtItsCriticalCompression) {
@@ -140,6 +150,33 @@ TEST(CardShear, TheBlockIsPressedByFiveHundredPascal) {
   EXPECT_NEAR(value(shear(subject), "pressure") / 500, 1, 0.05);
   for (const Material& law : {preset_snow(Preset::powder), preset_snow(Preset::icy), dry_sand(30)})
     EXPECT_NEAR(value(shear(subject_of(law)), "pressure") / 500, 1, 0.03);
+}
+
+/// The law without yielding bears 500 Pa at a smaller strain than this does.
+TEST(CardShear, SnowThatYieldsBeforeIsPressedOn) {
+  Material clay = preset_snow(Preset::paper, neve::sim::laws::model::cam_clay);
+  clay.consolidation_pressure = 200;
+  EXPECT_NEAR(value(shear(subject_of(clay)), "pressure") / 500, 1, 0.05);
+}
+
+/// What bears less at 5 % says so, and has no friction once it does not press any more.
+TEST(CardShear, SnowTooWeakForThePressureSaysUnderWhich) {
+  Material weak = preset_snow(Preset::paper);
+  weak.critical_compression = weak.critical_stretch = 5e-4;
+  const Experiment sheared = shear(subject_of(weak));
+  const double pressure = value(sheared, "pressure");
+  EXPECT_GT(pressure, 100) << "more than where its law begins to yield";
+  EXPECT_LT(pressure, 450);
+  ASSERT_GE(sheared.words.size(), 2u);
+  EXPECT_EQ(sheared.words[1], "under " + pressure_text(pressure) + ", pressed by 5 %");
+  EXPECT_LT(sheared.value("friction").value_or(0), 10);
+}
+
+/// Its first steps are strains of 1e-6, which single precision knows to a tenth.
+TEST(CardShear, StiffSandIsSheared) {
+  Material sand = dry_sand(30);
+  sand.youngs_modulus = 2e6;
+  EXPECT_NEAR(value(shear(subject_of(sand)), "friction") / critical_slope(30), 1, 0.05);
 }
 
 }  // namespace
