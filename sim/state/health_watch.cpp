@@ -108,9 +108,10 @@ EnergyAccount energy_account(const SolverSettings& settings, const Progress& pro
   account.explained = budget.start + gravity_work + budget.contact_work;
   if (settings.has_affine_and_own_velocity())
     account.traded = health::traded_share * now.affine_energy;
-  // What rounding and the first contact may do to snow that starts at rest: a cell's fall; without
-  // gravity, snow that is strained so little that single precision knows it to a tenth.
-  constexpr double strain = 1e-5;
+  // What rounding and the first contact, whose work is known a step late, may do to snow that
+  // starts at rest: a cell's fall; without gravity, a strain that single precision knows to a
+  // thousandth.
+  constexpr double strain = 1e-4;
   const double fall = settings.gravity.norm() * settings.cell_size,
                moved = strain * progress.limits.max_sound_speed;
   account.scale =

@@ -152,11 +152,13 @@ TEST(CardShear, TheBlockIsPressedByFiveHundredPascal) {
     EXPECT_NEAR(value(shear(subject_of(law)), "pressure") / 500, 1, 0.03);
 }
 
-/// The law without yielding bears 500 Pa at a smaller strain than this does.
+/// The law without yielding bears 500 Pa at a smaller strain than these do. Waves of the plate
+/// leave their mark in sand that yields at once: a tenth of so small a pressure.
 TEST(CardShear, SnowThatYieldsBeforeIsPressedOn) {
   Material clay = preset_snow(Preset::paper, neve::sim::laws::model::cam_clay);
   clay.consolidation_pressure = 200;
-  EXPECT_NEAR(value(shear(subject_of(clay)), "pressure") / 500, 1, 0.05);
+  for (const Material& law : {clay, dry_sand(15)})
+    EXPECT_NEAR(value(shear(subject_of(law)), "pressure") / 500, 1, 0.12) << law.friction_angle;
 }
 
 /// What bears less at 5 % says so, and has no friction once it does not press any more.
