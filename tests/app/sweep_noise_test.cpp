@@ -314,17 +314,17 @@ TEST(Noise, ALoneRunAtFullResolutionIsOneDraw) {
 
 TEST(Noise, WhatATileSaysOfNoiseIsBelowItsPicture) {
   sheet::Seals seals;
-  EXPECT_EQ(sheet::rows_of(seals), 0);
+  EXPECT_EQ(sheet::rows_of(seals, 40), 0);
   seals.of_points.resize(3);
   seals.of_points[1].outcome = "breaks";
-  EXPECT_EQ(sheet::rows_of(seals), 1);
+  EXPECT_EQ(sheet::rows_of(seals, 40), 1);
   seals.of_points[2] = {"breaks", false, false, {"0.2 m"}, {}, {"0.3 m"}};
-  EXPECT_EQ(sheet::rows_of(seals), 3);
+  EXPECT_EQ(sheet::rows_of(seals, 40), 3);
 
   const Study study = study_of_seeds();
   const Manifest& manifest = study.manifest;
   const sheet::SheetLayout plain = sheet::layout_sheet(manifest, false, 8192),
-                           sealed = sheet::layout_sheet(manifest, false, 8192, {{}, 3});
+                           sealed = sheet::layout_sheet(manifest, false, 8192, {seals, ""});
   EXPECT_EQ(plain.seal_height, 0);
   EXPECT_EQ(sealed.seal_height, sheet::rows_height(3, sealed.font_size));
   EXPECT_EQ(sealed.tile_height, plain.tile_height) << "pictures are as large";
@@ -334,6 +334,37 @@ TEST(Noise, WhatATileSaysOfNoiseIsBelowItsPicture) {
       EXPECT_GT(b.y, a.y + sealed.tile_height + sealed.seal_height);
     }
   EXPECT_GT(sealed.height, sealed.tiles.back().y + sealed.tile_height + sealed.seal_height);
+}
+
+/// The verdict stands last, and would be what is cut off.
+TEST(Noise, WordsOfSmallTilesWrap) {
+  sheet::SheetWords words;
+  words.seals.of_points.resize(3);
+  words.seals.of_points[1].outcome =
+      "expected at full resolution: undecided; coarse: breaks in 1 of 4";
+  words.heading =
+      "frame 4   t = 0.167 s   -   3 points of 4 seeds, 12 runs   -   coarsened 2x, "
+      "thresholds for cells of 0.02 m   -   1 of 3 tiles at full resolution";
+  Study study = study_of_seeds();
+  study.manifest.tile_width = 160;
+  study.manifest.tile_height = 100;
+  const sheet::SheetLayout plain = sheet::layout_sheet(study.manifest, false, 8192),
+                           layout = sheet::layout_sheet(study.manifest, false, 8192, words);
+  const std::size_t letters = sheet::letters_in(layout.tile_width, layout.font_size);
+  EXPECT_EQ(sheet::rows_of(words.seals, letters), 4);
+  EXPECT_EQ(layout.seal_height, sheet::rows_height(4, layout.font_size));
+  render::Frame frame;
+  sheet::draw_seal(
+      words.seals.of_points[1], words.seals,
+      {0, 100, 160, static_cast<float>(layout.seal_height), static_cast<float>(layout.font_size)},
+      frame);
+  std::string all;
+  for (const render::Note& note : frame.notes) {
+    EXPECT_LE(note.text.size(), letters) << note.text;
+    all += (all.empty() ? "" : " ") + note.text;
+  }
+  EXPECT_EQ(all, words.seals.of_points[1].outcome);
+  EXPECT_GT(layout.tiles.front().y, plain.tiles.front().y) << "a second line of the heading";
 }
 
 TEST(Noise, TheLinesOfWhiskersAreEquallyLongOnAllTiles) {

@@ -250,22 +250,21 @@ void draw_whisker(const Whisker& shown, const WhiskerPlace& place,
 
 }  // namespace
 
-int rows_of(const Seals& seals) {
+int rows_of(const Seals& seals, std::size_t letters) {
   int rows = 0;
   for (const Seal& seal : seals.of_points)
-    rows = std::max(
-        rows, !seal.outcome.empty() + !seal.whisker.value.empty() + !seal.coarse.value.empty());
+    rows = std::max(rows, static_cast<int>(broken_lines(seal.outcome, letters).size()) +
+                              !seal.whisker.value.empty() + !seal.coarse.value.empty());
   return rows;
 }
 
 void draw_seal(const Seal& seal, const Seals& all, const SealPlace& band, render::Frame& words) {
   const float size = band.font_size, line = 1.3f * size, edge = 0.6f * size;
-  const bool has_value = !seal.whisker.value.empty(), has_outcome = !seal.outcome.empty(),
-             has_coarse = !seal.coarse.value.empty();
+  const bool has_value = !seal.whisker.value.empty(), has_coarse = !seal.coarse.value.empty();
   words.patches.push_back({band.x, band.y, band.width, band.height, {8, 10, 16, 190}});
   float y = band.y + 0.25f * size;
-  if (has_outcome) {
-    words.notes.push_back({band.x + edge, y, seal.outcome, render::Note::Anchor::left,
+  for (const std::string& text : broken_lines(seal.outcome, letters_in(band.width, size))) {
+    words.notes.push_back({band.x + edge, y, text, render::Note::Anchor::left,
                            band.width - 2 * edge, false,
                            seal.is_undecided ? seal_caution : seal_ink});
     y += line;

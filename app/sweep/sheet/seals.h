@@ -52,8 +52,8 @@ std::string predicted_outcome(const predict::Prediction& prediction, const store
 /// "breaks in 1 of 4: here"; says whether a run is of those where some break and some hold.
 std::string outcome_at(const store::Point& point, const store::RunResult& run);
 
-/// Rows of words and whiskers that the fullest seal has.
-int rows_of(const Seals& seals);
+/// Rows of words and whiskers that the fullest seal has. @param letters  that fit side by side
+int rows_of(const Seals& seals, std::size_t letters);
 
 /// The place of a seal, px.
 struct SealPlace {

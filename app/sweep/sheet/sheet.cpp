@@ -103,7 +103,8 @@ std::pair<std::string, std::string> split_state(const std::string& text) {
 
 /// "12 runs, 1 failed", "3 points, 12 runs".
 std::string run_count_text(const store::Manifest& manifest,
-                           const std::vector<store::RunResult>& results) {
+                           const std::vector<store::RunResult>& results,
+                           const std::vector<predict::Prediction>& predictions) {
   int ok = 0;
   const std::string others = store::other_ends(results, ok);
   std::string text = std::to_string(results.size()) + (results.size() == 1 ? " run" : " runs");
@@ -113,7 +114,27 @@ std::string run_count_text(const store::Manifest& manifest,
                        text);
   text += others;
   if (!manifest.coarsened.empty()) text += dot + manifest.coarsened;
+  const auto full = std::count_if(predictions.begin(), predictions.end(),
+                                  [](const predict::Prediction& p) { return p.is_run; });
+  if (full > 0)
+    text += dot + fmt::format("{} of {} tiles at full resolution", full, predictions.size());
   return text;
+}
+
+/// "frame 12   t = 0.500 s"; runs of other lengths or rates have their own moments.
+std::string moment_text(const store::Manifest& manifest, int frame) {
+  const bool are_shorter =
+      std::ranges::any_of(manifest.runs, [&](const Run& run) { return run.frames.last < frame; });
+  return "frame " + std::to_string(frame) +
+         (manifest.has_one_rate() ? "   t = " + time_text(manifest.time_of(frame), manifest.fps)
+                                  : "") +
+         (are_shorter ? ", or the last of a shorter run" : "");
+}
+
+int last_frame(const store::Manifest& manifest) {
+  int last = 0;
+  for (const Run& run : manifest.runs) last = std::max(last, run.frames.last);
+  return last;
 }
 
 }  // namespace
@@ -126,21 +147,18 @@ SheetMaker::SheetMaker(std::filesystem::path folder, const store::Manifest& mani
       manifest_(store::first_draws(manifest)),
       results_(store::first_draws(manifest, results)),
       seals_(seals_of(manifest, results, predictions)),
-      counts_(run_count_text(manifest, results)),
+      counts_(run_count_text(manifest, results, predictions)),
       legends_(legends),
       renderer_(renderer),
       head_(manifest_),
       named_(manifest_),
-      pages_(layout_pages(manifest_, !legends.empty(), renderer.max_size(),
-                          {seals_.key, manifest_.tile_label == "none" ? 0 : rows_of(seals_)})) {
+      pages_(
+          layout_pages(manifest_, !legends.empty(), renderer.max_size(),
+                       {seals_, moment_text(manifest_, last_frame(manifest_)) + dot + counts_})) {
   head_.runs.clear();
   show_full_runs(manifest);
   for (const store::RunResult& result : results_)
     if (!result.frames.empty()) newest_ = std::max(newest_, result.frames.back());
-  const auto full = std::count_if(predictions.begin(), predictions.end(),
-                                  [](const predict::Prediction& p) { return p.is_run; });
-  if (full > 0)
-    counts_ += dot + fmt::format("{} of {} tiles at full resolution", full, predictions.size());
   if (named_.tile_label == "none") named_.tile_label = "differences";
 }
 
@@ -289,8 +307,13 @@ render::Frame SheetMaker::frame_of(const SheetLayout& layout, const std::string&
   const float room = static_cast<float>(layout.width) - 2 * size;
   words.notes.push_back(
       {size, 0.7f * size, manifest_.title, render::Note::Anchor::left, room, true, seal_ink});
-  words.notes.push_back(
-      {size, 2.3f * size, line, render::Note::Anchor::left, room, false, seal_grey});
+  std::vector<std::string> lines = broken_lines(line, letters_in(layout.width, size));
+  if (lines.size() == 1) lines = {line};
+  float y = 2.3f * size;
+  for (const std::string& part : lines) {
+    words.notes.push_back({size, y, part, render::Note::Anchor::left, room, false, seal_grey});
+    y += 1.3f * size;
+  }
   return words;
 }
 
@@ -305,20 +328,6 @@ render::Image SheetMaker::compose(const SheetLayout& layout, const std::vector<T
   }
   return renderer_.draw_over(render::compose(layout.width, layout.height, paper, pictures), words);
 }
-
-namespace {
-
-/// "frame 12   t = 0.500 s"; runs of other lengths or rates have their own moments.
-std::string moment_text(const store::Manifest& manifest, int frame) {
-  const bool are_shorter =
-      std::ranges::any_of(manifest.runs, [&](const Run& run) { return run.frames.last < frame; });
-  return "frame " + std::to_string(frame) +
-         (manifest.has_one_rate() ? "   t = " + time_text(manifest.time_of(frame), manifest.fps)
-                                  : "") +
-         (are_shorter ? ", or the last of a shorter run" : "");
-}
-
-}  // namespace
 
 render::Image SheetMaker::sheet(int frame, std::size_t page) {
   const SheetLayout& layout = pages_[page].layout;
@@ -339,8 +348,13 @@ std::vector<render::Image> SheetMaker::strips() {
   const SnowInPictures snow(folder_, manifest_, results_);
   const std::vector<int> frames = snow.moments(max_moments);
   const int largest = renderer_.max_size();
+  const bool is_part = frames.front() > manifest_.first_frame();
+  const std::string heading =
+      (manifest_.seeds == 1 ? "moments of every run" : "moments of every point, first seed") +
+      std::string(is_part ? ", from the first with snow in a picture on" : "") + dot + counts_;
   const auto layout_of = [&](std::size_t first, std::size_t count) {
-    return layout_sheet(strip_grid(frames, first, count), !legends_.empty(), largest);
+    return layout_sheet(strip_grid(frames, first, count), !legends_.empty(), largest,
+                        {{}, heading});
   };
   const std::size_t runs = manifest_.runs.size();
   std::size_t count = runs;
@@ -348,17 +362,14 @@ std::vector<render::Image> SheetMaker::strips() {
   std::vector<render::Image> images;
   for (std::size_t first = 0; first < runs; first += count)
     images.push_back(
-        strips_of(frames, snow, first, layout_of(first, std::min(count, runs - first))));
+        strips_of(frames, snow, first, layout_of(first, std::min(count, runs - first)), heading));
   return images;
 }
 
 render::Image SheetMaker::strips_of(const std::vector<int>& frames, const SnowInPictures& snow,
-                                    std::size_t first, const SheetLayout& layout) {
-  const bool is_part = frames.front() > manifest_.first_frame();
-  render::Frame words = frame_of(
-      layout,
-      (manifest_.seeds == 1 ? "moments of every run" : "moments of every point, first seed") +
-          std::string(is_part ? ", from the first with snow in a picture on" : "") + dot + counts_);
+                                    std::size_t first, const SheetLayout& layout,
+                                    const std::string& heading) {
+  render::Frame words = frame_of(layout, heading);
   std::vector<render::Tile> pictures;
   for (const SheetTile& place : layout.tiles) {
     const std::size_t run = first + place.run / frames.size();

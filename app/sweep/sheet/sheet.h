@@ -60,7 +60,7 @@ class SheetMaker {
   store::Manifest strip_grid(const std::vector<int>& frames, std::size_t first,
                              std::size_t count) const;
   render::Image strips_of(const std::vector<int>& frames, const SnowInPictures& snow,
-                          std::size_t first, const SheetLayout& layout);
+                          std::size_t first, const SheetLayout& layout, const std::string& heading);
   render::Frame frame_of(const SheetLayout& layout, const std::string& line) const;
 
   std::filesystem::path folder_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/support/room.h"
+#include "app/support/text.h"
 
 namespace neve::app::sweep::sheet {
 
@@ -109,18 +110,20 @@ int wrap_count(const store::Manifest& m, std::size_t count, double tile_aspect) 
 
 class Layouter {
  public:
-  Layouter(const store::Manifest& m, bool has_legend, int tile_width, int rows)
-      : m_(m), has_legend_(has_legend) {
+  Layouter(const store::Manifest& m, bool has_legend, int tile_width, const SheetWords& words)
+      : m_(m), words_(words), has_legend_(has_legend) {
     out_.tile_width = tile_width;
     out_.tile_height =
         std::max(1, static_cast<int>(std::lround(1.0 * tile_width * m.tile_height / m.tile_width)));
     out_.font_size = std::clamp(static_cast<int>(std::lround(tile_width / 28.0)), 11, 28);
-    out_.seal_height = rows_height(rows, out_.font_size);
+    if (m.tile_label != "none")
+      out_.seal_height = rows_height(
+          rows_of(words.seals, letters_in(out_.tile_width, out_.font_size)), out_.font_size);
     gap_ = std::max(3, out_.font_size / 4);
     out_.words = word_room();
   }
 
-  SheetLayout make(const std::vector<KeyLine>& key) {
+  SheetLayout make() {
     is_wrapped_ = is_wrapped(m_);
     out_.has_edges = !is_wrapped_;
     out_.label_height = label_height();
@@ -134,15 +137,17 @@ class Layouter {
                           sides_.rows.count(m_) + static_cast<int>(m_.runs.size()) / columns_ + 1);
     }
     left_ = margin() + (is_wrapped_ ? 0 : row_label_width());
-    top_ = static_cast<int>(3.6 * line()) + (is_wrapped_ ? 0 : column_label_height());
-    out_.header = static_cast<int>(3.3 * line());
-    place_tiles();
-    if (!is_wrapped_) add_labels();
     const int legend = has_legend_ ? static_cast<int>(9.5 * out_.font_size) : 0;
     out_.width = column_x(columns_ - 1) + out_.tile_width + margin() + legend;
     // A title needs room too.
     out_.width = std::max(out_.width, 26 * out_.font_size);
-    out_.key = wrapped_key(key, out_.width, out_.font_size);
+    const auto below = broken_lines(words_.heading, letters_in(out_.width, out_.font_size)).size();
+    const double more = below > 1 ? static_cast<double>(below - 1) : 0;
+    top_ = static_cast<int>((3.6 + more) * line()) + (is_wrapped_ ? 0 : column_label_height());
+    out_.header = static_cast<int>((3.3 + more) * line());
+    place_tiles();
+    if (!is_wrapped_) add_labels();
+    out_.key = wrapped_key(words_.seals.key, out_.width, out_.font_size);
     out_.key_height = key_height(out_.key.size(), out_.font_size);
     out_.height = bottom_ + margin() + out_.key_height;
     return out_;
@@ -151,10 +156,9 @@ class Layouter {
  private:
   /// Words are at the upper edge of a tile and leave its lower third free.
   WordRoom word_room() const {
-    constexpr double space = 1.2, share = 0.67;
-    const double letters = (out_.tile_width / (1.0 * out_.font_size) - space) / letter_width,
-                 lines = share * out_.tile_height / (1.25 * out_.font_size);
-    return {static_cast<std::size_t>(std::max(1.0, letters)),
+    constexpr double share = 0.67;
+    const double lines = share * out_.tile_height / (1.25 * out_.font_size);
+    return {letters_in(out_.tile_width, out_.font_size),
             static_cast<std::size_t>(std::max(1.0, lines))};
   }
 
@@ -315,6 +319,7 @@ class Layouter {
   }
 
   const store::Manifest& m_;
+  const SheetWords& words_;
   bool has_legend_;
   Sides sides_;
   bool is_wrapped_ = false;
@@ -324,6 +329,11 @@ class Layouter {
 };
 
 }  // namespace
+
+std::size_t letters_in(double width, double font_size) {
+  constexpr double space = 1.2;
+  return static_cast<std::size_t>(std::max(1.0, (width / font_size - space) / letter_width));
+}
 
 int rows_height(int rows, int font_size) {
   return rows == 0 ? 0 : static_cast<int>(std::lround((1.3 * rows + 0.5) * font_size));
@@ -337,20 +347,20 @@ bool fits(const SheetLayout& layout, int largest) {
 }
 
 SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest,
-                         const NoiseRoom& noise) {
+                         const SheetWords& words) {
   constexpr int smallest_tile = 64;
   int tile = manifest.tile_width;
   while (true) {
-    SheetLayout layout = Layouter(manifest, has_legend, tile, noise.rows).make(noise.key);
+    SheetLayout layout = Layouter(manifest, has_legend, tile, words).make();
     if (fits(layout, largest) || tile <= smallest_tile) return layout;
     tile = std::max(smallest_tile, tile * 9 / 10);
   }
 }
 
 std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest,
-                                    const NoiseRoom& noise) {
+                                    const SheetWords& words) {
   constexpr int readable_tile = 160;
-  SheetLayout whole = layout_sheet(manifest, has_legend, largest, noise);
+  SheetLayout whole = layout_sheet(manifest, has_legend, largest, words);
   if (fits(whole, largest)) return {{0, manifest.runs.size(), std::move(whole)}};
 
   store::Manifest part = manifest;
@@ -359,7 +369,7 @@ std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_le
   const auto layout_of = [&](std::size_t first, std::size_t count) {
     const auto begin = manifest.runs.begin() + static_cast<std::ptrdiff_t>(first);
     part.runs.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
-    return layout_sheet(part, has_legend, largest, noise);
+    return layout_sheet(part, has_legend, largest, words);
   };
   const auto is_readable = [&](const SheetLayout& layout) {
     return fits(layout, largest) &&

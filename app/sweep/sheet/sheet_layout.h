@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/sweep/sheet/key.h"
+#include "app/sweep/sheet/seals.h"
 #include "app/sweep/sheet/tile_words.h"
 #include "app/sweep/store/manifest.h"
 #include "render/frame/frame.h"
@@ -14,11 +14,14 @@ namespace neve::app::sweep::sheet {
 /// Width of a letter, as a share of the height of its line, about.
 inline constexpr double letter_width = 0.56;
 
-/// What a sheet with noise needs room for.
-struct NoiseRoom {
-  std::vector<KeyLine> key;  ///< lines below the tiles
-  int rows = 0;              ///< of words and whiskers below the picture of each tile
+/// What a sheet needs room for beside its pictures and their values.
+struct SheetWords {
+  Seals seals{};          ///< below the picture of each tile, and their key below all
+  std::string heading{};  ///< below the title
 };
+
+/// Letters of a font, px, that fit side by side on a tile or a sheet of a width, px.
+std::size_t letters_in(double width, double font_size);
 
 /// px, of the rows below a picture.
 int rows_height(int rows, int font_size);
@@ -50,7 +53,7 @@ struct SheetLayout {
 /// @param has_legend keeps room for it on the right
 /// @param largest side of a picture, px
 SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest,
-                         const NoiseRoom& noise = {});
+                         const SheetWords& words = {});
 
 /// Runs that share a picture.
 struct SheetPage {
@@ -61,7 +64,7 @@ struct SheetPage {
 /// One page where all runs fit into a picture. Otherwise as many as it takes: without axes along
 /// their edges, so that each tile names its own values.
 std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest,
-                                    const NoiseRoom& noise = {});
+                                    const SheetWords& words = {});
 
 /// True if a sheet of this layout can be a picture.
 bool fits(const SheetLayout& layout, int largest);
