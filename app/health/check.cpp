@@ -98,14 +98,15 @@ void check_crushing(const scene::Scene& scene, Check& check) {
 
 void check_copy(const scene::Scene& scene, const forecast::Forecast& foreseen,
                 std::vector<Finding>& findings) {
-  for (const forecast::Withheld& withheld : foreseen.withheld)
+  for (const forecast::Withheld& withheld : foreseen.withheld) {
+    const auto reason = clogging(scene, withheld.emitter, withheld.share);
+    if (!reason || reason->is_by_rate) continue;
     findings.push_back(
         {Severity::warning, "emitter." + withheld.emitter + ".rate",
-         fmt::format("in a coarse copy {} % of its snow finds no room until {} s, because snow "
-                     "fills the emitter",
-                     rough_text(100 * withheld.share), rough_text(withheld.time)),
-         fmt::format("use {}; run.json counts this snow as withheld",
-                     remedy_for_clogging(scene, withheld.emitter))});
+         fmt::format("in a coarse copy {} % of its snow finds no room until {} s, because {}",
+                     rough_text(100 * withheld.share), rough_text(withheld.time), reason->cause),
+         reason->remedy + "; run.json counts this snow as withheld"});
+  }
   if (!foreseen.ignored.empty())
     findings.push_back({Severity::warning, "solver.on_divergence",
                         foreseen.ignored + ": snow that bursts takes many short steps",

@@ -46,13 +46,20 @@ void check_senses(const scene::Scene& scene, std::vector<Finding>& findings);
 void check_resolution(const scene::Scene& scene, std::vector<Finding>& findings,
                       double coarsening = 1);
 
-/// Emitters that never open, are thinner than particles are apart, or pack more snow than their
-/// velocity, or gravity, carries away.
+/// Emitters that never open, are thinner than particles are apart, or are asked for more snow than
+/// their velocity, or gravity, carries away.
 void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings,
                     double coarsening = 1);
 
-/// What lets the snow of an emitter out that finds no room, as in "use ...".
-std::string remedy_for_clogging(const scene::Scene& scene, const std::string& emitter);
+/// Why snow of an emitter finds no room, and what lets it out.
+struct Clogging {
+  bool is_by_rate = false;  ///< check_emitters says it before the run
+  std::string cause, remedy;
+};
+/// @param share  of what it was asked for so far, that found no room
+/// @return nothing where the scene has no such emitter
+std::optional<Clogging> clogging(const scene::Scene& scene, const std::string& emitter,
+                                 double share);
 
 /// Sinks that fast snow crosses between two tests. @param speed m/s, of the fastest snow
 void check_sinks(const scene::Scene& scene, double speed, std::vector<Finding>& findings);

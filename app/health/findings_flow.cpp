@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
@@ -17,21 +19,32 @@ namespace neve::app::health {
 
 namespace {
 
-/// Allowed ratio of the rate to the carried rate: spheres and cones are not equally wide
-/// everywhere.
-constexpr double max_packing = 1.3;
-
-/// kg/s that fall out of a shape in which snow is born at rest, at most at packed density; 0
-/// without gravity. With the same rate everywhere, momentum asks for v^2 = g y / 1.5 at a depth y
-/// and for the density rate / V sqrt(1.5 y / g).
-double falling_rate(const sim::seeding::Emitter& emitter, const sim::Material& material,
-                    const sim::Vec3d& gravity) {
-  const double g = gravity.norm();
-  if (!(g > 0)) return 0;
-  const sim::shapes::Solid solid(emitter.shape);
-  return density_at_birth(emitter, material) * solid.volume() *
-         std::sqrt(g / (1.5 * solid.extent(gravity)));
+/// What withholds snow however much room there is; nothing where the rate is not too large.
+std::optional<std::string> rate_problem(const scene::Scene& scene,
+                                        const sim::seeding::Emitter& emitter) {
+  const sim::Material& material = scene.materials[setup::material_index(scene, emitter.material)];
+  const sim::Vec3d& gravity = scene.solver.gravity;
+  const double natural = natural_rate(emitter, material, gravity);
+  if (!sim::seeding::exceeds(emitter.rate, natural)) return std::nullopt;
+  if (natural == 0)
+    return "new snow is at rest, and gravity does not move it away: it fills the emitter once";
+  const bool falls = natural > natural_rate(emitter, material, sim::Vec3d::Zero());
+  return fmt::format("{} only about {} kg/s at {}",
+                     emitter.velocity.isZero(0) ? "new snow is at rest, and gravity carries away"
+                     : falls                    ? "gravity carries away"
+                                                : "its velocity carries away",
+                     rough_text(natural),
+                     emitter.J_P == 1 ? "the density of " + material.name
+                                      : rough_text(density_at_birth(emitter, material)) + " kg/m3");
 }
+
+const sim::seeding::Emitter* find_emitter(const scene::Scene& scene, const std::string& name) {
+  for (const sim::seeding::Emitter& emitter : scene.emitters)
+    if (emitter.name == name) return &emitter;
+  return nullptr;
+}
+
+constexpr const char* remedy_for_rate = "lower the rate, or make the velocity or the shape larger";
 
 void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitter, double end,
                    double coarsening, std::vector<Finding>& findings) {
@@ -49,15 +62,6 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
          "make it thicker, or " +
              scene::setting_text("solver.cell_size", 0.25 * thick / spacing * h, coarsening)});
   if (emitter.rate == 0) return;
-  const double carried = sim::seeding::carried_rate(emitter, material);
-  const double falling = falling_rate(emitter, material, scene.solver.gravity);
-  if (carried > 0 && emitter.rate > max_packing * std::max(carried, falling))
-    findings.push_back(
-        {Severity::warning, at + ".rate",
-         fmt::format("its velocity carries away only about {} kg/s at the density of "
-                     "{}; the rest finds no room",
-                     rough_text(carried), material.name),
-         "lower the rate, or make the velocity or the shape larger"});
   const double last = std::min(end, emitter.end.value_or(end));
   const double mass = emitter.rate * (last - emitter.start);
   const double of_one = density_at_birth(emitter, material) * spacing * spacing * spacing;
@@ -70,30 +74,33 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
              "a rate of {} kg/s, a longer time, or smaller particles ({})",
              rough_text(emitter.rate * of_one / mass),
              scene::setting_text("solver.cell_size", h * std::cbrt(mass / of_one), coarsening))});
-  const bool is_filled =
-      mass > density_at_birth(emitter, material) * sim::shapes::volume(emitter.shape);
-  if (carried == 0 && is_filled && emitter.rate > max_packing * falling)
+  const double natural = natural_rate(emitter, material, scene.solver.gravity);
+  const double carried = natural > 0 ? natural * (last - emitter.start)
+                                     : density_at_birth(emitter, material) * volume(emitter.shape);
+  if (mass < carried + of_one) return;
+  if (const auto problem = rate_problem(scene, emitter))
     findings.push_back(
-        {Severity::warning, at + ".rate",
-         fmt::format("new snow is at rest: {}; the rest finds no room",
-                     falling > 0
-                         ? fmt::format("about {} kg/s fall out of the emitter", rough_text(falling))
-                         : "gravity does not move it away"),
-         "give it a velocity, a lower rate or a larger shape"});
+        {Severity::warning, at + ".rate", *problem + "; the rest finds no room", remedy_for_rate});
 }
 
 }  // namespace
 
-std::string remedy_for_clogging(const scene::Scene& scene, const std::string& emitter) {
-  const std::string usual = "a lower rate, a higher velocity or a wider way out";
-  for (const sim::seeding::Emitter& e : scene.emitters) {
-    if (e.name != emitter || e.J_P > 1) continue;
-    const sim::Material& material = scene.materials[setup::material_index(scene, e.material)];
-    // Packed snow sticks together and stands in its own way.
-    if (sim::laws::of(material).is_snow)
-      return fmt::format("loose snow (emitter.{}.J_P = 1.5), {}", emitter, usual);
-  }
-  return usual;
+std::optional<Clogging> clogging(const scene::Scene& scene, const std::string& emitter,
+                                 double share) {
+  const sim::seeding::Emitter* e = find_emitter(scene, emitter);
+  if (!e) return std::nullopt;
+  const sim::Material& material = scene.materials[setup::material_index(scene, e->material)];
+  const double natural = natural_rate(*e, material, scene.solver.gravity);
+  constexpr double notable = 0.02;
+  if (const auto problem = rate_problem(scene, *e);
+      problem && share < 1 - natural / e->rate + notable)
+    return Clogging{true, *problem, remedy_for_rate};
+  // Packed snow sticks together and stands in its own way.
+  const bool is_packed = e->J_P == 1 && sim::laws::of(material).is_snow;
+  return Clogging{false, "snow fills the emitter",
+                  (is_packed ? fmt::format("use loose snow (emitter.{}.J_P = 1.5), ", emitter)
+                             : std::string("use ")) +
+                      "a lower rate, a higher velocity or a wider way out"};
 }
 
 void check_emitters(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening) {

@@ -72,12 +72,16 @@ std::vector<std::string> step_warnings(const scene::Scene& scene,
     list.push_back(semi_implicit_steps(warnings.solves_given_up) +
                    "could not be solved, and shorter ones, at last explicit ones, replaced them; "
                    "try a smaller dt (solver.max_dt, solver.dt)");
-  const std::vector<std::uint64_t> withheld = simulation.withheld();
-  for (std::size_t k = 0; k < withheld.size(); ++k)
-    if (withheld[k] > 0)
-      list.push_back("emitter." + scene.emitters[k].name + ": " + std::to_string(withheld[k]) +
-                     " particles found no room, because snow fills the emitter; use " +
-                     health::remedy_for_clogging(scene, scene.emitters[k].name));
+  const std::vector<sim::seeding::EmitterStream::State> emitters = simulation.emitter_states();
+  for (std::size_t k = 0; k < emitters.size(); ++k) {
+    if (emitters[k].withheld == 0) continue;
+    const auto withheld = static_cast<double>(emitters[k].withheld);
+    const double share = withheld / (withheld + static_cast<double>(emitters[k].born));
+    if (const auto reason = health::clogging(scene, scene.emitters[k].name, share))
+      list.push_back(fmt::format("emitter.{}: {} particles found no room, because {}; {}",
+                                 scene.emitters[k].name, emitters[k].withheld, reason->cause,
+                                 reason->remedy));
+  }
   if (const auto softness = health::softness_warning(scene, simulation)) list.push_back(*softness);
   return list;
 }

@@ -10,7 +10,8 @@ namespace {
 /// Particles of few per cell look no farther than this, cells.
 constexpr double max_radius = 2;
 
-/// J_P of loose snow that still takes its volume; torn snow is in nobody's way.
+/// J_P of loose snow that still takes its volume; torn snow is in nobody's way. Snow that is born
+/// looser than that counts what lies around it by its own measure.
 constexpr double max_loose = 2;
 
 /// Blocks list particles by where they were before the step, by the first node of their stencil:
@@ -42,6 +43,7 @@ bool Room<Real>::has_room(const seeding::Birth& birth) {
   const int reach = static_cast<int>(std::ceil(radius / cell_size_ - 1e-9));
   const Vec3i middle = cell_of(birth.x);
   add_blocks_around(middle, reach);
+  const double loosest = std::max(max_loose, birth.J_P);
   double filled = 0;
   for (int i = -reach; i <= reach; ++i)
     for (int j = -reach; j <= reach; ++j)
@@ -50,31 +52,30 @@ bool Room<Real>::has_room(const seeding::Birth& birth) {
         if (cell == first_.end()) continue;
         for (std::uint32_t at = cell->second; at != none; at = places_[at].next)
           if ((places_[at].x - birth.x).squaredNorm() < radius * radius)
-            filled += places_[at].volume;
+            filled += places_[at].V0 * std::min(places_[at].J_P, loosest);
       }
   return filled <= birth.room * std::pow(radius / wanted, 3);
 }
 
 template <class Real>
 void Room<Real>::take(const seeding::Birth& birth) {
-  add(birth.x, birth.V0 * birth.J_P);
+  add(birth.x, birth.V0, birth.J_P);
 }
 
 template <class Real>
-void Room<Real>::add(const Vec3d& x, double volume) {
+void Room<Real>::add(const Vec3d& x, double V0, double J_P) {
   const std::uint64_t key = cell_key(cell_of(x));
   if (!last_first_ || key != last_key_) {
     last_key_ = key;
     last_first_ = &first_.try_emplace(key, none).first->second;
   }
-  places_.push_back({x, volume, *last_first_});
+  places_.push_back({x, V0, J_P, *last_first_});
   *last_first_ = static_cast<std::uint32_t>(places_.size() - 1);
 }
 
 template <class Real>
 void Room<Real>::add(const kernels::Particle<Real>& p) {
-  const double J_P = std::clamp(static_cast<double>(p.J_P), 1.0, max_loose);
-  add(state_.position(p), static_cast<double>(p.V0) * J_P);
+  add(state_.position(p), static_cast<double>(p.V0), static_cast<double>(p.J_P));
 }
 
 template <class Real>

@@ -27,11 +27,12 @@ class Room {
   static constexpr std::uint32_t none = 0xffffffff;
   struct Place {
     Vec3d x;
-    double volume;       ///< m3
+    double V0;  ///< m3
+    double J_P;
     std::uint32_t next;  ///< in the same cell
   };
 
-  void add(const Vec3d& x, double volume);
+  void add(const Vec3d& x, double V0, double J_P);
   void add(const kernels::Particle<Real>& p);
   void add_block(std::uint64_t key);
   void add_blocks_around(const Vec3i& cell, int cells);

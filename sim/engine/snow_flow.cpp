@@ -131,12 +131,13 @@ void SnowFlow<Real>::emit(State<Real>& state) {
   progress.flow.withheld = 0;
   for (Emitter& emitter : emitters_) {
     births.clear();
-    emitter.births.advance_to(progress.time, births, [&](const seeding::Birth& birth) {
+    const auto has_room = [&](const seeding::Birth& birth) {
       if (!room) room.emplace(state);
       if (!room->has_room(birth)) return false;
       if (!emitter.births.fills_whole()) room->take(birth);
       return true;
-    });
+    };
+    emitter.births.advance_to(progress.time, births, has_room, state.method.settings.gravity);
     if (emitter.births.fills_whole())
       for (const seeding::Birth& birth : births) room->take(birth);
     progress.flow.withheld += emitter.births.state().withheld;

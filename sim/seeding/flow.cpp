@@ -93,15 +93,26 @@ constexpr double max_packing = 1.15, max_filled_of_body = 0.5;
 constexpr double max_shift = 2;
 constexpr int shifts = 8;
 
+/// 1/s, of the volume of an emitter with a rate.
+double share_carried_away(const Emitter& emitter, const shapes::Solid& solid,
+                          const Vec3d& gravity) {
+  const double speed = emitter.velocity.norm(), g = gravity.norm();
+  const double by_velocity = speed > 0 ? speed / solid.extent(emitter.velocity) : 0;
+  // What lies farthest from the centre leaves by its spin within about two radians.
+  const double by_spin = 0.5 * emitter.angular_velocity.norm();
+  // Of snow born at rest with the same rate everywhere, momentum asks for v^2 = g y / 1.5 at a
+  // depth y and for the density rate / V sqrt(1.5 y / g).
+  const double by_gravity = g > 0 ? std::sqrt(g / (1.5 * solid.extent(gravity))) : 0;
+  return std::max(by_velocity + by_spin, by_gravity);
+}
+
 }  // namespace
 
-double carried_rate(const Emitter& emitter, const Material& material) {
+double natural_rate(const Emitter& emitter, const Material& material, const Vec3d& gravity) {
   if (emitter.rate == 0) return std::numeric_limits<double>::infinity();
-  const double speed = emitter.velocity.norm();
-  if (!(speed > 0)) return 0;
   const shapes::Solid solid(emitter.shape);
-  return density_at_birth(emitter, material) * solid.volume() / solid.extent(emitter.velocity) *
-         speed;
+  return density_at_birth(emitter, material) * solid.volume() *
+         share_carried_away(emitter, solid, gravity);
 }
 
 double birth_period(const Emitter& emitter, const Material& material, double cell_size) {
@@ -133,7 +144,8 @@ EmitterStream::EmitterStream(const Emitter& emitter, std::size_t number, const M
   require_few_blocks(solid_, Vec3d::Zero(), std::cbrt(volume_));
 }
 
-void EmitterStream::advance_to(double time, std::vector<Birth>& births, const HasRoom& has_room) {
+void EmitterStream::advance_to(double time, std::vector<Birth>& births, const HasRoom& has_room,
+                               const Vec3d& gravity) {
   if (emitter_.rate == 0) {
     if (time >= emitter_.start && state_.born == 0)
       fill_whole(time - emitter_.start, births, has_room);
@@ -145,17 +157,22 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births, const Ha
     return static_cast<std::uint64_t>(
         std::min(births_until(emitter_, mass, time, waited), max_particles));
   };
-  for (const std::uint64_t until = due(state_.waited); state_.born < until; ++state_.born) {
+  const double pause = pause_after_birth(gravity);
+  for (; state_.born < due(state_.waited); ++state_.born) {
     const double birth = emitter_.start + (static_cast<double>(state_.born) + 0.5) * period;
     // One that was waiting when the emitter closed is not born: its place would move on and on.
     if (state_.withheld > 0 && emitter_.end && state_.waited == *emitter_.end - birth) break;
     const double age = std::max(0.0, time - state_.waited - birth);
-    const std::optional<Birth> born = next_birth(age, has_room);
+    // Where nothing carries the snow away, the shape is filled once.
+    const bool is_full =
+        std::isinf(pause) && static_cast<double>(state_.born + 1) * volume_ > solid_.volume();
+    const std::optional<Birth> born = is_full ? std::nullopt : next_birth(age, has_room);
     if (!born) {
       state_.waited = open_until(emitter_, time) - birth;
       break;
     }
     births.push_back(*born);
+    if (std::isfinite(pause)) state_.waited += pause;
   }
   state_.withheld = due(0) - state_.born;
 }
@@ -169,6 +186,15 @@ bool EmitterStream::is_undisturbed(const State& state) const {
   alone.state_ = {};
   for (std::uint64_t k = 0; k < state.born; ++k) alone.next_place();
   return alone.state_.candidate == state.candidate;
+}
+
+/// s, for which the clock stops after each birth so that no more snow comes than is carried away;
+/// infinite where nothing carries it.
+double EmitterStream::pause_after_birth(const Vec3d& gravity) const {
+  const double mass = density_at_birth(emitter_, material_) * volume_;
+  const double natural = density_at_birth(emitter_, material_) * solid_.volume() *
+                         share_carried_away(emitter_, solid_, gravity);
+  return exceeds(emitter_.rate, natural) ? mass / natural - mass / emitter_.rate : 0;
 }
 
 std::optional<Birth> EmitterStream::next_birth(double age, const HasRoom& has_room) {
@@ -247,7 +273,8 @@ Birth EmitterStream::born_at(const Vec3d& local, double age) const {
   return birth;
 }
 
-/// The stream is the shape, drawn out along the velocity.
+/// The stream is the shape, drawn out along the velocity. Nothing comes from behind the shape: if
+/// the empty space there counted as room, snow at that face would have twice the density.
 double EmitterStream::room_around(const Vec3d& local) const {
   static const std::vector<Vec3d> ball = points_in_ball();
   const double radius = room_radius * std::cbrt(volume_);
@@ -256,8 +283,7 @@ double EmitterStream::room_around(const Vec3d& local) const {
     if (solid_.contains_local(y)) return true;
     if (emitter_.rate == 0) return false;
     for (int k = 1; k <= shifts; ++k) {
-      const Vec3d shift = (k * max_shift / shifts) * radius * along;
-      if (solid_.contains_local(y + shift) || solid_.contains_local(y - shift)) return true;
+      if (solid_.contains_local(y - (k * max_shift / shifts) * radius * along)) return true;
     }
     return false;
   };

@@ -56,10 +56,17 @@ inline double density_at_birth(const Emitter& emitter, const Material& material)
   return material.density / emitter.J_P;
 }
 
-/// kg/s that leave the shape of an emitter at packed density, by its velocity: more packs snow into
-/// snow. Infinite where the whole shape is filled at once, 0 where nothing carries the snow away.
+/// kg/s that leave the shape of an emitter at the density at birth, by its velocity and spin or by
+/// gravity, whichever carries more: births beyond that wait, or they would pack snow into snow.
+/// Infinite where the whole shape is filled at once, 0 where nothing carries the snow away.
+/// @param gravity  m/s2
 /// @throws ShapeError
-double carried_rate(const Emitter& emitter, const Material& material);
+double natural_rate(const Emitter& emitter, const Material& material, const Vec3d& gravity);
+
+/// True if a rate is larger than the natural one by more than rounded numbers are.
+inline bool exceeds(double rate, double natural) {
+  return rate > 1.01 * natural;
+}
 
 /// s from one birth of an emitter with a rate to the next, while none waits. The k-th, from 0, is
 /// due half of it after the k-th period began.
@@ -88,9 +95,9 @@ inline bool has_room_everywhere(const Birth&) {
   return true;
 }
 
-/// The births of one emitter, in order. A birth looks for room at several places; if there is none
-/// it waits, and so do those after it: the clock of the emitter stops. An emitter that fills its
-/// shape once leaves out the places without room.
+/// The births of one emitter, in order. A birth waits until the natural rate lets it come, and
+/// looks for room at several places; if there is none it waits, and so do those after it: the clock
+/// of the emitter stops. An emitter that fills its shape once leaves out the places without room.
 class EmitterStream {
  public:
   /// @throws ShapeError
@@ -99,14 +106,16 @@ class EmitterStream {
 
   /// Appends the births since the last call, up to and with `time`. A particle born between two
   /// steps has moved on since.
+  /// @param gravity  m/s2, now
   void advance_to(double time, std::vector<Birth>& births,
-                  const HasRoom& has_room = has_room_everywhere);
+                  const HasRoom& has_room = has_room_everywhere,
+                  const Vec3d& gravity = Vec3d::Zero());
 
   /// State needed to resume a run.
   struct State {
     std::uint64_t born = 0, candidate = 0;  ///< candidates for places, looked at so far
     std::uint64_t withheld = 0;             ///< births that an empty grid would have seen by now
-    double waited = 0;                      ///< s, for which its clock stood still
+    double waited = 0;  ///< s, for which its clock stood still, or will until the next birth
   };
   const State& state() const { return state_; }
   /// True if its births are the particles of one body: they are not in each other's way.
@@ -118,6 +127,7 @@ class EmitterStream {
   bool is_undisturbed(const State& state) const;
 
  private:
+  double pause_after_birth(const Vec3d& gravity) const;
   void fill_whole(double age, std::vector<Birth>& births, const HasRoom& has_room);
   std::optional<Birth> next_birth(double age, const HasRoom& has_room);
   Vec3d next_candidate();

@@ -231,6 +231,39 @@ TEST(SceneFlow, ImpossibleEmittersAreFound) {
   EXPECT_EQ(findings_of(packed), std::vector<std::string>{"emitter.spout.rate"});
 }
 
+/// A warning begins where snow is withheld, whatever its J_P, and names the cause.
+TEST(SceneFlow, RatesBeyondTheNaturalOneAreFound) {
+  const auto at_rate = [](double rate, double J_P) {
+    std::string text = spout + "J_P = " + std::to_string(J_P) + "\n";
+    text.replace(text.find("rate = 20"), 9, "rate = " + std::to_string(rate));
+    std::vector<app::health::Finding> findings;
+    const app::scene::Scene scene = flow_scene(text);
+    app::health::check_emitters(scene, findings);
+    return findings;
+  };
+  for (const double J_P : {0.25, 1.0, 2.0}) {
+    const double natural = 400 / J_P * 0.2 * 0.2 * 2;
+    EXPECT_TRUE(at_rate(natural, J_P).empty()) << J_P;
+    const auto found = at_rate(1.1 * natural, J_P);
+    ASSERT_EQ(found.size(), 1u) << J_P;
+    EXPECT_NE(found[0].text.find("its velocity carries away only about"), std::string::npos)
+        << found[0].text;
+  }
+  std::string fast = spout;
+  fast.replace(fast.find("rate = 20"), 9, "rate = 64");
+  const app::scene::Scene scene = flow_scene(fast);
+  const auto by_rate = health::clogging(scene, "spout", 0.5),
+             by_pile = health::clogging(scene, "spout", 0.9);
+  ASSERT_TRUE(by_rate && by_pile);
+  EXPECT_TRUE(by_rate->is_by_rate) << by_rate->cause;
+  EXPECT_NE(by_rate->remedy.find("lower the rate"), std::string::npos) << by_rate->remedy;
+  EXPECT_EQ(by_pile->cause, "snow fills the emitter");
+  EXPECT_NE(by_pile->remedy.find("J_P = 1.5"), std::string::npos) << by_pile->remedy;
+  const auto packed = health::clogging(flow_scene(spout + "J_P = 0.5\n"), "spout", 0.5);
+  ASSERT_TRUE(packed);
+  EXPECT_EQ(packed->remedy.find("loose"), std::string::npos) << packed->remedy;
+}
+
 TEST(SceneFlow, EmittersThinnerThanASpacingAreFound) {
   const std::string pin = R"(
 [[emitter]]
