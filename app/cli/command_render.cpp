@@ -222,6 +222,7 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
   health::check_resolution(job.scene, findings, job.coarsening);
   health::check_meshes(job.scene, findings);
   health::check_emitters(job.scene, findings, job.coarsening);
+  health::check_starts_of_held(job.scene, findings);
   health::check_rounding(job.scene, findings, job.coarsening);
   health::check_collider_overlaps(job.scene, seeded, findings);
   health::check_meetings(job.scene, seeded, findings);

@@ -98,6 +98,9 @@ void check_gravity(const scene::Scene& scene, std::vector<Finding>& findings);
 void check_collider_overlaps(const scene::Scene& scene, const setup::SeededScene& seeded,
                              std::vector<Finding>& findings);
 
+/// Bodies whose joint or `hold` takes a part of the motion away that the scene gives them.
+void check_starts_of_held(const scene::Scene& scene, std::vector<Finding>& findings);
+
 /// Colliders that move by themselves: in one another, held by nothing or by everything, of a
 /// density that nothing has, smaller than snow can feel.
 /// @param moments  of a coarse run @param coarsening  of the scene

@@ -9,6 +9,7 @@
 #include "app/scene/coarsen.h"
 #include "app/support/text.h"
 #include "sim/rigid/mass.h"
+#include "sim/rigid/rigid_bodies.h"
 
 namespace neve::app::health {
 
@@ -114,6 +115,38 @@ void check_joint(const Collider& body, std::vector<Finding>& findings) {
        fmt::format("joint_point is a place in the scene; the body is at {}", vector_text(middle))});
 }
 
+/// A joint turns the motion of a free body into one that it allows as an impact does: a body that
+/// is to swing needs the velocity of its centre too.
+void check_start_of_held(const Collider& body, std::vector<Finding>& findings) {
+  if (body.body.hold.empty() && body.body.joint == Joint::none) return;
+  const sim::rigid::Motion given = sim::rigid::motion_at(body, 0),
+                           start = sim::rigid::motion_at_start(body);
+  constexpr double notable = 1e-3;
+  const auto differs = [&](const Vec3d& a, const Vec3d& b) {
+    return (a - b).norm() > notable * std::max(a.norm(), b.norm());
+  };
+  const bool turns = differs(given.spin, start.spin);
+  if (!turns && !differs(given.velocity, start.velocity)) return;
+  const bool swings = body.body.joint == Joint::ball || body.body.joint == Joint::hinge;
+  Vec3d spin = body.angular_velocity;
+  if (body.body.joint == Joint::hinge) {
+    const Vec3d axis = body.body.joint_axis.stableNormalized();
+    spin = axis.dot(spin) * axis;
+  }
+  const Vec3d round = spin.cross(sim::shapes::center(body.shape) - body.body.joint_point);
+  findings.push_back(
+      {Severity::warning, address_of(body) + (turns ? ".angular_velocity" : ".velocity"),
+       fmt::format(
+           "the scene gives {} {} m/s and {} rad/s, and what holds it lets it start with {} "
+           "m/s and {} rad/s",
+           display_name("collider", body.name), vector_text(given.velocity),
+           vector_text(given.spin), vector_text(start.velocity), vector_text(start.spin)),
+       swings && !spin.isZero(0)
+           ? fmt::format("to swing about its joint with {} rad/s it needs velocity = {} as well",
+                         vector_text(spin), vector_text(round))
+           : "leave out what its joint or hold takes away"});
+}
+
 bool falls_freely(const scene::Scene& scene, const Collider& body) {
   return scene.solver.gravity.norm() > 0 && body.body.joint == Joint::none &&
          body.body.hold.empty() && body.body.spring_stiffness == 0 && body.body.spring_damping == 0;
@@ -159,8 +192,14 @@ void check_rest(const scene::Scene& scene, const Collider& body, std::vector<Fin
 
 }  // namespace
 
+void check_starts_of_held(const scene::Scene& scene, std::vector<Finding>& findings) {
+  for (const Collider& body : scene.colliders)
+    if (body.body.moves()) check_start_of_held(body, findings);
+}
+
 void check_moving_bodies(const scene::Scene& scene, const std::vector<setup::CoarseMoment>& moments,
                          double coarsening, std::vector<Finding>& findings) {
+  check_starts_of_held(scene, findings);
   std::size_t index = 0;
   for (const Collider& body : scene.colliders) {
     if (!body.body.moves()) continue;

@@ -1,6 +1,8 @@
 #include "sim/rigid/held.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -189,6 +191,26 @@ void Held::add_joint(std::vector<Row>& rows) const {
   if (held_.joint == Joint::ball) return;
   const Vec3d tilt = (now_ * rotation_.transpose() * axis_).cross(axis_);
   for (const Vec3d& b : across(axis_)) rows.push_back({Vec3d::Zero(), b, b.dot(tilt)});
+}
+
+Held::Speeds Held::allowed(const Speeds& given, const Mat3d& inertia) const {
+  const std::vector<Row> held = rows();
+  const auto count = static_cast<Eigen::Index>(held.size());
+  // Of a row, and of what an impulse along it gives; a row may repeat others.
+  Eigen::MatrixXd row(count, 6), given_by(6, count);
+  const Eigen::LDLT<Mat3d> turning = inertia.ldlt();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Row& r = held[static_cast<std::size_t>(k)];
+    row.row(k) << r.along.transpose(), r.about.transpose();
+    if (r.along.isZero(0)) row.row(k) *= size_;  // a length, as the others
+    given_by.col(k) << row.row(k).head<3>().transpose() / mass_,
+        turning.solve(Vec3d(row.row(k).tail<3>()));
+  }
+  Eigen::Matrix<double, 6, 1> speeds;
+  speeds << given.velocity, given.spin;
+  const Eigen::MatrixXd response = row * given_by;
+  speeds -= given_by * response.completeOrthogonalDecomposition().solve(row * speeds);
+  return {speeds.head<3>(), speeds.tail<3>()};
 }
 
 Held::Speeds Held::add_springs(double dt, const Speeds& before, const Speeds& pushed,

@@ -29,6 +29,11 @@ class Held final : public btTypedConstraint {
     Vec3d velocity, spin;
   };
 
+  /// What is left of a motion once the rows hold: all that they take comes from impulses along
+  /// them, so where a body has products of inertia, to hold one turn changes the others.
+  /// @param inertia  kg m2, about the centre of mass in the axes of the world
+  Speeds allowed(const Speeds& given, const Mat3d& inertia) const;
+
   /// Before the rows are asked for.
   /// @param rotation  as in the constructor, now  @param angle  rad, of a hinge, with whole turns
   void set_place(const Vec3d& centre, const Mat3d& rotation, double angle);

@@ -440,6 +440,20 @@ Motion motion_at(const shapes::Collider& body, double time) {
                    shapes::form_axes(body.shape) * mass_properties(body).centre);
 }
 
+Motion motion_at_start(const shapes::Collider& collider) {
+  Motion motion = motion_at(collider, 0);
+  if (!Held::holds(collider.body)) return motion;
+  const MassProperties mass = mass_properties(collider);
+  const Mat3d form = motion.rotation * shapes::form_axes(collider.shape);
+  btRigidBody any(construction(1, nullptr, btVector3(1, 1, 1)));  // rows are of a body
+  const Held held(any, collider, mass, form, 1);
+  const Held::Speeds allowed =
+      held.allowed({motion.velocity, motion.spin}, form * mass.inertia * form.transpose());
+  motion.velocity = allowed.velocity;
+  motion.spin = allowed.spin;
+  return motion;
+}
+
 RigidBodies::RigidBodies(const std::vector<shapes::Collider>& colliders) {
   for (std::size_t k = 0; k < colliders.size(); ++k) {
     const shapes::Collider& c = colliders[k];
@@ -472,6 +486,21 @@ RigidBodies& RigidBodies::operator=(const RigidBodies& other) {
   bodies_ = other.bodies_;
   world_.reset();
   return *this;
+}
+
+void RigidBodies::start(std::vector<shapes::Collider>& colliders) const {
+  constexpr double rounding = 1e-12;
+  for (const Body& body : bodies_) {
+    shapes::Collider& collider = colliders[body.collider];
+    if (collider.pose_offset.motion || !Held::holds(collider.body)) continue;
+    const Motion given = motion_at(collider, 0), allowed = motion_at_start(collider);
+    const double taken = (allowed.velocity - given.velocity).norm() +
+                         body.furthest * (allowed.spin - given.spin).norm();
+    if (taken <= rounding * (given.velocity.norm() + body.furthest * given.spin.norm())) continue;
+    const Vec3d arm = given.rotation * body.axes * body.mass.centre;
+    collider.pose_offset.motion =
+        std::array{Vec3d(allowed.velocity - allowed.spin.cross(arm)), allowed.spin};
+  }
 }
 
 void RigidBodies::begin(const std::vector<shapes::Collider>& colliders, double time) {

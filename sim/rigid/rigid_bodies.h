@@ -33,6 +33,10 @@ struct Motion {
 /// Of a collider that moves by itself. @throws as mass_properties
 Motion motion_at(const shapes::Collider& body, double time);
 
+/// Of a collider that moves by itself, at the start: as the scene gives it, less what its joint and
+/// `hold` take away as an impact would. @throws as mass_properties
+Motion motion_at_start(const shapes::Collider& body);
+
 class RigidBodies {
  public:
   RigidBodies() = default;
@@ -50,6 +54,9 @@ class RigidBodies {
   std::size_t collider(std::size_t body) const { return bodies_[body].collider; }
   const MassProperties& mass(std::size_t body) const { return bodies_[body].mass; }
 
+  /// What holds bodies takes away what it does not allow of the motions that the scene gives, where
+  /// bodies have none of their own yet.
+  void start(std::vector<shapes::Collider>& colliders) const;
   /// Places everything as it is at a time, and finds what touches.
   void begin(const std::vector<shapes::Collider>& colliders, double time);
   /// How bodies move at the end of a step of dt that gives them these impulses and gravity.

@@ -105,6 +105,7 @@ MovingColliders::MovingColliders(const std::vector<shapes::Collider>& colliders,
       throw ShapeError("collider " + c.name + ": " + error.what());
     }
   }
+  bodies_.start(list_);
   place(lattice, time, pool);
 }
 

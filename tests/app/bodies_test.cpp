@@ -380,6 +380,22 @@ shape = { box = { center = [0, 0.08, 0], size = [0.4, 0.16, 0.4] } }
   EXPECT_EQ(findings[0].severity, health::Severity::note);
 }
 
+TEST(Bodies, MotionsThatAJointTakesAwayAreTold) {
+  const std::string hinged =
+      "density = 900\njoint = \"hinge\"\njoint_point = [-0.3, 0.4, 0]\njoint_axis = [0, 0, 1]\n"
+      "angular_velocity = [0, 0, 2]\n";
+  const auto found = body_findings(ball_that(hinged));
+  EXPECT_TRUE(tells_of(found, "collider.ball.angular_velocity", "lets it start with"));
+  ASSERT_FALSE(found.empty());
+  EXPECT_NE(found[0].hint.find("velocity = [0, 0.6, 0]"), std::string::npos) << found[0].hint;
+  EXPECT_TRUE(body_findings(ball_that(hinged + "velocity = [0, 0.6, 0]\n")).empty());
+  EXPECT_TRUE(
+      tells_of(body_findings(ball_that("density = 900\nhold = [\"z\"]\nvelocity = [0, -1, 3]")),
+               "collider.ball.velocity", "[0, -1, 3] m/s"));
+  EXPECT_TRUE(
+      body_findings(ball_that("density = 900\nhold = [\"z\"]\nvelocity = [0, -1, 0]")).empty());
+}
+
 /// Whole colliders are changes like others.
 TEST(ComingAndGoing, ADifferenceIsLiveAndSaysTheWholeCollider) {
   const scene::Scene before = scene_with_body(""),

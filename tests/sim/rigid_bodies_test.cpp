@@ -832,4 +832,67 @@ TEST(RigidBodies, ATerrainGoesOnAsIfThereWerePosts) {
   }
 }
 
+/// A joint takes away what it does not allow as an impact does: a box of 4 kg that only spins about
+/// its centre, 0.3 m from its hinge, keeps I / (I + m r^2) of its spin. With the velocity that
+/// belongs to the spin nothing is taken away.
+TEST(RigidBodies, AHingedBodyStartsAsItsHingeAllows) {
+  shapes::Collider sign = box_of(500, {0.3, 3, 0}, {0.2, 0.2, 0.2});
+  sign.body.joint = shapes::Joint::hinge;
+  sign.body.joint_point = {0, 3, 0};
+  sign.body.joint_axis = {0, 0, 1};
+  sign.angular_velocity = {0, 0, 2};
+  const double about_centre = 4 * 0.04 / 6, kept = about_centre / (about_centre + 4 * 0.09);
+  rigid::Motion start = rigid::motion_at_start(sign);
+  EXPECT_LT((start.spin - Vec3d(0, 0, 2 * kept)).norm(), 1e-12);
+  EXPECT_LT((start.velocity - Vec3d(0, 0.6 * kept, 0)).norm(), 1e-12);
+  sign.velocity = {0, 0.6, 0};
+  start = rigid::motion_at_start(sign);
+  EXPECT_LT((start.spin - Vec3d(0, 0, 2)).norm(), 1e-12);
+  EXPECT_LT((start.velocity - Vec3d(0, 0.6, 0)).norm(), 1e-12);
+}
+
+/// The impulses that hold a turn change the free ones where the body has products of inertia in the
+/// axes of the world, and only there. Steps find the same.
+TEST(RigidBodies, ABodyThatIsHeldStartsAsItMovesOn) {
+  for (const Vec3d& degrees : {Vec3d(10, 20, 30), Vec3d(0, 0, 0)}) {
+    shapes::Collider box = box_of(500, {0, 1, 0}, {0.3, 0.2, 0.1}, degrees);
+    box.body.hold = {shapes::HeldAxis::z, shapes::HeldAxis::turn_x};
+    box.velocity = {1, 2, 3};
+    box.angular_velocity = {3, 2, 1};
+    const rigid::Motion start = rigid::motion_at_start(box);
+    EXPECT_LT((start.velocity - Vec3d(1, 2, 0)).norm(), 1e-12);
+    EXPECT_NEAR(start.spin.x(), 0, 1e-12);
+    const double changed = (start.spin - Vec3d(0, 2, 1)).norm();
+    if (degrees.isZero())
+      EXPECT_LT(changed, 1e-12);
+    else
+      EXPECT_GT(changed, 0.1);
+    const rigid::MassProperties mass = rigid::mass_properties(box);
+    const Mat3d axes = rotation_from_degrees(degrees);
+    const Vec3d taken =
+        axes * mass.inertia * axes.transpose() * (box.angular_velocity - start.spin);
+    EXPECT_LT(taken.tail<2>().norm(), 1e-12 * taken.norm()) << "an impulse about another axis";
+    BodiesAlone world({box}, Vec3d::Zero());
+    world.step(1e-5);
+    EXPECT_LT((world.pose(0).angular_velocity - start.spin).norm(), 1e-6);
+    EXPECT_LT((world.pose(0).velocity - start.velocity).norm(), 1e-6);
+  }
+}
+
+/// What a run says of its first frame is how its bodies move.
+TEST(RigidBodies, ASimulationBeginsWithMotionsThatAreAllowed) {
+  shapes::Collider sign = box_of(500, {0.3, 3, 0}, {0.2, 0.2, 0.2});
+  sign.body.joint = shapes::Joint::hinge;
+  sign.body.joint_point = {0, 3, 0};
+  sign.body.joint_axis = {0, 0, 1};
+  sign.angular_velocity = {0, 0, 2};
+  SolverSettings settings;
+  settings.gravity.setZero();
+  Simulation simulation(settings, {Material{}}, {sign}, {});
+  const Vec3d first = motion_of(simulation, 0).angular_velocity;
+  EXPECT_NEAR(first.z(), 2 * 0.16 / (0.16 + 6 * 0.36), 1e-12);
+  simulation.step(1e-4);
+  EXPECT_LT((motion_of(simulation, 0).angular_velocity - first).norm(), 1e-9);
+}
+
 }  // namespace
