@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/health/findings.h"
+#include "app/scene/coarsen.h"
 #include "app/setup/curves.h"
 #include "app/setup/snow_pieces.h"
 #include "app/support/interrupt.h"
@@ -263,14 +264,20 @@ std::vector<bool> fly_past_bodies(const scene::Scene& scene, const std::vector<d
 constexpr const char* floor_advice =
     "a floor is [[collider]] with shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }";
 
-Finding free_fall(const Flight& flight, const Nearest& nearest, double end) {
+Finding free_fall(const scene::Scene& scene, const Flight& flight, const Nearest& nearest,
+                  double end) {
   const std::string name = display_name("body", flight.body().name);
-  if (nearest.name.empty())
-    return {Severity::warning, "body." + flight.body().name,
-            fmt::format("nothing stops {}: it flies freely and has {} m/s when the scene ends, at "
-                        "{} s",
-                        name, rough_text(flight.speed_at(end)), rough_text(end)),
-            floor_advice};
+  if (nearest.name.empty()) {
+    // Loose snow that the air slows down or takes along has another speed than its fall.
+    const std::string speed =
+        scene::has_spray_drag(scene)
+            ? "until the scene ends"
+            : fmt::format("and has {} m/s when the scene ends", rough_text(flight.speed_at(end)));
+    return {
+        Severity::warning, "body." + flight.body().name,
+        fmt::format("nothing stops {}: it flies freely {}, at {} s", name, speed, rough_text(end)),
+        floor_advice};
+  }
   return {Severity::warning, "body." + flight.body().name,
           fmt::format("{} meets nothing until the scene ends, at {} s; nearest is {}, {} m away at "
                       "{} s",
@@ -303,7 +310,7 @@ void check_meetings(const scene::Scene& scene, const setup::SeededScene& seeded,
   if (std::find(flies.begin(), flies.end(), true) == flies.end()) return;
   const std::vector<bool> meets = fly_past_bodies(scene, times, flights, flies, nearest);
   for (std::size_t k = 0; k < flights.size(); ++k)
-    if (flies[k] && !meets[k]) findings.push_back(free_fall(flights[k], nearest[k], end));
+    if (flies[k] && !meets[k]) findings.push_back(free_fall(scene, flights[k], nearest[k], end));
 }
 
 void check_gravity(const scene::Scene& scene, std::vector<Finding>& findings) {

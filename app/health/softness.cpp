@@ -119,6 +119,12 @@ std::optional<std::string> softness_warning(const scene::Scene& scene,
     return evidence_text(*birth) + "; try " + advice_text(*birth);
   const sim::Material& snow = densest_material(scene, simulation.particles());
   const double speed = load_speed(scene);
+  if (!is_packed && snow.density >= sim::ice_density)
+    return fmt::format(
+        "{} % of the snow is denser than ice ({} kg/m3): material.{}.density = {} kg/m3 is, "
+        "without "
+        "any impact; try a smaller one",
+        rough_text(100 * dense), rough_text(sim::ice_density), snow.name, rough_text(snow.density));
   if (!is_packed)
     return fmt::format(
         "{} % of the snow was packed denser than ice ({} kg/m3): it is too soft for its impact at "

@@ -130,6 +130,17 @@ TEST(Softness, SnowDenserThanIceIsSaid) {
   EXPECT_TRUE(warnings(0.437).empty());
 }
 
+/// No stiffness and no min_J_P helps against the density that the scene gives.
+TEST(Softness, SnowThatTheSceneMadeDenserThanIceIsNotCalledTooSoft) {
+  scene::Scene scene = impact_scene({1e6, 5, 2, "nodes"}, sim::Material{}.min_J_P);
+  scene.materials[0].density = 1000;
+  const auto said = health::softness_warning(scene, run_impact(scene));
+  ASSERT_TRUE(said);
+  EXPECT_NE(said->find("material.snow.density = 1000 kg/m3"), std::string::npos) << *said;
+  EXPECT_EQ(said->find("min_J_P"), std::string::npos) << *said;
+  EXPECT_EQ(said->find("too soft"), std::string::npos) << *said;
+}
+
 TEST(Softness, WhatIsSoftAndNoSnowIsNotCalledTooSoft) {
   const Impact impact{1e4, 5, 10, "nodes"};
   scene::Scene scene = impact_scene(impact, sim::Material{}.min_J_P, 1);

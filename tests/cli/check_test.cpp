@@ -241,6 +241,11 @@ TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
   folder.write("scene.toml", scene("", "", 6));
   EXPECT_FALSE(contains(
       neve({"check", "scene.toml", "--set", "body.ball.velocity=[0, -25, 0]"}).output, "crush"));
+  // The speed of a fall is not that of snow which the air slows down.
+  EXPECT_TRUE(contains(neve({"check", "scene.toml"}).output, "m/s when the scene ends"));
+  const auto slowed = neve({"check", "scene.toml", "--set", "dust.spray_drag=0.5"});
+  EXPECT_TRUE(contains(slowed.output, "it flies freely until the scene ends")) << slowed.output;
+  EXPECT_FALSE(contains(slowed.output, "m/s when the scene ends")) << slowed.output;
   const std::string wall =
       "[[collider]]\nname = \"wall\"\nshape = { box = { center = [0.3, 0, 0], size = [0.1, 0.6, "
       "0.6] } }\n";
