@@ -246,8 +246,8 @@ TEST(SceneFlow, RatesBeyondTheNaturalOneAreFound) {
     EXPECT_TRUE(at_rate(natural, J_P).empty()) << J_P;
     const auto found = at_rate(1.1 * natural, J_P);
     ASSERT_EQ(found.size(), 1u) << J_P;
-    EXPECT_NE(found[0].text.find("its velocity carries away only about"), std::string::npos)
-        << found[0].text;
+    EXPECT_NE(found[0].what.find("its velocity carries away only about"), std::string::npos)
+        << found[0].what;
   }
   std::string fast = spout;
   fast.replace(fast.find("rate = 20"), 9, "rate = 64");
