@@ -145,7 +145,7 @@ EmitterStream::EmitterStream(const Emitter& emitter, std::size_t number, const M
 }
 
 void EmitterStream::advance_to(double time, std::vector<Birth>& births, const HasRoom& has_room,
-                               const Vec3d& gravity) {
+                               const std::optional<Vec3d>& gravity) {
   if (emitter_.rate == 0) {
     if (time >= emitter_.start && state_.born == 0)
       fill_whole(time - emitter_.start, births, has_room);
@@ -157,7 +157,7 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births, const Ha
     return static_cast<std::uint64_t>(
         std::min(births_until(emitter_, mass, time, waited), max_particles));
   };
-  const double pause = pause_after_birth(gravity);
+  const double pause = gravity ? pause_after_birth(*gravity) : 0;
   for (; state_.born < due(state_.waited); ++state_.born) {
     const double birth = emitter_.start + (static_cast<double>(state_.born) + 0.5) * period;
     // One that was waiting when the emitter closed is not born: its place would move on and on.
@@ -165,7 +165,7 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births, const Ha
     const double age = std::max(0.0, time - state_.waited - birth);
     // Where nothing carries the snow away, the shape is filled once.
     const bool is_full =
-        std::isinf(pause) && static_cast<double>(state_.born + 1) * volume_ > solid_.volume();
+        std::isinf(pause) && static_cast<double>(state_.born) * volume_ >= solid_.volume();
     const std::optional<Birth> born = is_full ? std::nullopt : next_birth(age, has_room);
     if (!born) {
       state_.waited = open_until(emitter_, time) - birth;

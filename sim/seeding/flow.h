@@ -106,10 +106,11 @@ class EmitterStream {
 
   /// Appends the births since the last call, up to and with `time`. A particle born between two
   /// steps has moved on since.
-  /// @param gravity  m/s2, now
+  /// @param gravity  m/s2, now, for the natural rate; absent: births come however fast they are
+  /// asked for
   void advance_to(double time, std::vector<Birth>& births,
                   const HasRoom& has_room = has_room_everywhere,
-                  const Vec3d& gravity = Vec3d::Zero());
+                  const std::optional<Vec3d>& gravity = std::nullopt);
 
   /// State needed to resume a run.
   struct State {
