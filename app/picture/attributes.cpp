@@ -34,9 +34,13 @@ sim::Material material_of(const scene::Scene& scene, const Snapshot& s, std::siz
                                       : s.particles.material_of(p, scene.materials);
 }
 
+double J(const Snapshot& s, std::size_t p) {
+  return J_E(s, p) * J_P(s, p);
+}
+
 /// Cauchy stress from Kirchhoff stress: sigma = tau / J.
 Mat3d sigma(const Snapshot& s, std::size_t p) {
-  return s.kirchhoff[p] / (J_E(s, p) * J_P(s, p));
+  return s.kirchhoff[p] / J(s, p);
 }
 
 double von_mises(const Mat3d& stress) {
@@ -52,7 +56,7 @@ double attribute(const scene::Scene& scene, scene::ColorBy color_by, const Snaps
     case scene::ColorBy::speed:
       return s.particles.v[p].norm();
     case scene::ColorBy::density:
-      return rho_0(scene, s, p) / (J_E(s, p) * J_P(s, p));
+      return rho_0(scene, s, p) / J(s, p);
     case scene::ColorBy::J_E:
       return J_E(s, p);
     case scene::ColorBy::J_P:
@@ -62,7 +66,8 @@ double attribute(const scene::Scene& scene, scene::ColorBy color_by, const Snaps
     case scene::ColorBy::von_mises:
       return von_mises(sigma(s, p));
     case scene::ColorBy::p0:
-      return sim::health::consolidation_pressure(material_of(scene, s, p), J_P(s, p));
+      // Laws yield in Kirchhoff stress; this one is seen beside the pressure.
+      return sim::health::consolidation_pressure(material_of(scene, s, p), J_P(s, p)) / J(s, p);
     case scene::ColorBy::yield:
       return s.particles.F_E.empty()
                  ? 0

@@ -34,7 +34,7 @@ laws::ElasticResponse elastic_response(const Material& material, const Mat3d& F_
 /// @param rho0 mass / initial volume, kg/m3
 double wave_speed(const Material& material, const Mat3d& F_E, double J_P, double rho0);
 
-/// Pressure that packs a material whose law has such a one, Pa; 0 for others.
+/// Pressure of Kirchhoff stress that packs a material whose law has such a one, Pa; 0 for others.
 double consolidation_pressure(const Material& material, double J_P);
 
 /// 1 where the material yields, below inside, 0 at rest in the middle, as its law measures it; 0

@@ -8,6 +8,7 @@
 #include "app/picture/attributes.h"
 #include "app/picture/frame_builder.h"
 #include "app/scene/read.h"
+#include "sim/health/diagnostics.h"
 
 namespace neve::app {
 namespace {
@@ -46,6 +47,25 @@ TEST_F(Attributes, AttributesAreThoseOfTheCurrentConfiguration) {
   EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::von_mises, s), 300);
   EXPECT_DOUBLE_EQ(value(app::scene::ColorBy::id, s), 0);
   EXPECT_TRUE(app::picture::attribute_values(scene, app::scene::ColorBy::snow, s).empty());
+}
+
+/// What p0 and pressure say of snow that yields to pressure alone is the same number.
+TEST_F(Attributes, PressureOfSnowThatPacksIsItsP0) {
+  scene = app::scene::read_scene_text(
+      "[[body]]\nshape = { sphere = { radius = 0.1 } }\n[material.snow]\nmodel = \"cam_clay\"\n",
+      "clay.toml");
+  const sim::Material& m = scene.materials[0];
+  app::picture::Snapshot s = squeezed();
+  s.particles.J_P = {0.5};
+  const double K = m.youngs_modulus / (3 * (1 - 2 * m.poisson_ratio)),
+               top = sim::health::consolidation_pressure(m, 0.5), J_E = std::sqrt(1 - 2 * top / K);
+  const sim::Mat3d F = std::cbrt(J_E) * sim::Mat3d::Identity();
+  s.particles.F_E = {F};
+  s.kirchhoff = {sim::health::first_piola(m, F, 0.5) * F.transpose()};
+  const double pressure = value(app::scene::ColorBy::pressure, s);
+  EXPECT_NEAR(value(app::scene::ColorBy::yield, s), 1, 1e-9);
+  EXPECT_NEAR(value(app::scene::ColorBy::p0, s), pressure, 1e-9 * pressure);
+  EXPECT_NEAR(pressure, top / (0.5 * J_E), 1e-9 * pressure);
 }
 
 TEST_F(Attributes, DensityIsThatOfTheMaterialBeforeVolumesAreKnown) {
