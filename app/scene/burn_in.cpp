@@ -39,9 +39,14 @@ Values values_of(const Scene& scene, const PictureWords& words) {
   return values;
 }
 
+struct Filled {
+  std::string text;
+  bool is_open = false;  ///< a brace opens that none closes
+};
+
 /// @param value_of  of what braces hold
 template <class ValueOf>
-std::string fill(const std::string& text, const ValueOf& value_of) {
+Filled fill(const std::string& text, const ValueOf& value_of) {
   std::string filled;
   for (std::size_t at = 0; at < text.size(); ++at) {
     const char c = text[at];
@@ -50,14 +55,15 @@ std::string fill(const std::string& text, const ValueOf& value_of) {
       filled += c;
       ++at;
     } else if (c == '{') {
-      const std::size_t end = std::min(text.find('}', at), text.size());
+      const std::size_t end = text.find('}', at);
+      if (end == std::string::npos) return {filled + text.substr(at), true};
       filled += value_of(text.substr(at + 1, end - at - 1));
       at = end;
     } else {
       filled += c;
     }
   }
-  return filled;
+  return {filled};
 }
 
 std::string no_time_code_text(const std::string& code, double fps) {
@@ -108,9 +114,9 @@ std::array<std::string, 6> burnt_in(const Scene& scene, const PictureWords& word
   const auto places = places_of(scene.burn_in);
   for (std::size_t k = 0; k < filled.size(); ++k)
     filled[k] = fill(*places[k].text, [&](const std::string& name) {
-      const auto found = values.find(name);
-      return found == values.end() ? std::string() : found->second;
-    });
+                  const auto found = values.find(name);
+                  return found == values.end() ? std::string() : found->second;
+                }).text;
   return filled;
 }
 
@@ -122,17 +128,22 @@ std::optional<Problem> shot_problem(const Scene& scene) {
   if (!has_burn_in(scene.burn_in)) return {};
   const Values values = values_of(scene, {});
   std::optional<Problem> found;
-  for (const Place& place : places_of(scene.burn_in))
-    fill(*place.text, [&](const std::string& name) {
+  for (const Place& place : places_of(scene.burn_in)) {
+    const std::string address = std::string("burn_in.") + place.key;
+    const Filled filled = fill(*place.text, [&](const std::string& name) {
       if (found || values.contains(name)) return std::string();
       std::vector<std::string> known;
-      for (const auto& [address, value] : values) known.push_back(address);
-      found = Problem{std::string("burn_in.") + place.key, "there is no value {" + name + "}",
+      for (const auto& [other, value] : values) known.push_back(other);
+      found = Problem{address, "there is no value {" + name + "}",
                       advice::suggest(name, {"", known},
                                       "expected frame, time, time_code, range, view, changes, or "
                                       "an address, as in {material.snow.hardening}")};
       return std::string();
     });
+    if (!found && filled.is_open)
+      found = Problem{address, "a brace has no end: " + toml::toml_string(*place.text),
+                      "expected a name between { and }, as in {frame}; a brace itself is {{"};
+  }
   return found;
 }
 

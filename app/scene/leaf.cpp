@@ -38,10 +38,12 @@ double bounded_number(const Leaf& leaf, const std::string& kind) {
   return x;
 }
 
-/// Bounds of integers stay below 2^53, so going through double loses nothing that is valid.
+/// Bounds of integers end at 2^53: what going through double rounds lies beyond them.
 double bounded_whole_number(const Leaf& leaf) {
   const double x = bounded_number(leaf, "a whole number");
   if (x != std::trunc(x)) leaf.fail("a whole number");
+  const auto* whole = std::get_if<std::int64_t>(&leaf.value.data);
+  if (whole && static_cast<std::int64_t>(x) != *whole) leaf.fail(leaf.valid.text_of_bounds());
   return x;
 }
 

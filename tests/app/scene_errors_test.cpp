@@ -92,6 +92,27 @@ TEST(SceneErrors, KeysOfTheTopSayThatTheyBelongThere) {
             "file, before the first [table]");
 }
 
+TEST(SceneErrors, WholeNumbersBeyondTheirBoundsAreNotRounded) {
+  // 2^53 + 1, which is 2^53 as a double.
+  for (const char* given : {"seed = 9007199254740993", "[limits]\nparticles = 9007199254740993"}) {
+    const std::string error = error_of(given);
+    EXPECT_NE(error.find("= 9007199254740993; expected"), std::string::npos) << error;
+    EXPECT_NE(error.find("<= 9007199254740992"), std::string::npos) << error;
+  }
+  const std::string largest = "seed = 9007199254740992\n" + with_ball("");
+  EXPECT_EQ(scene::read_scene_text(largest, "s.toml").seed, 9007199254740992u);
+}
+
+TEST(SceneErrors, NumbersBeyondDoublesAreTooLargeAndHaveNoUnit) {
+  for (const char* number : {"1e400", "-1e400", "+2.5e999"}) {
+    const std::string error = error_of(std::string("fps = ") + number);
+    EXPECT_NE(error.find("the number is too large"), std::string::npos) << error;
+    EXPECT_EQ(error.find("unit"), std::string::npos) << error;
+  }
+  const std::string unit = error_of("fps = 1e3m");
+  EXPECT_NE(unit.find("numbers have no unit"), std::string::npos) << unit;
+}
+
 /// A key that every form or keyframe spells in its own way: what is expected here, or its name
 /// here.
 TEST(SceneErrors, HintsStayInTheirTable) {

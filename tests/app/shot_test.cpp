@@ -96,6 +96,21 @@ TEST(BurnIn, TimesHaveTheDigitsThatTellFramesApart) {
   EXPECT_EQ(time("10000"), "0.0003 s");
 }
 
+TEST(BurnIn, RefusesABraceWithoutItsEnd) {
+  for (const std::string text : {"{frame", "{", "{frame} {{view}} {time"}) {
+    try {
+      scene_of("[burn_in]\ntop = \"" + text + "\"\n");
+      FAIL() << "not refused: " << text;
+    } catch (const app::scene::toml::SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("a brace has no end: \"" + text + "\""),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  const auto scene = scene_of("[burn_in]\ntop = \"a}b {frame}} {{frame}}\"\n");
+  EXPECT_EQ(app::scene::burnt_in(scene, {})[1], "a}b 0000} {frame}");
+}
+
 TEST(BurnIn, RefusesWhatNamesNothing) {
   try {
     scene_of("[burn_in]\ntop = \"{material.snow.hardning}\"\n");

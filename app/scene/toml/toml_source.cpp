@@ -1,6 +1,7 @@
 #include "app/scene/toml/toml_source.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_text.h"
@@ -94,6 +95,14 @@ bool has_decimal_comma(std::string_view value) {
          is_digit(value[comma - 1]) && is_digit(value[comma + 1]);
 }
 
+/// "1e400"
+bool is_beyond_doubles(std::string_view value) {
+  double number = 0;
+  if (value.starts_with('+')) value.remove_prefix(1);
+  return std::from_chars(value.data(), value.data() + value.size(), number).ec ==
+         std::errc::result_out_of_range;
+}
+
 /// "0.04 m", "4cm"
 bool has_unit(std::string_view value) {
   const std::size_t end = value.find_first_not_of("+-.0123456789 ");
@@ -136,6 +145,8 @@ std::string advice_on(std::string_view text, int line) {
   if (value.empty() || value[0] == '#') return "a value follows the =";
   if (has_quotient(value)) return "nothing is computed in a value: write the number, as in 0.04";
   if (has_decimal_comma(value)) return "decimals have a point, as in 0.04";
+  if (is_beyond_doubles(value))
+    return "the number is too large: those of double precision end at 1.8e308";
   if (has_unit(value)) return "numbers have no unit: they are in metres, kilograms and seconds";
   if (value.find('\\') != value.npos) return "in paths write / between folders, or \\\\";
   if (value.back() == ';') return "lines end without ;";
