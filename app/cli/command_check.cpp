@@ -148,8 +148,12 @@ void print_check(const health::Check& check, const run::RenderJob& job,
   std::cout << "scene      " << job.scene_file << scene::coarsened_words(job.scene, job.coarsening)
             << "\n"
             << "particles  " << fixed_text(check.plan.particles, 0) << " in "
-            << fixed_text(check.cells, 0) << " cells of " << scene::toml::number_text(h) << " m, "
-            << fixed_text(check.plan.particles / std::max(check.cells, 1e-9), 1) << " per cell\n"
+            << (check.cells < 1 ? "less than a cell" : fixed_text(check.cells, 0) + " cells")
+            << " of " << scene::toml::number_text(h) << " m"
+            << (check.cells < 1
+                    ? ""
+                    : ", " + fixed_text(check.plan.particles / check.cells, 1) + " per cell")
+            << "\n"
             << "memory     about " << bytes_text(check.plan.memory) << " of "
             << bytes_text(check.plan.memory_limit) << " allowed\n";
   print_limits(check);

@@ -12,6 +12,11 @@ int run_strip_command(const run::StripOptions& options) {
   setup::check_limits(job.run.scene, plan, job.run.coarsening);
   catch_interrupts();
   Progress progress(options.run.verbosity, options.run.progress);
+  if (scene::background_of(job.run.scene, job.run.scene.views.front()) ==
+      scene::Background::transparent)
+    progress.warning(
+        "output.background: a strip is opaque, and draws its tiles over the gradient; the pictures "
+        "of neve render are transparent");
   const run::StripResult result = run::run_strip(job, options.run, progress);
   const std::string file = job.file.string();
   if (options.run.is_json) {

@@ -154,7 +154,11 @@ Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, d
   check_unused(given, coarsening, check.findings);
   check_idle(given, set, check.findings);
   check_dust(scene, check.impact_speed, check.findings);
-  if (plan.particles <= max_seeded && plan.memory <= plan.memory_limit) {
+  // A check draws nothing.
+  const double memory = static_cast<double>(plan.memory) - plan.pictures,
+               excess = std::max(plan.particles / max_seeded,
+                                 memory / static_cast<double>(plan.memory_limit));
+  if (excess <= 1) {
     const setup::SeededScene seeded = setup::seed_scene(scene);
     const sim::ParticleArrays& particles = seeded.particles;
     check.plan.particles = static_cast<double>(particles.x.size()) + plan.emitted;
@@ -177,10 +181,9 @@ Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, d
     check.findings.push_back(
         {Severity::note, "",
          "too large for a check of its particles: overlaps, dt and time per step are not known",
-         is_too_large(scene)
-             ? "lengths in metres make it smaller"
-             : "try neve check with --coarsen " +
-                   fixed_text(std::ceil(std::cbrt(plan.particles / max_seeded)), 0)});
+         is_too_large(scene) ? "lengths in metres make it smaller"
+                             : "try neve check with --coarsen " +
+                                   fixed_text(std::ceil(coarsening * std::cbrt(excess)), 0)});
   }
   check.foreseen =
       forecast::foresee(scene, check.plan.particles, scene::last_frame(scene), coarse_budget);

@@ -93,6 +93,20 @@ void check_slices(const scene::Scene& scene, std::vector<Finding>& findings) {
                        view.name)});
 }
 
+/// A mosaic has words and gaps between its tiles: it is for the eye, and not for compositing.
+void note_mosaics(const scene::Scene& scene, std::vector<Finding>& findings) {
+  for (const scene::Mosaic& mosaic : scene.mosaics)
+    for (const scene::View& view : scene.views)
+      if (std::ranges::find(mosaic.views, view.name) != mosaic.views.end() &&
+          scene::background_of(scene, view) == scene::Background::transparent) {
+        findings.push_back(
+            {Severity::note, "mosaic." + mosaic.name,
+             fmt::format("is opaque, and draws view {} over the gradient", view.name),
+             fmt::format("--view {} draws it over a transparent background", view.name)});
+        break;
+      }
+}
+
 /// Views of nothing: layers without snow, and slices that lie beside it from beginning to end.
 void check_snow_in_views(const scene::Scene& scene, std::vector<Finding>& findings) {
   using scene::Layer;
@@ -409,6 +423,7 @@ void check_unused(const scene::Scene& scene, double coarsening, std::vector<Find
                           findings);
   check_curves(scene, coarsening, findings);
   check_slices(scene, findings);
+  note_mosaics(scene, findings);
   check_snow_in_views(scene, findings);
   check_switched_off(scene, coarsening, findings);
 }

@@ -164,7 +164,7 @@ std::string picture_advice(const scene::Scene& scene) {
                                         " pictures a frame take most of it: draw some of them with "
                                         "--view, or smaller ones"
                                   : "its pictures take most of it: draw smaller ones") +
-         std::string(" with --size");
+         std::string(" with output.size, or --size of neve render");
 }
 
 void check_memory(const scene::Scene& scene, const Plan& plan, double coarsening) {

@@ -42,6 +42,36 @@ TEST_F(Check, AHealthySceneHasNoWarning) {
   EXPECT_EQ(findings(scene("", floor_plane)), Findings{});
 }
 
+/// A check draws nothing, so that only the run has no memory for the pictures.
+TEST_F(Check, ASceneWhosePicturesAreTooLargeIsCheckedAndToldTheirSize) {
+  folder.write("scene.toml", scene("", std::string(floor_plane) + "[limits]\nmemory = \"50MB\"\n"));
+  const auto refused = neve({"check", "scene.toml"});
+  EXPECT_EQ(refused.exit_code, 8) << refused.errors;
+  EXPECT_TRUE(contains(refused.output, "first step")) << refused.output;
+  EXPECT_FALSE(contains(refused.output, "too large for a check")) << refused.output;
+  EXPECT_TRUE(contains(refused.errors, "draw smaller ones with output.size")) << refused.errors;
+  EXPECT_EQ(neve({"check", "scene.toml", "--set", "output.size=[320, 180]"}).exit_code, 0);
+  const auto snow = neve({"check", "scene.toml", "--set", "limits.memory=1MB"});
+  EXPECT_TRUE(contains(snow.output, "try neve check with --coarsen 2")) << snow.output;
+}
+
+TEST_F(Check, SnowInLessThanACellHasNoNumberPerCell) {
+  folder.write("scene.toml", scene("", floor_plane));
+  const auto done = neve({"check", "scene.toml", "--set", "solver.cell_size=60"});
+  EXPECT_TRUE(contains(done.output, "in less than a cell of 60 m\n")) << done.output;
+}
+
+TEST_F(Check, AMosaicOfTransparentViewsIsOpaque) {
+  folder.write("scene.toml",
+               scene("", std::string(floor_plane) + "[[view]]\nname = \"a\"\n"
+                                                    "[[mosaic]]\nname = \"m\"\nviews = [\"a\"]\n"
+                                                    "[output]\nbackground = \"transparent\"\n"));
+  const auto done = neve({"check", "scene.toml"});
+  EXPECT_TRUE(contains(done.output, "note: mosaic.m: is opaque")) << done.output;
+  EXPECT_FALSE(contains(neve({"check", "scene.toml", "--set", "output.background=gradient"}).output,
+                        "mosaic.m"));
+}
+
 /// A cube from `low` of edge 0.1 in an OBJ of several.
 std::string cube_text(double low, double edge = 0.1, bool is_inward = false) {
   std::string text;

@@ -193,6 +193,14 @@ slice = { motion = [0, 0, 0.4] }
   EXPECT_GT(light_in(moving, 10, 430), 10) << "z = 0.08 m";
 }
 
+TEST_F(Strip, IsOpaqueAndSaysSo) {
+  const auto done = neve({"strip", "fall.toml", "--at", "0.1", "--width", "320", "--out", "s.png",
+                          "--set", "output.background=transparent"});
+  EXPECT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_EQ(picture("s.png").channels, 3);
+  EXPECT_TRUE(contains(done.errors, "output.background: a strip is opaque")) << done.errors;
+}
+
 TEST_F(Strip, BurnInsSayWhatWasChanged) {
   const auto drawn = [&](const std::string& more) {
     folder.write("burnt.toml", "title = \"Burnt\"\n" + more + (falling + 16));
