@@ -74,14 +74,15 @@ int run_params(const ParamsOptions& options) {
       options.is_sweep ? sweep::read::sweep_params() : scene::params();
   const std::string nearest = nearest_filter(options.filter, list);
   const scene::Search search(options.filter);
-  std::erase_if(
-      list, [&](const scene::ParamInfo& info) { return !search.finds(info.address, info.help); });
+  std::erase_if(list, [&](const scene::ParamInfo& info) {
+    return !search.finds(info.address, info.help) && info.unit != options.filter;
+  });
   const std::string sentence = list.empty() ? advice_on_sentence(options.filter) : "";
   if (list.empty() && !sentence.empty())
     throw UsageError("params", "no parameter is called \"" + options.filter + "\"", sentence);
   if (list.empty())
-    fail_unfound("no parameter has this in its address or description:", options.filter, nearest,
-                 "neve params lists all of them");
+    fail_unfound("no parameter has this in its address or description, or as its unit:",
+                 options.filter, nearest, "neve params lists all of them");
   // Parameters with the word in their name come before parameters that only mention it.
   std::stable_partition(list.begin(), list.end(),
                         [&](const scene::ParamInfo& info) { return search.names(info.address); });

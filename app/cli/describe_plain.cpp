@@ -90,9 +90,10 @@ void describe_help(Command& visit, PlainOptions& o) {
 void describe_params(Command& visit, ParamsOptions& o) {
   visit.about("params", "List or search parameters: address, unit, range, default");
   visit.other_place = "";
-  visit("WORD", o.filter, options::text(""),
-        "List only parameters whose address or description has this word, or that an everyday word "
-        "means, as in camera, \"time step\", sticky");
+  visit(
+      "WORD", o.filter, options::text(""),
+      "List only parameters whose address or description has this word, whose unit it is, or that "
+      "an everyday word means, as in camera, \"time step\", Pa, sticky");
   visit("--wishes", o.is_wishes,
         "Print the table from wishes (stickier, heavier, ...) to parameters");
   visit("--markdown", o.is_markdown, "With --wishes, print it as in docs/wishes.md")

@@ -83,25 +83,43 @@ void write_pages(const Entry& entry, const std::filesystem::path& folder) {
   for (const Entry& part : entry.parts) write_pages(part, folder);
 }
 
+/// A line of bash for the flags of a command, and those of them that a value follows.
+std::string bash_flags(const options::Command& command, const std::string& parts) {
+  std::string with_value;
+  for (const options::Option& option : command.options)
+    if (!option.is_argument() && option.needs_value())
+      with_value += " " + joined(option.names, " ");
+  return "flags=\"" + joined(command.flags(), " ") + parts + "\" with_value=\"" + with_value +
+         " \" ;;\n";
+}
+
 /// Commands and flags for a shell; files complete everything else.
 std::string bash_completion(const Entry& program) {
   std::string text =
       "# Completion of neve for bash.\n_neve() {\n"
-      "  local word=${COMP_WORDS[COMP_CWORD]} flags=\n  COMPREPLY=()\n"
+      "  local word=${COMP_WORDS[COMP_CWORD]} part= flags= with_value=\n  COMPREPLY=()\n"
       "  local commands=\"" +
       joined(program.part_names(), " ") +
       "\"\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W \"$commands " +
       joined(program.command.flags(), " ") +
-      "\" -- \"$word\"))\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n    help) "
+      "\" -- \"$word\"))\n    return\n  fi\n"
+      "  [ \"$COMP_CWORD\" -eq 2 ] || part=${COMP_WORDS[2]}\n  case ${COMP_WORDS[1]} in\n    help) "
       "COMPREPLY=($(compgen -W \"$commands\" -- \"$word\")); return ;;\n";
   for (const Entry& entry : program.parts) {
-    std::string words = joined(entry.command.flags(), " ");
+    std::string parts;
+    for (const std::string& name : entry.part_names()) parts += " " + name;
+    if (parts.empty()) {
+      text += "    " + entry.name() + ") " + bash_flags(entry.command, "");
+      continue;
+    }
+    text += "    " + entry.name() + ") case $part in\n";
     for (const Entry& part : entry.parts)
-      words += " " + part.name() + " " + joined(part.command.flags(), " ");
-    text += "    " + entry.name() + ") flags=\"" + words + "\" ;;\n";
+      text += "      " + part.name() + ") " + bash_flags(part.command, "");
+    text += "      *) " + bash_flags(entry.command, parts) + "    esac ;;\n";
   }
   return text +
-         "  esac\n  COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
+         "  esac\n  [[ $with_value == *\" ${COMP_WORDS[COMP_CWORD-1]} \"* ]] && flags=\n"
+         "  COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
          "  local IFS=$'\\n'  # names of files may have blanks\n"
          "  case $word in\n    -*) ;;\n    # a part may have the name of a folder\n"
          "    *) [ ${#COMPREPLY[@]} -gt 0 ] || compopt -o filenames 2>/dev/null; "

@@ -37,6 +37,17 @@ std::string from_table(const std::string& word, const std::vector<std::string>& 
   return {};
 }
 
+/// "--flag" of "--flag=VALUE"; "-size" where --size is meant, else the first letter that is no
+/// flag.
+std::string unknown_flag(const options::Command& command, const std::string& word) {
+  std::string flag = word.substr(0, word.find('='));
+  if (word.starts_with("--") || command.find("-" + flag)) return flag;
+  const auto letter = std::find_if(word.begin() + 1, word.end(), [&](char c) {
+    return !command.find({'-', c});
+  });
+  return letter == word.end() ? flag : std::string{'-', *letter};
+}
+
 /// The only flag that begins so.
 std::string longer_flag(const std::string& word, const std::vector<std::string>& flags) {
   std::vector<std::string> longer;
@@ -50,6 +61,7 @@ std::string longer_flag(const std::string& word, const std::vector<std::string>&
 /// @param flags  of the command
 std::string flag_advice(const std::string& word, const std::vector<std::string>& flags,
                         const std::string& otherwise) {
+  if (has_flag(flags, "-" + word)) return advice::did_you_mean("-" + word);
   if (std::string known = from_table(word, flags); !known.empty()) return known;
   if (word.starts_with("--")) {
     std::string name = word.substr(2);
@@ -125,9 +137,11 @@ void refuse_leftover(const Entry& entry, const std::string& word) {
   const std::vector<std::string> flags = entry.command.flags();
   const std::string help = entry.command.full_name() + " --help lists its arguments";
   if (word.starts_with("-")) {
-    const std::string flag =
-        word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
-    throw UsageError("", "unknown option " + flag, flag_advice(flag, flags, help));
+    const std::string flag = unknown_flag(entry.command, word);
+    std::error_code error;
+    throw UsageError("", "unknown option " + flag,
+                     std::filesystem::exists(word, error) ? "the file of this name is ./" + word
+                                                          : flag_advice(flag, flags, help));
   }
   std::string hint = entry.command.advice_for(word);
   if (hint.empty()) hint = stray_word_advice(word, flags);

@@ -36,8 +36,7 @@ class Parser {
       if (!option.is_argument() || (option.is_given() && !option.is_repeatable)) continue;
       // "$SCENE" of a shell in which SCENE is not set must not mean the default.
       if (word.empty())
-        throw UsageError(option.name(), "the name is empty",
-                         "expected a file or folder; is a variable of the shell not set?");
+        throw UsageError(option.name(), "is empty", "is a variable of the shell not set?");
       return option.given.push_back(word);
     }
     leftovers_.push_back(word);
@@ -58,7 +57,7 @@ class Parser {
   void take_letters(const std::string& word) {
     for (std::size_t k = 1; k < word.size(); ++k) {
       Option* option = command_.find({'-', word[k]});
-      if (!option) return leftovers_.push_back(k == 1 ? word : std::string{'-', word[k]});
+      if (!option) return leftovers_.push_back(word);
       if (!option->is_flag && k + 1 < word.size())
         return option->given.push_back(word.substr(k + (word[k + 1] == '=' ? 2 : 1)));
       take_value(*option);

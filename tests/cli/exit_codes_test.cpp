@@ -66,6 +66,29 @@ TEST_F(Cli, ParamsAreFoundByAPartOfTheirAddress) {
   EXPECT_TRUE(contains(none.errors, "did you mean hardening?")) << none.errors;
 }
 
+TEST_F(Cli, ParamsAreFoundByTheirUnit) {
+  const auto found = neve({"params", "Pa"});
+  EXPECT_EQ(found.exit_code, 0) << found.errors;
+  EXPECT_TRUE(contains(found.output, "material.NAME.youngs_modulus")) << found.output;
+  EXPECT_FALSE(contains(found.output, "solver.cell_size")) << found.output;
+  EXPECT_EQ(neve({"params", "kg"}).exit_code, 0);
+}
+
+TEST_F(Cli, AFlagWithOneDashIsNamedWhole) {
+  // -q is a flag, and -s is none.
+  for (const std::string flag : {"-size", "-quality"}) {
+    const auto refused = neve({"render", "scene.toml", flag, "64x64"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_TRUE(contains(refused.errors, "unknown option " + flag + "; did you mean -" + flag))
+        << refused.errors;
+  }
+  EXPECT_TRUE(contains(neve({"render", "scene.toml", "-qx"}).errors, "unknown option -x"));
+  // A frame before the first of the shot.
+  folder.write("-001.png", "");
+  const auto file = neve({"info", "-001.png"});
+  EXPECT_TRUE(contains(file.errors, "the file of this name is ./-001.png")) << file.errors;
+}
+
 TEST_F(Cli, NamesOfSubcommandsAreArgumentsOfOthers) {
   const auto params = neve({"params", "view"});
   EXPECT_EQ(params.exit_code, 0) << params.errors;

@@ -82,6 +82,10 @@ TEST_F(Install, BashCompletesCommandsFlagsAndFiles) {
   EXPECT_EQ(completed("neve check sce", 2), "scene.toml\n");
   EXPECT_EQ(completed("neve --vers", 1), "--version\n");
   EXPECT_EQ(completed("neve help ren", 2), "render\n");
+  // A value is no flag, and a part has its own.
+  EXPECT_EQ(completed("neve render scene.toml --view ''", 4), "m scene.toml\n");
+  EXPECT_EQ(completed("neve sweep run --ind", 3), "--index\n");
+  EXPECT_EQ(completed("neve sweep --ind", 2), "\n");
   // A folder of the same name does not make it one: no slash follows.
   std::filesystem::create_directory(folder / "sim");
   EXPECT_FALSE(contains(read_text(folder / "m/bash/neve"), "complete -o filenames"));

@@ -170,7 +170,12 @@ TEST_F(Surroundings, AFolderThatCannotBeWrittenNamesTheWayThatTheCommandHas) {
 TEST_F(Surroundings, AnEmptyNameIsNotTheExample) {
   const auto answer = shell("\"$0\" render \"$UNSET\" --dry-run");
   EXPECT_EQ(answer.exit_code, 2) << answer.output;
-  EXPECT_TRUE(contains(answer.errors, "the name is empty")) << answer.errors;
+  EXPECT_TRUE(contains(answer.errors, "SCENE: is empty; is a variable of the shell not set?"))
+      << answer.errors;
+  // A word is no file.
+  const auto word = shell("\"$0\" params \"$UNSET\"");
+  EXPECT_TRUE(contains(word.errors, "WORD: is empty") && !contains(word.errors, "file"))
+      << word.errors;
 }
 
 TEST_F(Surroundings, PointsThatAreDrawnTwiceAreCounted) {
