@@ -23,19 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The view with what it takes from its scene as its own.
-scene::View with_settings_of(const scene::Scene& scene, scene::View view) {
-  view.size = setup::size_of(scene, view);
-  if (!view.camera) view.camera = scene.camera;
-  view.background = scene::background_of(scene, view);
-  return view;
-}
-
-scene::Mosaic with_settings_of(const scene::Scene& scene, scene::Mosaic mosaic) {
-  if (!mosaic.width) mosaic.width = scene.size.width;
-  return mosaic;
-}
-
 /// The scene without its views and what they can have of their own.
 scene::Scene without_views(scene::Scene scene) {
   const scene::Scene plain;

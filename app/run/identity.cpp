@@ -11,6 +11,8 @@
 #include "app/record/picture_files.h"
 #include "app/run/resume.h"
 #include "app/scene/read.h"
+#include "app/setup/plan.h"
+#include "app/setup/resolve.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
@@ -23,7 +25,31 @@ std::string value_or_none(const std::optional<scene::toml::Value>& value) {
   return value ? scene::toml::toml_literal(*value, 60) : "none";
 }
 
+/// With all that its views take from it as their own, and without the cameras that neve found for
+/// them: these follow from something else, the size say.
+scene::Scene comparable(scene::Scene scene) {
+  setup::reopen_cameras(scene);
+  for (scene::View& view : scene.views) view = with_settings_of(scene, view);
+  const scene::Scene plain;
+  scene.camera = plain.camera;
+  scene.size = plain.size;
+  scene.background = plain.background;
+  return scene;
+}
+
 }  // namespace
+
+scene::View with_settings_of(const scene::Scene& scene, scene::View view) {
+  view.size = setup::size_of(scene, view);
+  if (!view.camera) view.camera = scene.camera;
+  view.background = scene::background_of(scene, view);
+  return view;
+}
+
+scene::Mosaic with_settings_of(const scene::Scene& scene, scene::Mosaic mosaic) {
+  if (!mosaic.width) mosaic.width = scene.size.width;
+  return mosaic;
+}
 
 std::string simulation_text(const scene::Scene& scene) {
   // All of it but what only pictures, exports and the length of a run read.
@@ -81,7 +107,7 @@ std::string difference_from_run(const std::filesystem::path& folder,
     const scene::Scene before =
         scene::read_scene_text(run.at("scene").get<std::string>(), "run.json");
     const scene::Scene after = scene::read_scene_text(picture.scene, "the scene");
-    std::vector<scene::Difference> list = scene::differences(before, after);
+    std::vector<scene::Difference> list = scene::differences(comparable(before), comparable(after));
     // A command may draw some of the views that the folder has.
     std::erase_if(list, [&](const scene::Difference& d) {
       return of_simulation ? !scene::concerns_simulation(d.address)

@@ -10,6 +10,10 @@
 
 namespace neve::app::run {
 
+/// The view with what it takes from its scene as its own: size, camera and background.
+scene::View with_settings_of(const scene::Scene& scene, scene::View view);
+scene::Mosaic with_settings_of(const scene::Scene& scene, scene::Mosaic mosaic);
+
 /// The parts of a scene that states depend on, as text: all of it but its views, cameras, colours
 /// and light, its exports, and its length.
 std::string simulation_text(const scene::Scene& scene);

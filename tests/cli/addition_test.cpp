@@ -172,6 +172,18 @@ TEST_F(Addition, ViewsInOtherSizesAreKnownAgain) {
   expect_whole("a");
 }
 
+/// The camera is that of the size: nobody has changed it.
+TEST_F(Addition, AnotherSizeIsNamedAndNotTheCameraThatIsFoundForIt) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  render({"a", "--view", "smoke", "--size", "96x96", "--no-movie"});
+  for (const char* view : {"smoke", "particles"}) {
+    const auto refused = render({"a", "--view", view, "--size", "64x64", "--no-movie"}, 2);
+    EXPECT_TRUE(contains(refused.errors, "size was [")) << refused.errors;
+    EXPECT_TRUE(contains(refused.errors, "and is [64, 64]")) << refused.errors;
+    EXPECT_FALSE(contains(refused.errors, "camera")) << refused.errors;
+  }
+}
+
 TEST_F(Addition, AllThatWouldBeReplacedIsNamed) {
   folder.write("scene.toml", std::string(tiny_scene) + "\n[[export]]\nformat = \"csv\"\n");
   render({"scene.toml", "--out", "a", "--no-movie", "--passes", "depth"});
