@@ -52,7 +52,8 @@ TEST_F(Attributes, AttributesAreThoseOfTheCurrentConfiguration) {
 /// What p0 and pressure say of snow that yields to pressure alone is the same number.
 TEST_F(Attributes, PressureOfSnowThatPacksIsItsP0) {
   scene = app::scene::read_scene_text(
-      "[[body]]\nshape = { sphere = { radius = 0.1 } }\n[material.snow]\nmodel = \"cam_clay\"\n",
+      "[[body]]\nshape = { sphere = { radius = 0.1 } }\n[material.snow]\nmodel = \"cam_clay\"\n"
+      "youngs_modulus = 2e5\nconsolidation_pressure = 2000\nconsolidation_hardening = 0.2\n",
       "clay.toml");
   const sim::Material& m = scene.materials[0];
   app::picture::Snapshot s = squeezed();

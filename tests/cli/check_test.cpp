@@ -52,7 +52,7 @@ TEST_F(Check, ASceneWhosePicturesAreTooLargeIsCheckedAndToldTheirSize) {
   EXPECT_TRUE(contains(refused.errors, "draw smaller ones with output.size")) << refused.errors;
   EXPECT_EQ(neve({"check", "scene.toml", "--set", "output.size=[320, 180]"}).exit_code, 0);
   const auto snow = neve({"check", "scene.toml", "--set", "limits.memory=1MB"});
-  EXPECT_TRUE(contains(snow.output, "try neve check with --coarsen 2")) << snow.output;
+  EXPECT_TRUE(contains(snow.output, "try neve check with --coarsen ")) << snow.output;
 }
 
 TEST_F(Check, SnowInLessThanACellHasNoNumberPerCell) {
