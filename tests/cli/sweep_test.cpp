@@ -282,6 +282,19 @@ TEST_F(SweepCli, RunsThatAreTheSameAreNamed) {
       << result.errors;
 }
 
+/// The runs have "1.10", "1.1" and "007", and so have the table and the manifest.
+TEST_F(SweepCli, TextsThatLookLikeNumbersAreNoNumbers) {
+  const auto result =
+      neve({"sweep", "scene.toml", "-p", "shot.version=1.10,1.1,007", "--frames", "0"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_FALSE(contains(result.errors, "twice")) << result.errors;
+  const std::string table = read_text(folder / "out/scene.cdb/data.csv");
+  for (const char* version : {",'1.10',", ",'1.1',", ",'007',"})
+    EXPECT_TRUE(contains(table, version)) << version << " in " << table;
+  EXPECT_EQ(json_of("out/scene.cdb/manifest.json")["axes"][0]["values"],
+            (app::Json{"1.10", "1.1", "007"}));
+}
+
 TEST_F(SweepCli, AnotherSweepDoesNotReplaceTheFirst) {
   const auto first = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0"});
   ASSERT_EQ(first.exit_code, 0) << first.errors;

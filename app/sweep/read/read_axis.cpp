@@ -116,6 +116,14 @@ std::vector<scene::toml::Value> values_of(const AxisRule& spec, const std::strin
   return spec.logspace ? spaced(*spec.logspace, spec.num, true) : std::vector<scene::toml::Value>{};
 }
 
+/// A text that looks like a number is that text wherever it is shown or compared: 1.10 is not 1.1.
+void quote_number(scene::Override& setting) {
+  const std::optional<scene::ParamInfo> info = scene::param_at(setting.address);
+  const std::string text = trimmed(setting.value);
+  if (info && info->type == "string" && number_of(text))
+    setting.value = scene::toml::toml_string(text);
+}
+
 scene::Override override_of(const scene::Source& source, const scene::toml::Entry& entry,
                             const scene::toml::Value& value) {
   scene::Override setting;
@@ -124,6 +132,7 @@ scene::Override override_of(const scene::Source& source, const scene::toml::Entr
   setting.file = source.file;
   setting.key = entry.where;
   setting.place = value.where.line > 0 ? value.where : entry.value.where;
+  quote_number(setting);
   return setting;
 }
 
@@ -301,6 +310,7 @@ Axis::Parameter parse_axis(const std::string& argument) {
       throw UsageError(what, "a value is missing", "expected values with commas, as in 5,10,20");
     scene::Override setting = change;
     setting.value = piece;
+    quote_number(setting);
     parameter.values.push_back(setting);
   }
   return parameter;
