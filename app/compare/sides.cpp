@@ -23,6 +23,12 @@ Side read_side(const std::string& path, bool is_agreed) {
   options.scene = path;
   options.is_agreed = is_agreed;
   Side side{run::make_job(options)};
+  if (side.job.picture && side.job.picture->strip)
+    throw UsageError(path,
+                     "is a strip of " +
+                         count_text(side.job.picture->strip->times.size(), "moment") +
+                         ", which may lie between frames",
+                     "compare runs, or pictures of one frame");
   if (side.job.run.empty()) return side;
   const std::vector<record::FrameRecord>& frames = side.job.run_frames;
   if (frames.empty())
@@ -113,8 +119,35 @@ std::string count_text(std::size_t a, std::size_t b, const std::string& body) {
 
 UsageError no_same_snow(const std::string& why) {
   return {"--mode displacement", "no particle of A is the same piece of snow as one of B: " + why,
-          "compare runs of one seed, cell size and emitter that always has room, or use --mode "
-          "beside, wipe or metrics"};
+          "compare runs that place their snow alike, with one seed, cell size and sampling, and an "
+          "emitter that always has room, or use --mode beside, wipe or metrics"};
+}
+
+/// The parameters that place the particles of a body, of those in which the runs differ.
+std::string placing(const Pair& pair, const std::string& body) {
+  std::vector<std::string> placing;
+  for (const std::string& address : pair.differing)
+    for (const std::string& start :
+         {"body." + body + ".shape", "body." + body + ".particles_per_cell",
+          "body." + body + ".sampling", std::string("solver.cell_size")})
+      if (address.starts_with(start)) placing.push_back(address);
+  return placing.empty()
+             ? ""
+             : ": " + joined(placing, ", ") + (placing.size() == 1 ? " differs" : " differ");
+}
+
+/// Bodies number their particles in the order in which their places were drawn or read.
+std::string place_problem(const Pair& pair, const setup::SeededScene& a,
+                          const setup::SeededScene& b, std::size_t body) {
+  const std::vector<sim::Vec3d> in_a = setup::own_places(pair.a.job.scene, a, body),
+                                in_b = setup::own_places(pair.b.job.scene, b, body);
+  const double rounding = 1e-6 * a.spacing;
+  if (std::ranges::equal(in_a, in_b, [&](const sim::Vec3d& x, const sim::Vec3d& y) {
+        return (x - y).norm() <= rounding;
+      }))
+    return "";
+  const std::string& name = pair.a.job.scene.bodies[body].name;
+  return fmt::format("body {} begins with particles in other places{}", name, placing(pair, name));
 }
 
 /// s, from birth to birth: infinite where the whole shape is filled at once.
@@ -180,7 +213,8 @@ std::optional<UsageError> id_problem(const Pair& pair, const setup::SeededScene&
   for (std::size_t k = 0; why.empty() && k < a.body_end.size(); ++k) {
     const std::size_t in_a = a.body_end[k] - a.body_begin(k),
                       in_b = b.body_end[k] - b.body_begin(k);
-    if (in_a != in_b) why = count_text(in_a, in_b, scene_a.bodies[k].name);
+    why = in_a != in_b ? count_text(in_a, in_b, scene_a.bodies[k].name)
+                       : place_problem(pair, a, b, k);
   }
   if (why.empty()) why = emitter_problem(scene_a, scene_b);
   if (why.empty()) return std::nullopt;

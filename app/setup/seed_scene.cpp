@@ -131,6 +131,18 @@ void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArra
   append_history(seeded, body.J_P, particles);
 }
 
+std::vector<sim::Vec3d> own_places(const scene::Scene& scene, const SeededScene& seeded,
+                                   std::size_t body) {
+  const sim::shapes::Shape& shape = scene.bodies[body].shape;
+  const sim::Mat3d to_own =
+      (sim::rotation_from_degrees(shape.rotation) * sim::shapes::form_axes(shape)).transpose();
+  const sim::Vec3d center = sim::shapes::center(shape);
+  std::vector<sim::Vec3d> places;
+  for (std::size_t p = seeded.body_begin(body); p < seeded.body_end[body]; ++p)
+    places.push_back(to_own * (seeded.particles.x[p] - center));
+  return places;
+}
+
 sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,
                                 int threads) {
   return sim::Simulation(scene.solver, scene.materials, scene::sim_colliders(scene), particles,

@@ -21,6 +21,11 @@ struct SeededScene {
 /// @throws sim::ShapeError
 SeededScene seed_scene(const scene::Scene& scene);
 
+/// Places of the particles of a body, m, in the axes of its shape and from its centre: the same for
+/// a body that was moved or turned. @param body  its index
+std::vector<sim::Vec3d> own_places(const scene::Scene& scene, const SeededScene& seeded,
+                                   std::size_t body);
+
 /// Appends one body. @param index in the scene: the key of its random numbers
 void append_body(const scene::Scene& scene, std::size_t index, sim::ParticleArrays& particles);
 

@@ -1,5 +1,7 @@
 /// Two runs against each other as pictures, movies and numbers.
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "app/compare/series.h"
@@ -277,6 +279,8 @@ TEST_F(Compare, RunsThatCannotBeComparedAreRefusedWithTheReason) {
   refused("late", "early", {"--out", "x.png"},
           "they have no frame in common, at 0.167 to 0.167 s and at 0.0417 to 0.0417 s");
   refused("a", "a/particles", {"--out", "x.png"}, "is not the folder of a run");
+  ASSERT_EQ(neve({"strip", "a", "--at", "0.1", "--out", "strip.png"}).exit_code, 0);
+  refused("strip.png", "a/particles/0004.png", {"--out", "x.png"}, "is a strip of 1 moment");
   refused("a", "a", {"--out", "a"}, "a is the folder of a run");
   refused("a", "a", {"--mode", "wipe"}, "needs pictures");
   refused("a", "a", {"--out", "x.png", "--mode", "wip"}, "did you mean wipe?");
@@ -392,6 +396,53 @@ TEST_F(Compare, BirthsAreTheSameSnowOnlyWhereTheirOrderSaysSo) {
   // In the floor: its snow cannot leave.
   expect_refused(emitter("left", "-0.5", "0.02"), "solver.max_dt=2e-4",
                  "snow was in the way of emitter.left");
+}
+
+/// Ids are the order in which places were drawn or read: as many particles are not yet the same
+/// snow.
+TEST_F(Compare, BodiesAreTheSameSnowOnlyWhereTheirParticlesHaveTheSamePlaces) {
+  const auto refused = [&](const char* b, const char* why) {
+    const auto done = compare("a", b, {"--out", "x.png", "--mode", "displacement"});
+    EXPECT_EQ(done.exit_code, 2) << b;
+    EXPECT_TRUE(contains(done.errors, why)) << done.errors;
+  };
+  const std::string box =
+      "frames = 1\n[solver]\ncell_size = 0.08\n[[body]]\nname = \"ball\"\n"
+      "shape = { box = { center = [0, 0.3, 0], size = [0.16, 0.16, 0.16] } }\n";
+  folder.write("scene.toml", box + "[output]\nsize = [160, 90]\n");
+  ASSERT_NO_FATAL_FAILURE(render("a"));
+  ASSERT_NO_FATAL_FAILURE(render("lattice", {"--set", "body.ball.sampling=lattice"}));
+  refused("lattice", "body ball begins with particles in other places: body.ball.sampling differs");
+  // A body that was moved, turned, or is of another material is the same snow.
+  ASSERT_NO_FATAL_FAILURE(
+      render("moved", {"--set", "body.ball.shape.box.center=[0.05, 0.3, 0]", "--set",
+                       "material.snow.density=300", "--set", "solver.gravity=[0, -1, 0]"}));
+  const auto moved = compare(
+      "a", "moved", {"--out", "x.png", "--mode", "displacement", "--frames", "0-0", "--json"});
+  ASSERT_EQ(moved.exit_code, 0) << moved.errors;
+  EXPECT_NEAR(app::parse_json(std::string_view(moved.output))["frames"][0]["displacement_mean"],
+              0.05, 1e-6);
+  ASSERT_NO_FATAL_FAILURE(render("turned", {"--set", "body.ball.shape.box.rotation=[0, 30, 0]"}));
+  EXPECT_EQ(compare("a", "turned", {"--out", "x.png", "--mode", "displacement"}).exit_code, 0);
+  // The points of a file in another order.
+  std::string points = "x,y,z\n", other = points;
+  for (int k = 0; k < 27; ++k) {
+    const auto line = [](int n) {
+      return fmt::format("{},{},{}\n", 0.04 * (n % 3), 0.3 + 0.04 * (n / 3 % 3), 0.04 * (n / 9));
+    };
+    points += line(k), other += line(26 - k);
+  }
+  folder.write("points.csv", points);
+  folder.write("other.csv", other);
+  for (const auto& [run, file] : {std::pair{"a", "points.csv"}, {"b", "other.csv"}}) {
+    folder.write("scene.toml",
+                 fmt::format("frames = 1\n[solver]\ncell_size = 0.08\n[[body]]\nname = "
+                             "\"ball\"\nshape = {{ points = {{ file = \"{}\", spacing "
+                             "= 0.04 }} }}\n[output]\nsize = [160, 90]\n",
+                             file));
+    ASSERT_NO_FATAL_FAILURE(render(run, {"--replace"}));
+  }
+  refused("b", "body.ball.shape.points.file differs");
 }
 
 TEST_F(Compare, BurnInsSayWhatWasChanged) {
