@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <iostream>
 #include <sstream>
 
@@ -27,9 +29,11 @@ fs::path sweep_of(const fs::path& sheet) {
 }
 
 std::string strip_line(const record::StripRecord& strip, const std::string& path) {
-  return "strip       " + std::to_string(strip.times.size()) + " moments, " +
-         fixed_text(strip.times.front(), 3) + " to " + fixed_text(strip.times.back(), 3) +
-         " s; neve strip " + shell_path(path) + " makes it again\n";
+  const std::string first = fixed_text(strip.times.front(), 3),
+                    last = fixed_text(strip.times.back(), 3);
+  return "strip       " + count_text(strip.times.size(), "moment") + ", " +
+         (first == last ? "" : first + " to ") + last + " s; neve strip " + shell_path(path) +
+         " makes it again\n";
 }
 
 /// Prints the record as plain text: the file may be from anyone.
@@ -38,8 +42,8 @@ void print_picture(const record::PictureRecord& record, const std::string& pictu
   out << "neve        " << record.version << (record.build.empty() ? "" : " (" + record.build + ")")
       << "\n"
       << "view        " << record.view << "\n"
-      << "frame       " << record.frame << "\n"
-      << "quality     " << record.quality << "\n"
+      << (record.strip ? "" : fmt::format("frame       {}\n", record.frame)) << "quality     "
+      << record.quality << "\n"
       << (record.plate.empty() ? "" : "plate       " + record.plate + "\n")
       << (record.lut.empty() ? "" : "lut         " + record.lut + "\n")
       << (record.shutter > 0 ? "shutter     " + rough_text(record.shutter) + " degrees\n" : "")
@@ -196,7 +200,9 @@ int run_info(const PlainOptions& options) {
   }
   const record::PictureRecord record = record::read_picture_record(path);
   if (options.is_json) {
-    std::cout << to_text(record::to_json(record)) << "\n";
+    Json json = record::to_json(record);
+    if (record.strip) json.erase("frame");  // the nearest one: its times say what it shows
+    std::cout << to_text(json) << "\n";
   } else {
     print_picture(record, path);
   }

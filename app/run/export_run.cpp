@@ -278,9 +278,12 @@ ExportJob make_export_job(const ExportOptions& options) {
     job.lock_folder = *run;
   job.run.scene.exports = options.exports;
   check_exports(job.run.scene);
-  job.are_frames = options.at.empty();
+  job.times = options.at;
+  // A strip shows moments, which may lie between frames.
+  if (job.times.empty() && !options.run.frames && job.run.picture && job.run.picture->strip)
+    job.times = job.run.picture->strip->times;
+  job.are_frames = job.times.empty();
   if (!job.are_frames) {
-    job.times = options.at;
     timeline::require_before_end("--at", job.times.back(), job.run);
     const double last = std::ceil(job.times.back() * job.run.scene.fps);
     job.run.frames = {0, static_cast<int>(std::min(last, 1e9))};
@@ -325,6 +328,10 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
     if (job.are_frames)
       timeline::compare_with_run(run, scene::frame_of(run.scene, number), simulation.state_hash(),
                                  progress);
+    if (const std::string other =
+            timeline::difference_from_picture(run, time, simulation.state_hash());
+        !other.empty())
+      progress.warning(other);
     for (exports::Exporter::Work& work :
          exporter.add(timeline.scene().colliders, simulation, number, false))
       writer.write(std::move(work));

@@ -399,17 +399,9 @@ bool RenderRun::go_to_frame(int frame) {
   return advanced.is_reached;
 }
 
-/// A picture that is made again as it was says which state it shows.
 void RenderRun::compare_with_picture(int frame, std::uint64_t state_hash) {
-  const std::optional<record::PictureRecord>& picture = job_.picture;
-  if (!picture || job_.fork || picture->state_hash.empty() ||
-      scene::number_of(job_.scene, frame) != picture->frame ||
-      job_.overrides.size() != picture->overrides.size() ||
-      job_.coarsening != picture->coarsening ||
-      picture->state_hash == record::hash_text(state_hash))
-    return;
-  std::string warning = fmt::format("frame {} has another state than {} shows{}", picture->frame,
-                                    job_.scene_file, timeline::other_bits);
+  std::string warning = timeline::difference_from_picture(job_, frame / job_.scene.fps, state_hash);
+  if (job_.fork || warning.empty()) return;
   progress_.warning(warning);
   told_before_.push_back(std::move(warning));
   note_warnings();

@@ -105,9 +105,10 @@ std::string again_text(const record::PictureRecord& record, const std::string& f
   try {
     const scene::Scene scene =
         drawn_scene(scene::read_scene_text(record.scene, file + " (its scene)"), record.view);
-    const int last = record.strip
-                         ? static_cast<int>(std::min(1e9, record.strip->times.back() * scene.fps))
-                         : scene::frame_of(scene, record.frame);
+    const int last =
+        record.strip
+            ? static_cast<int>(std::min(1e9, std::ceil(record.strip->times.back() * scene.fps)))
+            : scene::frame_of(scene, record.frame);
     const setup::Plan plan =
         setup::make_plan(scene, {last, last}, setup::quality_named(record.quality), 0);
     return cost_again(scene, plan, record).text(last);

@@ -333,6 +333,21 @@ Timeline open(const Origin& origin, std::shared_ptr<const setup::SeededScene> se
                   watched_by(progress, origin.scene));
 }
 
+std::string difference_from_picture(const Origin& origin, double time, std::uint64_t hash) {
+  const std::optional<record::PictureRecord>& picture = origin.picture;
+  if (!picture || picture->state_hash.empty() || picture->state_hash == record::hash_text(hash) ||
+      origin.overrides.size() != picture->overrides.size() ||
+      origin.coarsening != picture->coarsening)
+    return {};
+  const double shown = picture->strip
+                           ? picture->strip->times.back()
+                           : scene::frame_of(origin.scene, picture->frame) / origin.scene.fps;
+  if (time != shown) return {};
+  const std::string what =
+      picture->strip ? fixed_text(time, 3) + " s" : fmt::format("frame {}", picture->frame);
+  return what + " has another state than " + origin.scene_file + " shows" + other_bits;
+}
+
 void compare_with_run(const Origin& origin, int frame, std::uint64_t hash, Progress& progress) {
   for (const record::FrameRecord& record : origin.run_frames)
     if (record.frame == frame && record.state_hash != hash)

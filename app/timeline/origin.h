@@ -85,6 +85,10 @@ inline constexpr const char* other_bits =
     "have "
     "changed";
 
+/// The warning that the picture of an origin shows another state at a time, s; "" where it shows no
+/// state of that time, and of an origin that was changed since.
+std::string difference_from_picture(const Origin& origin, double time, std::uint64_t hash);
+
 /// Warns where the run of an origin lists a frame with another state than the same frame made now.
 void compare_with_run(const Origin& origin, int frame, std::uint64_t hash, Progress& progress);
 

@@ -120,6 +120,33 @@ TEST_F(Strip, MakesItselfAgain) {
   EXPECT_EQ(last.exit_code, 0) << last.errors;
 }
 
+/// Moments between frames: the nearest frame is another state.
+TEST_F(Strip, ExportsAreOfTheMomentsThatItShows) {
+  ASSERT_EQ(neve({"strip", "fall.toml", "--at", "0.05,0.2", "--width", "400", "--out", "a.png"})
+                .exit_code,
+            0);
+  const app::Json info =
+      app::parse_json(std::string_view(neve({"info", "a.png", "--json"}).output));
+  const auto done = neve({"export", "a.png", "--format", "npz", "--out", "made", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  const app::Json made = app::parse_json(std::string_view(done.output));
+  const app::Json& files = made["exports"][0]["files"];
+  ASSERT_EQ(files.size(), 2u);
+  // The state before the step that contains a time.
+  EXPECT_NEAR(files[0]["time"], 0.05, 0.001);
+  EXPECT_NEAR(files[1]["time"], 0.2, 0.001);
+  EXPECT_EQ(files[1]["state_hash"], info["state_hash"]);
+  // No frame has that state.
+  EXPECT_FALSE(info.contains("frame"));
+  EXPECT_EQ(neve({"info", "a.png"}).output.find("frame       "), std::string::npos);
+  // The frames that somebody asks for are frames.
+  const auto frame =
+      neve({"export", "a.png", "--frames", "5-5", "--format", "npz", "--out", "frame", "--json"});
+  ASSERT_EQ(frame.exit_code, 0) << frame.errors;
+  EXPECT_EQ(app::parse_json(std::string_view(frame.output))["exports"][0]["files"][0]["number"], 5);
+  EXPECT_EQ(frame.errors.find("another state"), std::string::npos) << frame.errors;
+}
+
 TEST_F(Strip, TilesShowTheirMoment) {
   ASSERT_EQ(neve({"strip", "fall.toml", "--at", "0,0.2", "--columns", "2", "--width", "640",
                   "--out", "two.png"})
