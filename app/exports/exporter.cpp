@@ -83,7 +83,8 @@ PlacedShape placed_shape(const Json& json) {
 /// What a list of files or frames says of a sample, beside its number and its time.
 void add_places(const Sample& sample, Json& json) {
   if (sample.is_elsewhere) json["colliders"] = places_json(sample);
-  if (sample.followed) json["followed"] = output::vector_json(*sample.followed);
+  for (const auto& [name, moved] : sample.followed)
+    json["followed"][name] = output::vector_json(moved);
   if (sample.snow)
     json["snow"] = {output::vector_json(sample.snow->min), output::vector_json(sample.snow->max)};
 }
@@ -98,7 +99,9 @@ Sample sample_of(const Json& json, const scene::Scene& scene) {
     for (const Json& placed : json.at("colliders"))
       sample.colliders.push_back(placed_shape(placed));
   }
-  if (json.contains("followed")) sample.followed = output::vector_of(json.at("followed"));
+  const Json followed = json.value("followed", Json::object());
+  for (const auto& [name, moved] : followed.items())
+    sample.followed[name] = output::vector_of(moved);
   if (json.contains("snow"))
     sample.snow = {output::vector_of(json.at("snow").at(0)),
                    output::vector_of(json.at("snow").at(1))};
@@ -144,6 +147,8 @@ Exporter::Exporter(const scene::Scene& scene, fs::path folder,
       origins_(scene, body_end),
       carried_(scene, body_end),
       moves_otherwise_(may_move_otherwise(scene, changes)) {
+  for (const StageCamera& camera : stage_cameras(scene))
+    if (!camera.settings.follow.empty()) follows_.insert(camera.settings.follow);
   output::remove_abandoned(folder_);
   for (const scene::Export& spec : scene.exports) {
     jobs_.push_back({spec, empty_table(scene, spec, carried_), {}, {}});
@@ -186,8 +191,8 @@ void Exporter::add_between(const std::vector<scene::Collider>& colliders,
   const double time = simulation.time();
   Sample sample{number, time, placed_at(colliders, time)};
   sample.is_elsewhere = !are_as_in(scene_, sample.colliders, time);
-  if (follows()) sample.followed = followed(simulation.particles(), time, colliders);
-  const bool says_nothing = !sample.is_elsewhere && !sample.followed && !moves_otherwise_;
+  sample.followed = followed(simulation.particles(), time, colliders);
+  const bool says_nothing = !sample.is_elsewhere && sample.followed.empty() && !moves_otherwise_;
   // Once something was elsewhere, a frame that is not listed would be taken for that, too.
   for (Job& job : jobs_)
     if (has_no_file(job) && !(says_nothing && job.between.empty())) put(job.between, sample);
@@ -204,7 +209,7 @@ bool Exporter::has_stage() const {
 }
 
 bool Exporter::lacks_places(int frame) const {
-  if (!follows() && !moves_otherwise_) return false;
+  if (follows_.empty() && !moves_otherwise_) return false;
   const auto has = [number = scene::number_of(scene_, frame)](const std::vector<Sample>& samples) {
     return std::ranges::find(samples, number, &Sample::number) != samples.end();
   };
@@ -217,16 +222,14 @@ bool Exporter::is_stage(const Job& job) {
   return job.spec.format == scene::ExportFormat::usda;
 }
 
-bool Exporter::follows() const {
-  return scene_.camera && !scene_.camera->follow.empty();
-}
-
-/// Nothing where the camera follows nothing.
-std::optional<sim::Vec3d> Exporter::followed(const sim::ParticleArrays& particles, double time,
-                                             const std::vector<scene::Collider>& colliders) const {
-  if (!follows()) return std::nullopt;
-  return picture::followed_by(scene_.camera->follow, scene_, colliders, origins_.body_end(),
-                              particles, time);
+std::map<std::string, sim::Vec3d> Exporter::followed(
+    const sim::ParticleArrays& particles, double time,
+    const std::vector<scene::Collider>& colliders) const {
+  std::map<std::string, sim::Vec3d> moved;
+  for (const std::string& name : follows_)
+    moved[name] =
+        picture::followed_by(name, scene_, colliders, origins_.body_end(), particles, time);
+  return moved;
 }
 
 /// Some come and go while a run is made.
@@ -317,8 +320,10 @@ Json Exporter::to_json(const std::string& below) const {
     json["series"] = series.empty() ? Json() : Json(below + series);
     json["files"] = Json::array();
     for (const Sample& sample : job.samples) {
+      const double frame = sample.time * scene_.fps + scene::number_of(scene_, 0);
       json["files"].push_back({{"file", folder + file_name(spec, sample.number)},
                                {"number", sample.number},
+                               {"frame", number_or_null(frame)},
                                {"time", number_or_null(sample.time)},
                                {"state_hash", fmt::format("{:016x}", sample.hash)}});
       add_places(sample, json["files"].back());

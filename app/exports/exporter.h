@@ -3,7 +3,8 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,9 +68,8 @@ class Exporter {
   Work work(Job& job, std::shared_ptr<const State> state,
             const std::vector<scene::Collider>& colliders, int number);
   static bool is_stage(const Job& job);
-  bool follows() const;
-  std::optional<sim::Vec3d> followed(const sim::ParticleArrays& particles, double time,
-                                     const std::vector<scene::Collider>& colliders) const;
+  std::map<std::string, sim::Vec3d> followed(const sim::ParticleArrays& particles, double time,
+                                             const std::vector<scene::Collider>& colliders) const;
   void note_colliders(const std::vector<scene::Collider>& colliders);
 
   scene::Scene scene_;
@@ -78,7 +78,8 @@ class Exporter {
   Origins origins_;
   Carried carried_;
   std::vector<Job> jobs_;
-  bool moves_otherwise_;  ///< something is elsewhere than the scene alone says
+  std::set<std::string> follows_;  ///< what cameras follow
+  bool moves_otherwise_;           ///< something is elsewhere than the scene alone says
   std::string warning_;
   bool is_told_ = false;  ///< the warning
 };

@@ -2,6 +2,7 @@
 /// Files that put the moments of an export in a row, for programs that do not count files.
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +21,10 @@ struct Sample {
 
   /// Null where there was no such collider.
   const PlacedShape* find(const std::string& collider) const;
-  bool is_elsewhere = false;             ///< the scene alone does not say where colliders are
-  std::optional<sim::Vec3d> followed{};  ///< m, what a camera that follows has moved by
-  std::optional<setup::Box> snow{};      ///< m, around the snow; of files of a stage
-  std::uint64_t hash = 0;                ///< of the state; of files
+  bool is_elsewhere = false;  ///< the scene alone does not say where colliders are
+  std::map<std::string, sim::Vec3d> followed{};  ///< m, what cameras follow has moved by, by name
+  std::optional<setup::Box> snow{};              ///< m, around the snow; of files of a stage
+  std::uint64_t hash = 0;                        ///< of the state; of files
 };
 
 /// "0024.ply"
@@ -35,10 +36,21 @@ std::string series_name(const scene::Export& spec);
 /// A ParaView collection: every file with its time.
 std::string encode_pvd(const scene::Export& spec, const std::vector<Sample>& samples);
 
+/// A camera of a stage, and the pixels whose shape its film has.
+struct StageCamera {
+  std::string name;  ///< of its prim
+  scene::CameraSettings settings;
+  scene::PictureSize size;
+};
+
+/// "camera" is that of the scene, or of its first view where only views have cameras. The others
+/// that the scene gives to views have the names of these. Cameras without a place are left out.
+std::vector<StageCamera> stage_cameras(const scene::Scene& scene);
+
 /// A USD stage: the particles, or their surface, as value clips of the layers, colliders as meshes
-/// that move or deform, the camera of the scene if it has a place, and its light. Source: OpenUSD,
+/// that move or deform, the cameras of the scene and its views, and its light. Source: OpenUSD,
 /// UsdClipsAPI.
-/// Places of colliders and camera are those of every frame from the first file to the last one.
+/// Places of colliders and cameras are those of every frame from the first file to the last one.
 /// @param between  frames without a file, where the scene alone does not say where things are
 /// @param colliders  that there were at any sample; one that came or went is seen while it existed
 std::string encode_stage(const scene::Scene& scene, const std::vector<scene::Collider>& colliders,

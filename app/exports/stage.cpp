@@ -11,6 +11,7 @@
 #include "app/exports/usda.h"
 #include "app/picture/collider_looks.h"
 #include "app/setup/camera_path.h"
+#include "app/setup/plan.h"
 #include "sim/shapes/deforming_mesh.h"
 
 namespace neve::app::exports {
@@ -30,21 +31,24 @@ struct SeenCollider {
 
 constexpr double height = 24;  // tenths of a unit, as film has millimetres
 
-/// What a camera that follows has moved by, linear between samples.
-Vec3d followed_at(const std::vector<Sample>& samples, double time) {
+/// What a camera has moved by with what it follows, linear between samples.
+Vec3d followed_at(const std::vector<Sample>& samples, const std::string& name, double time) {
   const auto next = std::ranges::upper_bound(samples, time, {}, &Sample::time);
   const Sample& after = next == samples.end() ? samples.back() : *next;
   const Sample& before = next == samples.begin() ? after : *(next - 1);
-  const Vec3d a = before.followed.value_or(Vec3d::Zero()),
-              b = after.followed.value_or(Vec3d::Zero());
+  const auto moved = [&](const Sample& sample) {
+    const auto found = sample.followed.find(name);
+    return found == sample.followed.end() ? Vec3d(Vec3d::Zero()) : found->second;
+  };
+  const Vec3d a = moved(before), b = moved(after);
   const double seconds = after.time - before.time;
   return seconds > 0 ? Vec3d(a + (time - before.time) / seconds * (b - a)) : a;
 }
 
-setup::CameraPlace camera_at(const scene::Scene& scene, const std::vector<Sample>& samples,
-                             double time) {
-  setup::CameraPlace place = setup::camera_at(*scene.camera, time, scene::duration(scene));
-  const Vec3d moved = followed_at(samples, time);
+setup::CameraPlace camera_at(const scene::Scene& scene, const scene::CameraSettings& camera,
+                             const std::vector<Sample>& samples, double time) {
+  setup::CameraPlace place = setup::camera_at(camera, time, scene::duration(scene));
+  const Vec3d moved = followed_at(samples, camera.follow, time);
   place.eye += moved;
   place.target += moved;
   return place;
@@ -67,14 +71,14 @@ struct Range {
 
 /// Distances along the axis of view: less than those from the eye by what the corners of the
 /// picture are aside.
-std::string usd_clipping_range(const scene::Scene& scene, const Axes& axes,
+std::string usd_clipping_range(const scene::Scene& scene, const StageCamera& of, const Axes& axes,
                                const std::vector<Sample>& samples,
                                const std::vector<SeenCollider>& colliders) {
-  const double aspect = 1.0 * scene.size.width / scene.size.height;
+  const double aspect = 1.0 * of.size.width / of.size.height;
   Range seen;
   double widest = 0;
   for (const Sample& sample : samples) {
-    const setup::CameraPlace camera = camera_at(scene, samples, sample.time);
+    const setup::CameraPlace camera = camera_at(scene, of.settings, samples, sample.time);
     widest = std::max(widest, camera.fov);
     if (sample.snow) seen.add(*sample.snow, camera.eye);
     for (const SeenCollider& collider : colliders) {
@@ -110,28 +114,40 @@ Mat3d looking(const Vec3d& forward, const Vec3d& up) {
   return rotation;
 }
 
-/// Empty if the camera has no place yet. Its clipping range has the snow and the colliders of all
-/// samples, with room for what is between: USD's own starts at 1 unit, farther than a small scene.
-std::string usd_camera(const scene::Scene& scene, const Axes& axes,
+/// Its clipping range has the snow and the colliders of all samples, with room for what is between:
+/// USD's own starts at 1 unit, farther than a small scene.
+std::string usd_camera(const scene::Scene& scene, const StageCamera& camera, const Axes& axes,
                        const std::vector<Sample>& samples,
                        const std::vector<SeenCollider>& colliders) {
-  if (!scene.camera || !scene.camera->eye || !scene.camera->target || samples.empty()) return {};
-  const double width = height * scene.size.width / scene.size.height;
+  const double width = height * camera.size.width / camera.size.height;
   std::vector<std::pair<double, std::string>> focal_lengths;
   for (const Sample& sample : samples) {
-    const double half = 0.5 * camera_at(scene, samples, sample.time).fov * std::numbers::pi / 180;
+    const double half =
+        0.5 * camera_at(scene, camera.settings, samples, sample.time).fov * std::numbers::pi / 180;
     focal_lengths.emplace_back(sample.time, usd_number(0.5 * height / std::tan(half)));
   }
   const auto place_at = [&](double time) {
-    const setup::CameraPlace place = camera_at(scene, samples, time);
-    return Place{time, looking(place.target - place.eye, scene.camera->up), place.eye};
+    const setup::CameraPlace place = camera_at(scene, camera.settings, samples, time);
+    return Place{time, looking(place.target - place.eye, camera.settings.up), place.eye};
   };
-  return "    def Xform \"view\"\n    {\n        def Camera \"camera\"\n        {\n" +
+  return "        def Camera \"" + camera.name + "\"\n        {\n" +
          std::string("            float horizontalAperture = ") + usd_number(width) +
          "\n            float verticalAperture = " + usd_number(height) + "\n" +
-         usd_clipping_range(scene, axes, samples, colliders) +
+         usd_clipping_range(scene, camera, axes, samples, colliders) +
          usd_property(scene, "            float focalLength", focal_lengths) +
-         usd_placed(scene, axes, path_of(samples, place_at)) + "        }\n    }\n";
+         usd_placed(scene, axes, path_of(samples, place_at)) + "        }\n";
+}
+
+/// Empty if no camera has a place yet.
+std::string usd_cameras(const scene::Scene& scene, const Axes& axes,
+                        const std::vector<Sample>& samples,
+                        const std::vector<SeenCollider>& colliders) {
+  const std::vector<StageCamera> cameras = stage_cameras(scene);
+  if (cameras.empty() || samples.empty()) return {};
+  std::string text = "    def Xform \"view\"\n    {\n";
+  for (const StageCamera& camera : cameras)
+    text += usd_camera(scene, camera, axes, samples, colliders);
+  return text + "    }\n";
 }
 
 /// Half the side of the square that stands for a plane, m.
@@ -291,6 +307,27 @@ std::string usd_clips(const scene::Scene& scene, const scene::Export& spec, cons
 
 }  // namespace
 
+std::vector<StageCamera> stage_cameras(const scene::Scene& scene) {
+  const auto shares = [](const scene::View& view) { return !view.camera; };
+  std::vector<StageCamera> cameras;
+  if (scene.camera && setup::has_place(*scene.camera)) {
+    const auto view = std::ranges::find_if(scene.views, shares);
+    cameras.push_back({"camera", *scene.camera,
+                       view == scene.views.end() ? scene.size : setup::size_of(scene, *view)});
+  }
+  std::set<std::string> names{"camera"};
+  for (const scene::View& view : scene.views) {
+    // Those that neve found frame the snow for a slice or another shape of pictures.
+    if (!view.camera || !setup::has_place(*view.camera) ||
+        view.camera->found == scene::FoundCamera::camera)
+      continue;
+    std::string name = cameras.empty() ? "camera" : usd_name(view.name);
+    while (!cameras.empty() && !names.insert(name).second) name += "_";
+    cameras.push_back({std::move(name), *view.camera, setup::size_of(scene, view)});
+  }
+  return cameras;
+}
+
 std::string encode_stage(const scene::Scene& scene, const std::vector<scene::Collider>& colliders,
                          const scene::Export& spec, const Table& columns,
                          const std::vector<Sample>& files, const std::vector<Sample>& between) {
@@ -308,7 +345,8 @@ std::string encode_stage(const scene::Scene& scene, const std::vector<scene::Col
   std::vector<SeenCollider> seen;
   const std::string obstacles = usd_colliders(scene, colliders, axes, samples, seen);
   return usd_header(scene, spec, first, last) + "def Xform \"neve\"\n{\n" + usd_world(scene, spec) +
-         snow + obstacles + usd_camera(scene, axes, samples, seen) + usd_light(scene, axes) + "}\n";
+         snow + obstacles + usd_cameras(scene, axes, samples, seen) + usd_light(scene, axes) +
+         "}\n";
 }
 
 std::string encode_manifest(const scene::Scene& scene, const scene::Export& spec,

@@ -82,8 +82,9 @@ void add_frames(std::vector<Sample>& samples, const scene::Scene& scene, const S
        frame < to.time * scene.fps - same; ++frame) {
     Sample sample{0, frame / scene.fps, placed_at(scene.colliders, frame / scene.fps)};
     const double part = (sample.time - from.time) / (to.time - from.time);
-    if (from.followed && to.followed)
-      sample.followed = *from.followed + part * (*to.followed - *from.followed);
+    for (const auto& [name, moved] : from.followed)
+      if (const auto then = to.followed.find(name); then != to.followed.end())
+        sample.followed[name] = moved + part * (then->second - moved);
     samples.push_back(std::move(sample));
   }
 }

@@ -49,6 +49,13 @@ CameraPlace place_on_path(const scene::CameraSettings& settings, double time) {
 
 }  // namespace
 
+bool has_place(const scene::CameraSettings& camera) {
+  if (camera.eye && camera.target) return true;
+  const auto is_placed = [](const scene::CameraKeyframe& key) { return key.eye && key.target; };
+  return !camera.keyframes.empty() &&
+         std::all_of(camera.keyframes.begin(), camera.keyframes.end(), is_placed);
+}
+
 double turned(const scene::CameraSettings& settings, double time, double duration) {
   if (settings.orbit) return *settings.orbit * (duration > 0 ? eased(time / duration) : 0);
   if (settings.turntable) return 360 * time / *settings.turntable;

@@ -17,6 +17,9 @@ struct CameraPlace {
 /// @param duration s, of the whole scene
 CameraPlace camera_at(const scene::CameraSettings& settings, double time, double duration);
 
+/// True if nothing about it is left to be framed: it has a place, or all its keyframes have one.
+bool has_place(const scene::CameraSettings& camera);
+
 /// Degrees that the eye has turned about `up` at a time, counter-clockwise seen from above.
 double turned(const scene::CameraSettings& settings, double time, double duration);
 

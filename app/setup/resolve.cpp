@@ -6,20 +6,13 @@
 
 #include "app/setup/auto_camera.h"
 #include "app/setup/auto_ranges.h"
+#include "app/setup/camera_path.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/snow_pieces.h"
 
 namespace neve::app::setup {
 
 namespace {
-
-/// Nothing about it is left to be framed.
-bool has_place(const scene::CameraSettings& camera) {
-  if (camera.eye && camera.target) return true;
-  const auto is_placed = [](const scene::CameraKeyframe& key) { return key.eye && key.target; };
-  return !camera.keyframes.empty() &&
-         std::all_of(camera.keyframes.begin(), camera.keyframes.end(), is_placed);
-}
 
 double aspect_of(const scene::PictureSize& size) {
   return static_cast<double>(size.width) / static_cast<double>(size.height);

@@ -657,6 +657,42 @@ TEST_F(Export, ASceneWithCurvesIsExportedAndTheStagesCameraFollowsAsPicturesDo) 
   }
 }
 
+/// One of them follows, the scene's does not.
+TEST_F(Export, AStageHasTheCamerasOfViewsToo) {
+  const std::string scene =
+      std::string(followed_scene).substr(0, std::string(followed_scene).find("[camera]"));
+  const std::string views =
+      "[[view]]\nname = \"close\"\nsize = [90, 90]\ncamera = { follow = \"ball\", eye = [1, 0, "
+      "1.5], "
+      "target = [0, 0, 0] }\n[[view]]\nname = \"side\"\ncamera = { eye = [3, 0, 0], target = [0, "
+      "0.3, "
+      "0], fov = 20 }\n";
+  const auto stage_of = [&](const std::string& text, const char* out) {
+    folder.write("views.toml", text + views);
+    json_of_export({"views.toml", "--format", "usda", "--out", out});
+    return read_text(folder / out / "usda.usda");
+  };
+  const auto camera = [](const std::string& stage, const std::string& name) {
+    const std::size_t at = stage.find("def Camera \"" + name + "\"");
+    return at == std::string::npos ? std::string()
+                                   : stage.substr(at, stage.find("        }\n", at) - at);
+  };
+  const auto is_of_close = [](const std::string& prim) {
+    return contains(prim, "horizontalAperture = 24\n") && contains(prim, "translate.timeSamples");
+  };
+  // Of views alone: the first is the camera of the stage.
+  const std::string without = stage_of(scene, "without");
+  EXPECT_TRUE(is_of_close(camera(without, "camera"))) << without;
+  EXPECT_TRUE(contains(camera(without, "side"), "translate = (3, 0, 0)"))
+      << camera(without, "side");
+  EXPECT_EQ(camera(without, "close"), "");
+  const std::string with =
+      stage_of(scene + "[camera]\neye = [0, 1, 2]\ntarget = [0, 0, 0]\n", "with");
+  EXPECT_TRUE(contains(camera(with, "camera"), "translate = (0, 1, 2)")) << camera(with, "camera");
+  EXPECT_TRUE(is_of_close(camera(with, "close"))) << camera(with, "close");
+  EXPECT_TRUE(contains(camera(with, "side"), "translate = (3, 0, 0)"));
+}
+
 /// The samples of a property, by their times; one at -1 where it has no samples.
 std::map<double, std::vector<double>> samples_of(const std::string& prim,
                                                  const std::string& property) {
