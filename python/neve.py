@@ -289,11 +289,14 @@ def _grey_png(values):
 
 
 class State(dict):
-    """Particles at one time: arrays by attribute, a row per particle. `time` is in seconds."""
+    """Particles at one time: arrays by attribute, a row per particle. `time` is in seconds, `frame`
+    is the number of the frame, with a fraction between two. Places and velocities are as in the
+    file: the axis `up`, "y" or "z", points up, and a metre has `scale` units."""
 
-    def __init__(self, arrays, time=np.nan, frame=np.nan):
+    def __init__(self, arrays, time=np.nan, frame=np.nan, up="y", scale=1):
         super().__init__(arrays)
         self.time, self.frame = float(time), float(frame)
+        self.up, self.scale = str(up), float(scale)
 
     @property
     def count(self):
@@ -326,7 +329,7 @@ def read_npz(path):
     with np.load(path) as archive:
         arrays = {name: archive[name] for name in archive.files}
     about = {name: arrays.pop(name) for name in ("time", "frame", "fps", "scale", "up")}
-    return State(arrays, about["time"], about["frame"])
+    return State(arrays, about["time"], about["frame"], about["up"], about["scale"])
 
 
 def _joined(table):
@@ -339,12 +342,11 @@ def _joined(table):
             names = [name for name in names if name not in parts]
     for name in names:
         tensor = name[:-3]
-        if not name.endswith("_xx"):
-            if name[-3:-2] != "_" or f"{name[:-3]}_xx" not in names:
-                arrays[name] = table[name]
-            continue
         parts = [f"{tensor}_{a}{b}" for a in "xyz" for b in "xyz"]
-        arrays[tensor] = np.stack([table[part] for part in parts], axis=1).reshape(-1, 3, 3)
+        if name not in parts or not all(part in names for part in parts):
+            arrays[name] = table[name]
+        elif name == parts[0]:
+            arrays[tensor] = np.stack([table[part] for part in parts], axis=1).reshape(-1, 3, 3)
     return arrays
 
 
@@ -356,7 +358,7 @@ def read_ply(path):
     types = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
              "float": "f4", "double": "f8"}
     with open(path, "rb") as file:
-        fields, count, order, time = [], 0, "<", np.nan
+        fields, count, order, about = [], 0, "<", {}
         for line in iter(file.readline, b""):
             words = line.decode("ascii", "replace").split()
             if words[:1] == ["end_header"]:
@@ -373,31 +375,46 @@ def read_ply(path):
                 count = int(words[2])
             elif words[:1] == ["property"]:
                 fields.append((words[2], order + types[words[1]]))
-            elif words[:2] == ["comment", "time"]:
-                time = float(words[2])
+            elif words[:2] == ["comment", "time"]:  # "comment time 0.125 s, frame 3"
+                about["time"], about["frame"] = float(words[2]), float(words[5])
+            elif words[:2] == ["comment", "up"]:  # "comment up y, units per metre 1"
+                about["up"], about["scale"] = words[2].rstrip(","), float(words[6])
         table = np.fromfile(file, fields, count)
-    return State(_joined(table), time)
+    if len(table) < count:
+        raise ValueError(f"{path}: a part of a PLY file: its header promises {count} points, and "
+                         f"there are {len(table)}")
+    return State(_joined(table), **about)
 
 
 def read_csv(path):
     """A state that neve export wrote as csv. Numbers are double; .astype("f4") makes the bits of
     a run in single precision of them, as the other formats have them."""
     rows = np.genfromtxt(path, delimiter=",", names=True, deletechars="")
-    return State(_joined(np.atleast_1d(rows)))  # one row alone has no dimension
+    arrays = _joined(np.atleast_1d(rows))  # one row alone has no dimension
+    about = {}
+    for up in "yz":
+        scale = arrays.pop(f"up_{up}_units_per_metre", ())
+        if len(scale):
+            about = {"up": up, "scale": scale[0]}
+    return State(arrays, **about)
 
 
 _readers = {"npz": read_npz, "ply": read_ply, "csv": read_csv}
 
 
 class Export:
-    """Files of one export in the order of their times: `times`, and states by index."""
+    """Files of one export in the order of their times: `times`, and states by index. `numbers` are
+    those in the names of the files; `up` and `scale` are those of its states."""
 
     def __init__(self, folder, listed):
         self.folder, self.format = pathlib.Path(folder), listed["format"]
-        self.attributes = listed["attributes"]
+        self.attributes, self.up, self.scale = (listed[key] for key in ("attributes", "up", "scale"))
         self.files = [self.folder / file["file"] for file in listed["files"]]
         self.numbers = [file["number"] for file in listed["files"]]
         self.times = np.array([_number(file["time"]) for file in listed["files"]])
+        # Of exports of earlier builds the number of the file.
+        self.frames = np.array([_number(file.get("frame", file["number"])) for file in listed["files"]],
+                               dtype=float)
 
     def __len__(self):
         return len(self.files)
@@ -406,7 +423,7 @@ class Export:
         if self.format not in _readers:
             raise NeveError(f"no reader of {self.format} here; expected npz, ply or csv", 2)
         state = _readers[self.format](self.files[index])
-        state.time = float(self.times[index])
+        state.time, state.frame = float(self.times[index]), float(self.frames[index])
         return state
 
     def __iter__(self):
@@ -459,9 +476,13 @@ class Run:
     def force(self, collider):
         """Force of the snow on a collider in every frame, N; not a number where there was no step."""
         rows = []
-        known = sorted({f["collider"] for frame in self.json["frames"] for f in frame["forces"]})
-        if known and collider not in known:
-            raise KeyError(f"there is no collider {collider!r}; expected one of {', '.join(known)}")
+        # Frames without a step have no forces, and colliders may come during the run.
+        named = re.findall(r'^\[\[collider\]\]\nname = "(.*)"', self.json["scene"], re.MULTILINE)
+        known = sorted({f["collider"] for frame in self.json["frames"] for f in frame["forces"]}
+                       | set(named))
+        if collider not in known:
+            raise KeyError(f"there is no collider {collider!r}; expected one of {', '.join(known)}"
+                           if known else "the run has no colliders")
         for frame in self.json["frames"]:
             found = [f["force"] for f in frame["forces"] if f["collider"] == collider]
             rows.append(found[0] if found else [np.nan] * 3)

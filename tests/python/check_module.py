@@ -70,11 +70,21 @@ for frames in ([0, 10, 20], range(0, 20, 10), np.array([0, 10, 20]), []):
 assert neve._literal(np.bool_(True)) == "true"
 for format, series in exports.items():
     assert len(series) == 2 and list(series.times) == [run["time"][2], 0.125]
+    assert series[1].frame == 3 and (series[1].up, series[1].scale) == ("y", 1), format
     for name in names:
         read = series[1][name].astype(state[name].dtype)
         assert read.tobytes() == state[name].tobytes(), (format, name)
 at = neve.export("scene.toml", "at", at=[0.01, 0.1])["npz"]
 assert [round(s.time, 2) for s in at] == [0.01, 0.1] and at.numbers == [0, 1]
+# A state says its frame and its axes, whatever its format.
+for format, series in neve.export("scene.toml", "turned", formats=["npz", "ply", "csv"], at=[0.01],
+                                  flags=["--up", "z", "--scale", "100"]).items():
+    assert abs(series[0].frame - 24 * series[0].time) < 1e-9 and 0.2 < series[0].frame < 0.25, format
+    assert (series.up, series.scale) == (series[0].up, series[0].scale) == ("z", 100), format
+    assert not any(name.startswith("up_") for name in series[0]), format
+alone = neve.read_ply("turned/ply/0000.ply")
+assert (alone.up, alone.scale) == ("z", 100) and 0.2 < alone.frame < 0.25, alone.frame
+assert neve.read_csv("turned/csv/0000.csv").up == "z"
 
 # A table of one row.
 path = os.path.join(os.getcwd(), "one.csv")
@@ -82,6 +92,17 @@ with open(path, "w") as file:
     file.write("id,x,y,z\n7,1,2,3\n")
 one = neve.read_csv(path)
 assert one.count == 1 and list(one["id"]) == [7], one
+
+# A column whose name ends as those of a tensor do, alone.
+with open("one.csv", "w") as file:
+    file.write("id,x,y,z,tag_xx,rank_xy\n7,1,2,3,4,5\n")
+one = neve.read_csv("one.csv")
+assert list(one["tag_xx"]) == [4] and list(one["rank_xy"]) == [5], one
+# A part of a file.
+with open("states/ply/0003.ply", "rb") as file:
+    whole = file.read()
+with open("half.ply", "wb") as file:
+    file.write(whole[:len(whole) // 2])
 
 # What a notebook shows.
 png = b"\x89PNG\r\n\x1a\n"
@@ -103,7 +124,7 @@ assert np.isclose(sweep.points["spread_mean"][1], sweep["spread"][2:].mean())
 assert all(np.isclose(sweep.run(k)["spread"][-1], sweep["spread"][k]) for k in range(4))
 
 # Words of a sweep are one value each, whatever is in them, and come back as they were given.
-words = ["1_0", "a,b", "nan", "5", "", "x'y", "[z]1", "=1", " b"]
+words = ["1_0", "a,b", "nan", "5", "1e3", "1.10", "1.1", "007", "", "x'y", "[z]1", "=1", " b"]
 sweep_of_words = neve.sweep("scene.toml", "words.cdb", {"title": words}, frames=0)
 assert list(sweep_of_words["title"]) == words, sweep_of_words["title"]
 assert 'title = "a,b"' in sweep_of_words.run(1).json["scene"]
@@ -176,6 +197,7 @@ assert any("after the last frame" in str(one.message) for one in said), said
 # Mistakes in Python.
 for mistake, kind, part in (
     (lambda: run.force("flor"), KeyError, "floor"),
+    (lambda: neve.Run("out/looked").force("flor"), KeyError, "floor"),
     (lambda: run["energy"], KeyError, "kinetic_energy"),
     (lambda: run.body("floor"), KeyError, "no collider of this run moves by itself"),
     (lambda: moved.body("floor"), KeyError, "can"),
@@ -184,6 +206,7 @@ for mistake, kind, part in (
     (lambda: neve.check("scene.toml", coarsn=3), TypeError, "coarsn"),
     (lambda: neve.read_ply("scene.toml"), ValueError, "no PLY file"),
     (lambda: neve.read_ply("ascii.ply"), ValueError, "an ASCII PLY file"),
+    (lambda: neve.read_ply("half.ply"), ValueError, "a part of a PLY file"),
     (lambda: neve.export("scene.toml", "mesh", formats="ply", frames=0, flags=["--surface"])
      ["ply"][0], ValueError, "without --surface"),
     (lambda: neve.check("scene.toml", set={"collider.floor": {}}), ValueError, "collider.floor"),
