@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "app/health/findings.h"
 #include "app/health/places.h"
@@ -115,6 +117,15 @@ void check_joint(const Collider& body, std::vector<Finding>& findings) {
        fmt::format("joint_point is a place in the scene; the body is at {}", vector_text(middle))});
 }
 
+/// Six digits, and nothing of what rounding leaves.
+std::string rough(const Vec3d& v) {
+  constexpr double nothing = 1e-9;
+  const auto digits = [&](double x) {
+    return std::abs(x) <= nothing * v.norm() ? std::string("0") : fmt::format("{:.6g}", x);
+  };
+  return "[" + digits(v.x()) + ", " + digits(v.y()) + ", " + digits(v.z()) + "]";
+}
+
 /// A joint turns the motion of a free body into one that it allows as an impact does: a body that
 /// is to swing needs the velocity of its centre too.
 void check_start_of_held(const Collider& body, std::vector<Finding>& findings) {
@@ -139,11 +150,11 @@ void check_start_of_held(const Collider& body, std::vector<Finding>& findings) {
        fmt::format(
            "the scene gives {} {} m/s and {} rad/s, and what holds it lets it start with {} "
            "m/s and {} rad/s",
-           display_name("collider", body.name), vector_text(given.velocity),
-           vector_text(given.spin), vector_text(start.velocity), vector_text(start.spin)),
+           display_name("collider", body.name), rough(given.velocity), rough(given.spin),
+           rough(start.velocity), rough(start.spin)),
        swings && !spin.isZero(0)
            ? fmt::format("to swing about its joint with {} rad/s it needs velocity = {} as well",
-                         vector_text(spin), vector_text(round))
+                         rough(spin), rough(round))
            : "leave out what its joint or hold takes away"});
 }
 

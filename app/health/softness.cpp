@@ -121,10 +121,9 @@ std::optional<std::string> softness_warning(const scene::Scene& scene,
   const double speed = load_speed(scene);
   if (!is_packed && snow.density >= sim::ice_density)
     return fmt::format(
-        "{} % of the snow is denser than ice ({} kg/m3): material.{}.density = {} kg/m3 is, "
-        "without "
-        "any impact; try a smaller one",
-        rough_text(100 * dense), rough_text(sim::ice_density), snow.name, rough_text(snow.density));
+        "{} % of the snow is denser than ice ({} kg/m3): material.{}.density = {:.6g} kg/m3 "
+        "is, without any impact; try a smaller one",
+        rough_text(100 * dense), rough_text(sim::ice_density), snow.name, snow.density);
   if (!is_packed)
     return fmt::format(
         "{} % of the snow was packed denser than ice ({} kg/m3): it is too soft for its impact at "
