@@ -174,7 +174,8 @@ TEST_F(PointFiles, PackingOfPointsOutsideTheRangeOfTheirMaterialIsSaid) {
   EXPECT_EQ(warnings(), "");
   folder.write("scene.toml", block_scene + std::string("[material.snow]\nmax_J_P = 4\n"));
   const std::string told = warnings();
-  EXPECT_TRUE(contains(told, "100 of 1000 points have a J_P above 4, as large as 5: snow makes it 4"))
+  EXPECT_TRUE(
+      contains(told, "100 of 1000 points have a J_P above 4, as large as 5: snow makes it 4"))
       << told;
 }
 
