@@ -580,9 +580,11 @@ TEST(FlowRoom, AJetIsAsDenseAsItsSnowAtAnyRateBeyondTheNaturalOne) {
       const double early = simulation.flow_totals().emitted_mass;
       simulation.advance_to(0.3);
       const seeding::FlowTotals totals = simulation.flow_totals();
-      const double comes = std::min(ratio, 1.0), one = totals.emitted_mass / totals.emitted;
+      const double comes = std::min(ratio, 1.0),
+                   one = totals.emitted_mass / static_cast<double>(totals.emitted);
       EXPECT_NEAR((totals.emitted_mass - early) / 0.2 / natural, comes, 0.005);
-      EXPECT_NEAR(totals.withheld * one, (ratio - comes) * natural * 0.3, 2 * one);
+      EXPECT_NEAR(static_cast<double>(totals.withheld) * one, (ratio - comes) * natural * 0.3,
+                  2 * one);
       // Between the ends of the jet, which are as long as the spout.
       double mass = 0;
       const ParticleArrays particles = simulation.particles();

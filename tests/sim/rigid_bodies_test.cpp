@@ -832,15 +832,21 @@ TEST(RigidBodies, ATerrainGoesOnAsIfThereWerePosts) {
   }
 }
 
-/// A joint takes away what it does not allow as an impact does: a box of 4 kg that only spins about
-/// its centre, 0.3 m from its hinge, keeps I / (I + m r^2) of its spin. With the velocity that
-/// belongs to the spin nothing is taken away.
-TEST(RigidBodies, AHingedBodyStartsAsItsHingeAllows) {
+/// A box of 4 kg that only spins about its centre, 0.3 m from its hinge.
+shapes::Collider spinning_sign() {
   shapes::Collider sign = box_of(500, {0.3, 3, 0}, {0.2, 0.2, 0.2});
   sign.body.joint = shapes::Joint::hinge;
   sign.body.joint_point = {0, 3, 0};
   sign.body.joint_axis = {0, 0, 1};
   sign.angular_velocity = {0, 0, 2};
+  return sign;
+}
+
+/// A joint takes away what it does not allow as an impact does: a box of 4 kg that only spins about
+/// its centre, 0.3 m from its hinge, keeps I / (I + m r^2) of its spin. With the velocity that
+/// belongs to the spin nothing is taken away.
+TEST(RigidBodies, AHingedBodyStartsAsItsHingeAllows) {
+  shapes::Collider sign = spinning_sign();
   const double about_centre = 4 * 0.04 / 6, kept = about_centre / (about_centre + 4 * 0.09);
   rigid::Motion start = rigid::motion_at_start(sign);
   EXPECT_LT((start.spin - Vec3d(0, 0, 2 * kept)).norm(), 1e-12);
@@ -881,14 +887,9 @@ TEST(RigidBodies, ABodyThatIsHeldStartsAsItMovesOn) {
 
 /// What a run says of its first frame is how its bodies move.
 TEST(RigidBodies, ASimulationBeginsWithMotionsThatAreAllowed) {
-  shapes::Collider sign = box_of(500, {0.3, 3, 0}, {0.2, 0.2, 0.2});
-  sign.body.joint = shapes::Joint::hinge;
-  sign.body.joint_point = {0, 3, 0};
-  sign.body.joint_axis = {0, 0, 1};
-  sign.angular_velocity = {0, 0, 2};
   SolverSettings settings;
   settings.gravity.setZero();
-  Simulation simulation(settings, {Material{}}, {sign}, {});
+  Simulation simulation(settings, {Material{}}, {spinning_sign()}, {});
   const Vec3d first = motion_of(simulation, 0).angular_velocity;
   EXPECT_NEAR(first.z(), 2 * 0.16 / (0.16 + 6 * 0.36), 1e-12);
   simulation.step(1e-4);
