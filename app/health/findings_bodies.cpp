@@ -155,7 +155,7 @@ void check_start_of_held(const Collider& body, std::vector<Finding>& findings) {
        swings && !spin.isZero(0)
            ? fmt::format("to swing about its joint with {} rad/s it needs velocity = {} as well",
                          rough(spin), rough(round))
-           : "leave out what its joint or hold takes away"});
+           : "omit what its joint or hold takes away"});
 }
 
 bool falls_freely(const scene::Scene& scene, const Collider& body) {
