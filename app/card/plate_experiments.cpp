@@ -74,13 +74,13 @@ double free_height(const sim::SolverSettings& solver) {
 }
 
 /// By which a block is pressed at most before it is sheared.
-constexpr double most_pressed = 0.05;
+constexpr double max_pressed = 0.05;
 
-/// The strain at which the plates bear so much; most_pressed where they bear less there. Of what
+/// The strain at which the plates bear so much; max_pressed where they bear less there. Of what
 /// yields before, no formula tells it, but a block that is pressed.
 double strain_under(const Subject& subject, double pressure, Experiment& e) {
   const sim::Material& m = subject.material;
-  double low = 0, high = most_pressed;
+  double low = 0, high = max_pressed;
   for (int k = 0; k < 40; ++k) {
     const double middle = 0.5 * (low + high);
     (-elastic_stress(m, stretched(-middle))(1, 1) < pressure ? low : high) = middle;
@@ -88,7 +88,7 @@ double strain_under(const Subject& subject, double pressure, Experiment& e) {
   if (!first_yield(
           m, [](double strain) { return stretched(-strain); }, high))
     return high;
-  const double way = most_pressed * free_height(subject.solver);
+  const double way = max_pressed * free_height(subject.solver);
   Plates plates(subject, {{slow_seconds(m), {0, -way, 0}}}, e);
   std::vector<double> stress, strain;
   PlateSample sample;
@@ -97,7 +97,7 @@ double strain_under(const Subject& subject, double pressure, Experiment& e) {
     strain.push_back(-sample.moved.y() / free_height(subject.solver));
   }
   const double found = interpolated(stress, strain, pressure);
-  return std::isfinite(found) ? found : most_pressed;
+  return std::isfinite(found) ? found : max_pressed;
 }
 
 }  // namespace
@@ -243,7 +243,7 @@ Experiment shear(const Subject& subject) {
     e.measures.push_back({"friction", is_known ? shear_sum / normal_sum : NAN});
   if (is_known || strength > 0)
     e.words.push_back((is_known ? "bears " : "bears at least ") + pressure_text(strength));
-  if (is_pressed && pressed >= most_pressed)
+  if (is_pressed && pressed >= max_pressed)
     e.words.push_back("under " + pressure_text(pressure) + ", pressed by 5 %");
   if (std::isfinite(e.value("modulus").value_or(NAN)))
     e.words.push_back(modulus_words(e.measures[2]));

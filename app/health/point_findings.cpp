@@ -11,11 +11,13 @@
 
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/toml/value.h"
 #include "app/support/text.h"
 #include "sim/laws/law.h"
 
 namespace neve::app::health {
 
+using scene::toml::number_text;
 using sim::health::Law;
 
 bool is_from_points(const sim::seeding::Body& body) {
