@@ -197,7 +197,7 @@ TEST(Exports, AgesThatTheStateDoesNotSayAreNotANumber) {
       "[solver]\ncell_size = 0.05\n"
       "[[emitter]]\nname = \"hose\"\nshape = { box = { center = [1, 0.1, 0], size = [0.2, 0.2, "
       "0.2] } }\n"
-      "rate = 40\nvelocity = [0, -0.5, 0]\n"
+      "rate = 16\nvelocity = [0, -0.5, 0]\n"
       "[[collider]]\nshape = { plane = {} }\n"
       "[[export]]\nformat = \"npz\"\nattributes = [\"age\"]\n"
       "[[export]]\nformat = \"csv\"\nattributes = [\"age\"]\nbodies = [\"ball\"]\n");

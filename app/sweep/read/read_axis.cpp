@@ -117,11 +117,12 @@ std::vector<scene::toml::Value> values_of(const AxisRule& spec, const std::strin
 }
 
 /// A text that looks like a number is that text wherever it is shown or compared: 1.10 is not 1.1.
-void quote_number(scene::Override& setting) {
-  const std::optional<scene::ParamInfo> info = scene::param_at(setting.address);
-  const std::string text = trimmed(setting.value);
-  if (info && info->type == "string" && number_of(text))
-    setting.value = scene::toml::toml_string(text);
+void quote_numbers(Axis::Parameter& parameter) {
+  const std::optional<scene::ParamInfo> info = scene::param_at(parameter.address);
+  if (!info || info->type != "string") return;
+  for (scene::Override& setting : parameter.values)
+    if (const std::string text = trimmed(setting.value); number_of(text))
+      setting.value = scene::toml::toml_string(text);
 }
 
 scene::Override override_of(const scene::Source& source, const scene::toml::Entry& entry,
@@ -132,7 +133,6 @@ scene::Override override_of(const scene::Source& source, const scene::toml::Entr
   setting.file = source.file;
   setting.key = entry.where;
   setting.place = value.where.line > 0 ? value.where : entry.value.where;
-  quote_number(setting);
   return setting;
 }
 
@@ -290,6 +290,7 @@ Axis::Parameter read_axis(const scene::Source& source, const scene::toml::Entry&
     source.fail(entry.value.where, entry.key + " has too many values", "at most 100000");
   for (const scene::toml::Value& value : values)
     parameter.values.push_back(override_of(source, entry, value));
+  quote_numbers(parameter);
   return parameter;
 }
 
@@ -310,9 +311,9 @@ Axis::Parameter parse_axis(const std::string& argument) {
       throw UsageError(what, "a value is missing", "expected values with commas, as in 5,10,20");
     scene::Override setting = change;
     setting.value = piece;
-    quote_number(setting);
     parameter.values.push_back(setting);
   }
+  quote_numbers(parameter);
   return parameter;
 }
 
