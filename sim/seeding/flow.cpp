@@ -106,13 +106,18 @@ double share_carried_away(const Emitter& emitter, const shapes::Solid& solid,
   return std::max(by_velocity + by_spin, by_gravity);
 }
 
+/// kg/s, see natural_rate(); of an emitter with a rate.
+double carried_away(const Emitter& emitter, const Material& material, const shapes::Solid& solid,
+                    const Vec3d& gravity) {
+  return density_at_birth(emitter, material) * solid.volume() *
+         share_carried_away(emitter, solid, gravity);
+}
+
 }  // namespace
 
 double natural_rate(const Emitter& emitter, const Material& material, const Vec3d& gravity) {
   if (emitter.rate == 0) return std::numeric_limits<double>::infinity();
-  const shapes::Solid solid(emitter.shape);
-  return density_at_birth(emitter, material) * solid.volume() *
-         share_carried_away(emitter, solid, gravity);
+  return carried_away(emitter, material, shapes::Solid(emitter.shape), gravity);
 }
 
 double birth_period(const Emitter& emitter, const Material& material, double cell_size) {
@@ -157,7 +162,8 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births, const Ha
     return static_cast<std::uint64_t>(
         std::min(births_until(emitter_, mass, time, waited), max_particles));
   };
-  const double pause = gravity ? pause_after_birth(*gravity) : 0;
+  const bool is_due = state_.born < due(state_.waited);
+  const double pause = gravity && is_due ? pause_after_birth(*gravity) : 0;
   for (; state_.born < due(state_.waited); ++state_.born) {
     const double birth = emitter_.start + (static_cast<double>(state_.born) + 0.5) * period;
     // One that was waiting when the emitter closed is not born: its place would move on and on.
@@ -192,8 +198,7 @@ bool EmitterStream::is_undisturbed(const State& state) const {
 /// infinite where nothing carries it.
 double EmitterStream::pause_after_birth(const Vec3d& gravity) const {
   const double mass = density_at_birth(emitter_, material_) * volume_;
-  const double natural = density_at_birth(emitter_, material_) * solid_.volume() *
-                         share_carried_away(emitter_, solid_, gravity);
+  const double natural = carried_away(emitter_, material_, solid_, gravity);
   return exceeds(emitter_.rate, natural) ? mass / natural - mass / emitter_.rate : 0;
 }
 
