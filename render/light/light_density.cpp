@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "render/light/light_fields.h"
 
@@ -154,35 +155,84 @@ void add_smoke(const SmokeGrid& smoke, const LightGrid& grid, ThreadPool* pool,
   });
 }
 
-std::vector<float> voxelize(const std::vector<TriangleMesh>& meshes, const LightGrid& grid) {
-  std::vector<float> solid(grid.count());
-  const auto mark = [&](Vec3f p) {
-    const Vec3f x = (p - grid.origin) / grid.cell;
-    if (!(x.x >= 0 && x.y >= 0 && x.z >= 0 && x.x < static_cast<float>(grid.size.x) &&
-          x.y < static_cast<float>(grid.size.y) && x.z < static_cast<float>(grid.size.z)))
-      return;
-    const std::size_t i = (static_cast<std::size_t>(x.z) * static_cast<std::size_t>(grid.size.y) +
-                           static_cast<std::size_t>(x.y)) *
-                              static_cast<std::size_t>(grid.size.x) +
-                          static_cast<std::size_t>(x.x);
-    solid[i] = 1;
-  };
-  for (const TriangleMesh& mesh : meshes) {
-    for (std::size_t t = 0; t + 2 < mesh.index.size(); t += 3) {
-      const Vec3f a = mesh.position[mesh.index[t]], b = mesh.position[mesh.index[t + 1]],
-                  c = mesh.position[mesh.index[t + 2]];
-      const float longest = std::max({length(b - a), length(c - a), length(c - b)});
-      // Samples half a cell apart leave no holes; the limit is for faces far larger than the grid.
-      const int steps = static_cast<int>(std::clamp(2 * longest / grid.cell + 1, 1.0f, 1024.0f));
-      for (int i = 0; i <= steps; ++i) {
-        for (int j = 0; j <= steps - i; ++j) {
-          const float u = static_cast<float>(i) / static_cast<float>(steps);
-          const float v = static_cast<float>(j) / static_cast<float>(steps);
-          mark(a + u * (b - a) + v * (c - a));
-        }
+namespace {
+
+/// Marks the cells of a grid that faces go through.
+class FaceMarker {
+ public:
+  FaceMarker(const LightGrid& grid, std::vector<float>& solid) : grid_(grid), solid_(solid) {
+    const Vec3f size{static_cast<float>(grid.size.x), static_cast<float>(grid.size.y),
+                     static_cast<float>(grid.size.z)};
+    low_ = grid.origin - grid.cell * Vec3f{1, 1, 1};
+    high_ = grid.origin + grid.cell * (size + Vec3f{1, 1, 1});
+  }
+
+  void add(Vec3f a, Vec3f b, Vec3f c) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [least, most] = std::minmax({a[axis], b[axis], c[axis]});
+      // The negation also turns away NaN.
+      if (!(least <= high_[axis] && most >= low_[axis])) return;
+    }
+    // Samples half a cell apart leave no holes.
+    const float longest = std::max({length(b - a), length(c - a), length(c - b)});
+    const float steps = std::max(2 * longest / grid_.cell + 1, 1.0f);
+    if (steps <= max_steps) return add_samples(a, b, c, static_cast<int>(steps));
+    if (!(steps < std::numeric_limits<float>::infinity())) return;
+    const Vec3f ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
+    add(a, ab, ca);
+    add(ab, b, bc);
+    add(ca, bc, c);
+    add(ab, bc, ca);
+  }
+
+ private:
+  static constexpr float max_steps = 1024;
+
+  void add_samples(Vec3f a, Vec3f b, Vec3f c, int steps) {
+    const auto all = static_cast<float>(steps);
+    for (int i = 0; i <= steps; ++i) {
+      const float u = static_cast<float>(i) / all;
+      const Vec3f start = a + u * (b - a), along = c - a;
+      // Most of a large face is outside of the grid.
+      float first = 0, last = 1;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (along[axis] == 0) continue;
+        const float at_low = (low_[axis] - start[axis]) / along[axis];
+        const float at_high = (high_[axis] - start[axis]) / along[axis];
+        first = std::max(first, std::min(at_low, at_high));
+        last = std::min(last, std::max(at_low, at_high));
       }
+      if (!(first <= last)) continue;
+      const int end = std::min(steps - i, static_cast<int>(last * all) + 2);
+      for (int j = std::max(0, static_cast<int>(first * all) - 1); j <= end; ++j)
+        mark(a + u * (b - a) + static_cast<float>(j) / all * (c - a));
     }
   }
+
+  void mark(Vec3f p) {
+    const Vec3f x = (p - grid_.origin) / grid_.cell;
+    if (!(x.x >= 0 && x.y >= 0 && x.z >= 0 && x.x < static_cast<float>(grid_.size.x) &&
+          x.y < static_cast<float>(grid_.size.y) && x.z < static_cast<float>(grid_.size.z)))
+      return;
+    const std::size_t row = static_cast<std::size_t>(x.z) * static_cast<std::size_t>(grid_.size.y) +
+                            static_cast<std::size_t>(x.y);
+    solid_[row * static_cast<std::size_t>(grid_.size.x) + static_cast<std::size_t>(x.x)] = 1;
+  }
+
+  const LightGrid& grid_;
+  std::vector<float>& solid_;
+  Vec3f low_, high_;  ///< a cell around the grid
+};
+
+}  // namespace
+
+std::vector<float> voxelize(const std::vector<TriangleMesh>& meshes, const LightGrid& grid) {
+  std::vector<float> solid(grid.count());
+  FaceMarker marker(grid, solid);
+  for (const TriangleMesh& mesh : meshes)
+    for (std::size_t t = 0; t + 2 < mesh.index.size(); t += 3)
+      marker.add(mesh.position[mesh.index[t]], mesh.position[mesh.index[t + 1]],
+                 mesh.position[mesh.index[t + 2]]);
   return solid;
 }
 

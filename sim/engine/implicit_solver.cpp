@@ -173,6 +173,7 @@ typename ImplicitSolver<Real>::Motion ImplicitSolver<Real>::find_velocities(
     return Motion{std::max(motion_squared(sums, state.method.settings, dt), missing), sums[0]};
   };
   last_solve_ = {};
+  last_solve_.solves = 1;
   const Real hold = a.hold;
   a.hold = 0;
   double missing = contact ? contact->look(state, a).missing : 0;

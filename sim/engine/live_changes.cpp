@@ -220,12 +220,17 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
 
   if (!settings.is_contact_at_particles() || !are_the_same(state.colliders.list(), colliders))
     state.particles.contacts.forget();
-  if (contains_true(is_changed)) find_shock_pressure(state);
+  // A later change of a material at this moment asks for it, whatever the viscosity is then.
+  if (contains_true(is_changed) || before.shock_viscosity != settings.shock_viscosity)
+    find_shock_pressure(state);
   state.method = std::move(method);
   state.colliders = std::move(moving);
   progress.colliders_time = colliders_time;
   state.method.limit_hardening(progress.limits);
-  const bool has_new_affine = before.has_affine_velocity() != settings.has_affine_velocity();
+  if (before.has_affine_velocity() != settings.has_affine_velocity())
+    state.particles.affine_step = progress.steps;
+  // Changes at one moment are one change: the last of them says how C is fitted.
+  const bool has_new_affine = state.particles.affine_step == progress.steps;
   if (has_new_affine)
     for (kernels::Particle<Real>& p : state.particles.records)
       std::fill(std::begin(p.C), std::end(p.C), Real(0));

@@ -226,6 +226,8 @@ void require_healthy(const SavedNumbers<Real>& saved, const Method<Real>& method
   for (const kernels::KeptContact<Real>& contact : saved.contacts) require_healthy_contact(contact);
   for (const seeding::EmitterStream::State& emitter : saved.emitters)
     require_healthy_emitter(emitter);
+  for (const Real pressure : saved.shock_pressure)
+    require_not_negative("a shock pressure", static_cast<double>(pressure));
 }
 
 template void require_consistent(const SavedNumbers<float>&, const Method<float>&);

@@ -12,16 +12,18 @@ namespace neve::sim::engine {
 namespace {
 
 /// The last sign is the version of the layout.
-constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'G'};
+constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'H'};
 
 /// At the beginning: it says what follows. Then come Progress, the records, the offsets of the
-/// colliders, the emitters, the contacts and the velocities of bodies that move by themselves.
+/// colliders, the emitters, the contacts, the velocities of bodies that move by themselves and the
+/// shock pressure that a change at this moment found.
 struct SavedHead {
   char magic[8];
   std::uint32_t bytes_per_number, bytes_per_record;
   std::uint64_t particles, colliders, emitters;
   std::int32_t lattice_origin[3];
   std::uint32_t contacts;
+  std::uint32_t has_shock_pressure, has_new_affine;  ///< 0 or 1
 };
 static_assert(std::has_unique_object_representations_v<SavedHead>);
 
@@ -92,6 +94,14 @@ std::size_t bytes_in(const std::vector<T>& list) {
   throw SavedStateError("the saved state " + why);
 }
 
+/// What a change at this very moment leaves for the next one.
+template <class Real>
+bool has_shock_pressure(const State<Real>& state) {
+  const ParticleStorage<Real>& particles = state.particles;
+  return particles.size() > 0 && particles.shock_pressure.size() == particles.size() &&
+         particles.shock_step == state.progress.steps;
+}
+
 template <class Real>
 SavedHead head_of(const State<Real>& state, std::size_t emitters, std::size_t contacts) {
   SavedHead head{};
@@ -102,6 +112,8 @@ SavedHead head_of(const State<Real>& state, std::size_t emitters, std::size_t co
   head.colliders = state.colliders.list().size();
   head.emitters = emitters;
   head.contacts = static_cast<std::uint32_t>(contacts);
+  head.has_shock_pressure = has_shock_pressure(state) ? 1 : 0;
+  head.has_new_affine = state.particles.affine_step == state.progress.steps ? 1 : 0;
   for (int a = 0; a < 3; ++a) head.lattice_origin[a] = state.method.lattice.origin[a];
   return head;
 }
@@ -135,11 +147,12 @@ SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<R
   require_same(head, head_of(state, saved.emitters.size(), head.contacts));
   std::vector<SavedOffset> offsets(state.colliders.list().size());
   saved.motions.resize(state.colliders.bodies().size());
+  const std::uint64_t shocks = head.has_shock_pressure != 0 ? head.particles : 0;
   if (head.particles > bytes.size() / sizeof(kernels::Particle<Real>) ||
       bytes.size() != sizeof head + sizeof saved.progress +
                           head.particles * sizeof(kernels::Particle<Real>) + bytes_in(offsets) +
                           bytes_in(saved.emitters) + head.contacts * sizeof(SavedContact) +
-                          saved.motions.size() * sizeof(SavedMotion))
+                          saved.motions.size() * sizeof(SavedMotion) + shocks * sizeof(Real))
     refuse_saved("has a different length than it says");
   take(&saved.progress, sizeof saved.progress);
   saved.records.resize(head.particles);
@@ -154,6 +167,9 @@ SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<R
     velocity = Vec3d::Map(motion.velocity);
     spin = Vec3d::Map(motion.spin);
   }
+  saved.shock_pressure.resize(shocks);
+  take(saved.shock_pressure.data(), bytes_in(saved.shock_pressure));
+  saved.has_new_affine = head.has_new_affine != 0;
   for (const SavedOffset& offset : offsets) saved.offsets.push_back(restored(offset));
   for (const SavedContact& contact : contacts) saved.contacts.push_back(restored<Real>(contact));
   return saved;
@@ -204,9 +220,11 @@ std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& f
     Vec3d::Map(motion.spin) = pose.angular_velocity;
   }
   const SavedHead head = head_of(state, emitters.size(), contacts.size());
+  const std::vector<Real> shocks =
+      head.has_shock_pressure != 0 ? state.particles.shock_pressure : std::vector<Real>{};
   std::vector<std::uint8_t> bytes(sizeof head + sizeof state.progress + bytes_in(records) +
                                   bytes_in(offsets) + bytes_in(emitters) + bytes_in(contacts) +
-                                  bytes_in(motions));
+                                  bytes_in(motions) + bytes_in(shocks));
   std::uint8_t* next = bytes.data();
   const auto put = [&](const void* data, std::size_t size) {
     if (size > 0) std::memcpy(next, data, size);
@@ -219,6 +237,7 @@ std::vector<std::uint8_t> save(const State<Real>& state, const SnowFlow<Real>& f
   put(emitters.data(), bytes_in(emitters));
   put(contacts.data(), bytes_in(contacts));
   put(motions.data(), bytes_in(motions));
+  put(shocks.data(), bytes_in(shocks));
   return bytes;
 }
 
@@ -235,6 +254,9 @@ void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<R
   flow.restore(saved.emitters);
   state.particles.replace(saved.records);
   state.particles.contacts.replace(saved.contacts, saved.records.size());
+  state.particles.shock_pressure = std::move(saved.shock_pressure);
+  state.particles.shock_step = saved.progress.steps;
+  if (saved.has_new_affine) state.particles.affine_step = saved.progress.steps;
   if (saved.records.empty()) return;
   // Keys come from a sweep that also computes the stress, perhaps with another last bit: the
   // records go back as they were.

@@ -10,9 +10,6 @@ namespace neve::sim::kernels {
 
 inline constexpr int block_side = 4, block_nodes = 64;
 
-/// A particle's code in its block is model * 64 + cell.
-inline constexpr int model_codes = 5;
-
 /// Blocks lie within +-2^20 of the lattice's zero on each axis (4 million cells): beyond is
 /// overflow.
 inline constexpr int block_limit = (1 << 20) - 4;

@@ -9,6 +9,7 @@
 #ifndef NEVE_LANES_ALONE
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #endif
@@ -69,6 +70,15 @@ inline Mat3d first_piola(const Material& m, const Mat3d& F_E, double J_P) {
          l.lambda * std::log(F_E.determinant()) * inverse_transposed;
 }
 
+/// Of the largest stretch s, Pa: mu s^2 + mu + lambda (1 - log J), from the second derivative of
+/// the energy along a plane wave. Under tension it may sink below 0, where waves are unstable.
+inline double wave_modulus(const Material& m, const Mat3d& F_E, double J_P) {
+  const Lame l = hardened(m, J_P);
+  const double s = F_E.jacobiSvd().singularValues()[0];
+  const double log_J = std::log(std::max(F_E.determinant(), 1e-6));
+  return l.mu * s * s + std::max(l.mu + l.lambda * (1 - log_J), 0.0);
+}
+
 inline constexpr Parameter parameters[] = {parameter::hardening};
 
 inline constexpr Law law{.kind = "elastic",
@@ -79,7 +89,7 @@ inline constexpr Law law{.kind = "elastic",
                          .caption = "elastic, hardening {}",
                          .energy_density = energy_density,
                          .first_piola = first_piola,
-                         .wave_modulus = stretched_wave_modulus,
+                         .wave_modulus = wave_modulus,
                          .scale = scale_of_thresholds};
 #endif
 

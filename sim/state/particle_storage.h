@@ -75,6 +75,10 @@ struct ParticleStorage {
   /// together.
   std::vector<Real> shock_pressure;
   std::size_t shock_step = 0;  ///< steps that were done then
+  static constexpr auto no_step = static_cast<std::size_t>(-1);
+  /// Steps that were done when a change took C away or gave it: later changes at that moment give
+  /// it by what holds then.
+  std::size_t affine_step = no_step;
   Partition partition;
   Reordering<kernels::Particle<Real>> reordering;
 
@@ -100,6 +104,7 @@ struct ParticleStorage {
   void replace(const std::vector<kernels::Particle<Real>>& others) {
     contacts.forget();
     shock_pressure.clear();
+    affine_step = no_step;
     records = others;
     keys.assign(others.size(), 0);
     locals.assign(others.size(), 0);

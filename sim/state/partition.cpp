@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "sim/laws/list.h"
+
 namespace neve::sim::engine {
 
 namespace {
@@ -30,7 +32,8 @@ void sort_places(std::vector<std::uint64_t>& places, std::vector<std::uint64_t>&
     std::sort(places.begin(), places.end());
     return;
   }
-  std::uint32_t start[kernels::model_codes * kernels::block_nodes + 1] = {};
+  // Of each model and cell, which are the upper bits of a place.
+  std::uint32_t start[laws::law_count * kernels::block_nodes + 1] = {};
   for (const std::uint64_t place : places) ++start[(place >> 32) + 1];
   std::partial_sum(std::begin(start), std::end(start), std::begin(start));
   scattered.resize(places.size());

@@ -16,10 +16,12 @@ DtLimit AdvanceReport::limit() const {
 }
 
 void SolveReport::add(const SolveReport& other) {
-  const bool is_empty = all_iterations == 0 && given_up == 0 && cut_short == 0;
-  if (is_empty && std::isnan(other.residual)) residual = other.residual;
-  if (!std::isnan(other.residual))
-    residual = std::isnan(residual) ? other.residual : std::max(residual, other.residual);
+  if (other.solves == 0) return;
+  if (solves == 0 || std::isnan(residual))
+    residual = other.residual;
+  else if (!std::isnan(other.residual))
+    residual = std::max(residual, other.residual);
+  solves += other.solves;
   iterations = std::max(iterations, other.iterations);
   all_iterations += other.all_iterations;
   cut_short += other.cut_short;

@@ -63,6 +63,7 @@ struct SolveReport {
   /// the velocity of the centre of mass and of what gravity adds in the step; no number where every
   /// solve was given up
   double residual = 0;
+  std::size_t solves = 0;            ///< also those of no use; steps without snow have none
   std::size_t cut_short = 0;         ///< solves taken as they were after solve_iterations
   std::size_t given_up = 0;          ///< solves of no use: shorter steps in their place
   std::uint64_t all_iterations = 0;  ///< of all solves

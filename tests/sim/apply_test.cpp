@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
 
 #include "sim/checks/watch.h"
 #include "sim/laws/list.h"
@@ -326,6 +327,44 @@ TEST(Apply, ManyChangesAtOneStepAreOneChange) {
   advance(at_once, 40);
   advance(in_pieces, 40);
   EXPECT_EQ(at_once.state_hash(), in_pieces.state_hash());
+}
+
+/// Also where a session looks at an older moment between two changes, and comes back by a saved
+/// state.
+TEST(Apply, ManyChangesAtOneStepAreOneChangeAlsoAcrossASavedState) {
+  using Edit = std::function<void(World&)>;
+  const Edit stiffer = [](World& w) { w.materials[0].youngs_modulus *= 2; };
+  const Edit poisson = [](World& w) { w.materials[0].poisson_ratio = 0.3; };
+  const Edit inviscid = [](World& w) { w.settings.shock_viscosity = 0; };
+  const Edit quadratic = [](World& w) { w.settings.kernel = Kernel::quadratic; };
+  const auto transfer = [](Transfer to) -> Edit {
+    return [to](World& w) { w.settings.transfer = to; };
+  };
+  const std::vector<std::vector<Edit>> all{
+      {stiffer, poisson},
+      {inviscid, stiffer},
+      {transfer(Transfer::asflip), quadratic},
+      {transfer(Transfer::apic), transfer(Transfer::asflip), stiffer}};
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const bool is_saved : {false, true}) {
+      SCOPED_TRACE(std::to_string(k) + (is_saved ? ", saved between" : ""));
+      World world, last;
+      Simulation at_once = crushed(last);
+      for (const Edit& edit : all[k]) edit(last);
+      last.apply_to(at_once);
+      auto in_pieces = std::make_unique<Simulation>(crushed(world));
+      for (const Edit& edit : all[k]) {
+        edit(world);
+        world.apply_to(*in_pieces);
+        if (!is_saved) continue;
+        auto again = std::make_unique<Simulation>(world.simulate({}));
+        again->restore(in_pieces->save());
+        in_pieces = std::move(again);
+      }
+      advance(at_once, 10);
+      advance(*in_pieces, 10);
+      EXPECT_EQ(in_pieces->state_hash(), at_once.state_hash());
+    }
 }
 
 /// What viscosity adds to the stress of a shock is of the step that made it: changes of almost

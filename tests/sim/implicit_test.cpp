@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 
 #include "sim/checks/self_test_bodies.h"
 #include "sim/health/diagnostics.h"
@@ -224,6 +225,23 @@ TEST(ImplicitSolve, ImplicitSolveThatFailsIsReplacedByExplicitSteps) {
   EXPECT_GT(report.solve->given_up, 0u);
   EXPECT_TRUE(std::isnan(report.solve->residual)) << "no solve was taken";
   EXPECT_EQ(report.limit(), DtLimit::acoustic);  // of the steps that were taken
+}
+
+TEST(ImplicitSolve, AFrameOfSolvesGivenUpHasNoResidualWhateverFollows) {
+  SolveReport given_up;
+  given_up.solves = given_up.given_up = 1;
+  given_up.residual = std::numeric_limits<double>::quiet_NaN();
+  SolveReport frame = given_up;
+  frame.add({});  // a step without snow
+  EXPECT_TRUE(std::isnan(frame.residual));
+  SolveReport solved;
+  solved.solves = 1;
+  frame.add(solved);
+  EXPECT_EQ(frame.residual, 0);
+  // Snow that is at rest takes no iteration.
+  solved.add(given_up);
+  EXPECT_EQ(solved.residual, 0);
+  EXPECT_EQ(solved.given_up, 1u);
 }
 
 /// A step that is too long for the iterations is taken in two halves.
