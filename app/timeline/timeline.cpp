@@ -72,6 +72,7 @@ Timeline::Timeline(const scene::Scene& start, std::vector<scene::LiveChange> cha
 void Timeline::begin() {
   here_ = {};
   rehearsed_.reset();
+  frame_start_.reset();
   here_.scene = std::make_shared<const scene::Scene>(setup::with_curves(start_, 0));
   made_ = 0;
   curves_at_ = 0;
@@ -120,14 +121,18 @@ void Timeline::make(std::size_t end) {
   made_ = end;
 }
 
-void Timeline::follow_curves(int frame) {
-  const int before = std::exchange(curves_at_, frame);
-  const scene::Scene& now = *here_.scene;
+bool Timeline::has_other_curves(int frame) const {
   const auto same = [](const scene::Override& a, const scene::Override& b) {
     return a.value == b.value;
   };
-  if (!std::ranges::equal(setup::curve_values(now, before), setup::curve_values(now, frame), same))
-    make(made_);
+  return !std::ranges::equal(setup::curve_values(*here_.scene, curves_at_),
+                             setup::curve_values(*here_.scene, frame), same);
+}
+
+void Timeline::follow_curves(int frame) {
+  const bool is_other = has_other_curves(frame);
+  curves_at_ = frame;
+  if (is_other) make(made_);
 }
 
 /// Changes of one step at once, but a second one to an address after the first: both leave a trace.
@@ -203,6 +208,7 @@ void Timeline::restore(const Moment& moment) {
     }
     restore_state(moment);
     rehearsed_.reset();
+    frame_start_.reset();
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -241,6 +247,7 @@ bool Timeline::go_to(double time) {
     return simulation_.time() + simulation_.choose_dt(frame_end() - simulation_.time()).dt;
   };
   while (!must_stop() && is_not_after(end_of_next_step(), time)) advance_step();
+  leave_frame_start();
   return !must_stop();
 }
 
@@ -269,7 +276,7 @@ sim::AdvanceReport Timeline::advance(double time, std::size_t last_step) {
 /// Finds the dt that the run has on its way to the next change or the end of the frame, which is
 /// known there only, and comes back: steps inside the frame are then those of the run.
 void Timeline::rehearse() {
-  begin_frame();
+  begin_frame(true);
   if (rehearsed_ || !may_go_back() || simulation_.divergence()) return;
   const std::vector<std::uint8_t> start = simulation_.save();
   const double scale = simulation_.dt_scale();
@@ -293,16 +300,35 @@ std::size_t Timeline::next_stop() const {
   return made_ < changes_.size() ? changes_[made_].step : no_step;
 }
 
-void Timeline::begin_frame() {
-  if (here_.is_frame_end()) {
-    here_.advance = {};
-    follow_curves(here_.frame + 1);
-  }
+/// @param is_left  perhaps, before its first step
+void Timeline::begin_frame(bool is_left) {
   is_stopped_ = false;
+  if (!here_.is_frame_end() || frame_start_) return;
+  if (is_left) {
+    frame_start_ = {curves_at_, here_.scene, here_.advance, {}};
+    if (has_other_curves(here_.frame + 1)) frame_start_->state = simulation_.save();
+  }
+  here_.advance = {};
+  follow_curves(here_.frame + 1);
+}
+
+/// A frame that was begun and has no step is none: this is the end of the frame before again.
+/// Curves that gave their parameters the values of the next frame do so once more when it begins;
+/// the pressure of a shock would be taken off stress twice.
+void Timeline::leave_frame_start() {
+  std::optional<FrameStart> start = std::exchange(frame_start_, std::nullopt);
+  if (!start || simulation_.steps() != here_.steps_of_frame || simulation_.divergence()) return;
+  use(start->scene);
+  curves_at_ = start->curves_at;
+  here_.advance = std::move(start->advance);
+  if (start->state.empty()) return;
+  const double scale = simulation_.dt_scale();  // that a rehearsal has found
+  simulation_.restore(start->state);
+  simulation_.set_dt_scale(scale);
 }
 
 bool Timeline::advance_frame() {
-  begin_frame();
+  begin_frame(may_go_back());
   const double end = frame_end();
   for (;;) {
     const std::size_t next = next_stop();
@@ -317,7 +343,7 @@ bool Timeline::advance_frame() {
 
 void Timeline::advance_step() {
   rehearse();
-  if (is_stopped_) return;
+  if (is_stopped_) return leave_frame_start();
   here_.advance.append(simulation_.advance_to(
       frame_end(), [this] { return look_after_step(); }, simulation_.steps() + 1));
   if (!simulation_.divergence()) {
@@ -329,6 +355,7 @@ void Timeline::advance_step() {
 
 /// Notes where the simulation is now. @return whether the frame has ended
 bool Timeline::end_frame() {
+  leave_frame_start();
   here_.steps = simulation_.steps();
   summary_.reset();
   if (simulation_.divergence() || !is_not_after(frame_end(), simulation_.time())) return false;

@@ -98,13 +98,15 @@ class Timeline {
   static int frame_of_curves(const Moment& moment) {
     return moment.is_frame_end() ? moment.frame : moment.frame + 1;
   }
+  bool has_other_curves(int frame) const;
   /// Values of the curves for a frame that begins or was jumped into.
   void follow_curves(int frame);
   void restore_state(const Moment& moment);
   void make(std::size_t end);
   void make_due();
   sim::AdvanceReport advance(double time, std::size_t last_step);
-  void begin_frame();
+  void begin_frame(bool is_left);
+  void leave_frame_start();
   void rehearse();
   void end_rehearsed();
   std::size_t next_stop() const;
@@ -131,6 +133,14 @@ class Timeline {
     double scale_after;  ///< of every dt from there on
   };
   std::optional<Rehearsed> rehearsed_;
+  /// The end of the frame before one that has begun, as it was.
+  struct FrameStart {
+    int curves_at;
+    std::shared_ptr<const scene::Scene> scene;
+    sim::AdvanceReport advance;
+    std::vector<std::uint8_t> state;  ///< empty: curves gave no other values
+  };
+  std::optional<FrameStart> frame_start_;
   mutable std::optional<sim::Summary> summary_;
 };
 

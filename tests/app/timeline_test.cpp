@@ -214,6 +214,57 @@ TEST(Timeline, ContinuesFromAMomentAtAnyStep) {
   }
 }
 
+/// Curves gave the values of the next frame to the state that a frame went back to, and again when
+/// that was resumed: the pressure of shocks came off stress twice.
+TEST(Timeline, AFrameWithCurvesThatIsLeftIsBegunAnew) {
+  const scene::Scene scene = scene::read_scene_text(R"(
+frames = 4
+[solver]
+cell_size = 0.04
+on_divergence = "retry"
+[[body]]
+name = "ball"
+shape = { sphere = { center = [0, 0.1, 0], radius = 0.08 } }
+velocity = [0, -4, 0]
+[[collider]]
+name = "floor"
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[[curve]]
+name = "stiffer"
+parameter = "material.snow.youngs_modulus"
+keyframes = [{ time = 0, value = 1.4e5 }, { time = 0.16, value = 8e5 }]
+)",
+                                                    "s.toml");
+  Counted whole(scene);
+  ASSERT_TRUE(whole.timeline.go_to(3 / 24.0));
+  auto run = std::make_unique<Counted>(scene);
+  for (int frame = 1; frame <= 3; ++frame) {
+    const Moment before = run->timeline.moment();
+    run->stop_after = 2;
+    EXPECT_FALSE(run->timeline.advance_frame());
+    const Moment left = run->timeline.moment();
+    EXPECT_EQ(left.state, before.state) << frame;
+    EXPECT_EQ(left.advance.steps, before.advance.steps) << frame;
+    // As a process that is interrupted, and the one that resumes.
+    auto next = std::make_unique<Counted>(scene);
+    next->timeline.restore(through_a_file(run->timeline));
+    run = std::move(next);
+    ASSERT_TRUE(run->timeline.advance_frame());
+  }
+  EXPECT_EQ(run->simulation().state_hash(), whole.simulation().state_hash());
+  // So does a time between the end of a frame and that of its next step.
+  Counted between(scene);
+  for (int frame = 1; frame <= 3; ++frame) {
+    ASSERT_TRUE(between.timeline.go_to((frame - 1) / 24.0 + 1e-7));
+    auto next = std::make_unique<Counted>(scene);
+    next->timeline.restore(through_a_file(between.timeline));
+    ASSERT_TRUE(next->timeline.go_to(3 / 24.0));
+    EXPECT_EQ(next->simulation().state_hash(), whole.simulation().state_hash()) << frame;
+    ASSERT_TRUE(between.timeline.go_to(frame / 24.0));
+  }
+  EXPECT_EQ(between.simulation().state_hash(), whole.simulation().state_hash());
+}
+
 /// A frame that holds takes the same steps with "retry": changes inside it are made at theirs.
 TEST(Timeline, RetriesDoNotAffectAHealthyFrame) {
   Session session("solver.on_divergence=retry");
