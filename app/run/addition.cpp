@@ -6,6 +6,7 @@
 #include <new>
 #include <set>
 
+#include "app/exports/series.h"
 #include "app/output/movie_format.h"
 #include "app/output/sequence.h"
 #include "app/record/earlier.h"
@@ -247,6 +248,22 @@ void refuse_sweep_folder(const RenderJob& job) {
     refuse(job, "is the folder of a sweep", "", "choose another folder with --out");
 }
 
+void refuse_unreadable_run(const RenderJob& job) {
+  const fs::path file = output::run_json_path(job.folder);
+  std::error_code error;
+  if (job.options.replaces || !fs::exists(file, error)) return;
+  const Json json = record::read_json(file);
+  // A power cut leaves less than a text of JSON, which --resume is for.
+  if (json.is_null() && job.options.resume) return;
+  if (const auto listed = record::listed_pictures(json);
+      listed && listed->files.empty() && listed->frames.empty())
+    return;
+  refuse(job,
+         "has a run.json that neve cannot read as the list of a run, so that nothing tells which "
+         "files are its own",
+         "", "add --replace, which writes over it, or choose another folder with --out");
+}
+
 void refuse_foreign_files(const RenderJob& job, const record::RunRecord& ours) {
   std::error_code error;
   if (job.options.replaces || fs::exists(output::run_json_path(job.folder), error)) return;
@@ -267,6 +284,14 @@ void refuse_foreign_files(const RenderJob& job, const record::RunRecord& ours) {
         look_at(at->path());
     }
     if (job.has_movies()) look_at(output::movie_path(job.folder, view, job.options.movie.format));
+  }
+  for (const scene::Export& e : job.scene.exports) {
+    const fs::path exports = job.folder / output::exports_folder, own = exports / folder_of(e);
+    if (!exports::series_name(e).empty()) look_at(exports / exports::series_name(e));
+    if (!fs::is_directory(own, error)) continue;
+    for (int frame = job.frames.first; frame <= job.frames.last; ++frame)
+      if (frame % e.every == 0)
+        look_at(own / exports::file_name(e, scene::number_of(job.scene, frame)));
   }
   if (files.empty()) return;
   std::ranges::sort(files);

@@ -44,8 +44,12 @@ std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
 /// @throws UsageError for the folder of a sweep, whose runs have folders of their own
 void refuse_sweep_folder(const RenderJob& job);
 
-/// @throws UsageError where files lie in the place of pictures and movies of the command in a
-/// folder without a run, unless the options replace them
+/// For a folder of which earlier_run() knows no run. @throws UsageError where its run.json is not
+/// the list of one that has made nothing, unless the options replace it
+void refuse_unreadable_run(const RenderJob& job);
+
+/// @throws UsageError where files lie in the place of pictures, movies and exports of the command
+/// in a folder without a run, unless the options replace them
 void refuse_foreign_files(const RenderJob& job, const record::RunRecord& ours);
 
 /// @throws UsageError that says what the command would replace, unless the options replace it, and

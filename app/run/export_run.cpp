@@ -13,6 +13,7 @@
 #include "app/output/picture_writer.h"
 #include "app/output/sequence.h"
 #include "app/record/earlier.h"
+#include "app/record/picture_files.h"
 #include "app/record/run_json.h"
 #include "app/run/identity.h"
 #include "app/scene/check.h"
@@ -47,6 +48,10 @@ void place_camera(scene::Scene& scene) {
   if (has_camera) setup::resolve_cameras(scene);
 }
 
+const char* out_flag(const ExportJob& job) {
+  return job.run.options.out.empty() ? "" : "--out";
+}
+
 /// The part of an earlier list that stays: exports of other names, with the hashes of their files.
 struct Kept {
   Json exports = Json::array(), files = Json::object();
@@ -56,6 +61,7 @@ struct Kept {
 /// An earlier list of the folder.
 struct Earlier {
   std::string scene_file, simulation;  ///< "": not said
+  std::set<std::string> names{};       ///< of all files that it lists, or was to make
   Kept kept;
   Json replaced = Json::array();   ///< exports whose place is taken
   record::FileHashes their_files;  ///< of these
@@ -71,12 +77,28 @@ void keep_export(const Json& one, const record::FileHashes& files, Kept& kept) {
   kept.exports.push_back(one);
 }
 
-/// Names all that the scene says of its simulation; another build may have other bits.
+/// Names all that the scene says of its simulation, and its files; another build may have other
+/// bits.
 std::string simulation_of(const RenderJob& run) {
-  return record::hash_of(simulation_text(run.scene) + to_text(scene::to_json(run.changes)));
+  std::string text = simulation_text(run.scene) + to_text(scene::to_json(run.changes));
+  for (const auto& [file, hash] : record::hash_files(run.scene, run.changes))
+    text += "\n" + file + " " + hash;
+  return record::hash_of(text);
+}
+
+/// @throws std::exception for a list that neve has not written
+std::set<std::string> names_in(const Json& list) {
+  auto names = list.value("begun", std::set<std::string>());
+  for (const auto& [file, hash] : record::file_hashes(list)) names.insert(file);
+  for (const Json& one : list.at("exports")) {
+    if (one.at("series").is_string()) names.insert(one.at("series"));
+    for (const Json& file : one.at("files")) names.insert(file.at("file"));
+  }
+  return names;
 }
 
 /// Exports with the same names, or of another scene, give their place to the new ones.
+/// @throws UsageError for a list that cannot be read, unless the options replace it
 Earlier earlier_exports(const ExportJob& job) {
   const fs::path file = output::export_list_path(job.run.folder);
   std::error_code error;
@@ -88,6 +110,7 @@ Earlier earlier_exports(const ExportJob& job) {
     earlier.scene_file = list.at("scene_file").get<std::string>();
     earlier.simulation = list.value("simulation", "");
     earlier.their_files = record::file_hashes(list);
+    earlier.names = names_in(list);
     const bool is_of_scene = record::is_same_path(earlier.scene_file, job.run.scene_file) ||
                              earlier.simulation == simulation_of(job.run);
     for (const Json& one : list.at("exports")) {
@@ -107,7 +130,12 @@ Earlier earlier_exports(const ExportJob& job) {
     throw;  // files of an earlier export would lie beside the new ones
   } catch (const std::exception& error) {
     rethrow_no_memory(error);
-    return {};  // No list of ours: nothing is removed.
+    if (job.run.options.replaces) return {};  // No list of ours: nothing is removed.
+    throw UsageError(out_flag(job),
+                     job.run.folder.string() +
+                         " has an export.json that neve cannot read as a list of exports, so that "
+                         "nothing tells which files are its own",
+                     "add --replace, which writes over it, or choose another folder with --out");
   }
 }
 
@@ -146,8 +174,9 @@ bool has_other_moments(const Json& before, const ExportJob& job) {
 std::set<std::string> files_to_write(const ExportJob& job) {
   std::set<std::string> names;
   for (const scene::Export& e : job.run.scene.exports) {
-    const std::string folder = scene::folder_of(e) + "/";
-    names.insert({exports::series_name(e), folder + "manifest.usda"});
+    const std::string folder = scene::folder_of(e) + "/", series = exports::series_name(e);
+    if (!series.empty()) names.insert(series);
+    if (e.format == scene::ExportFormat::usda) names.insert(folder + "manifest.usda");
     for (std::size_t k = 0; k < job.times.size(); ++k)
       names.insert(folder + exports::file_name(e, job.first_number + static_cast<int>(k)));
   }
@@ -163,7 +192,7 @@ void refuse_lost_exports(const ExportJob& job, const Earlier& earlier, const Jso
   const auto refuse = [&](const std::string& what, const record::FileHashes& lost) {
     const std::vector<std::string> files = record::unchanged_files(job.run.folder, lost);
     if (files.empty()) return;
-    throw UsageError(job.run.options.out.empty() ? "" : "--out",
+    throw UsageError(out_flag(job),
                      fmt::format("{} has {}; it would replace {}", job.run.folder.string(), what,
                                  record::files_text(files)),
                      "add --replace, or choose another folder with --out");
@@ -180,8 +209,8 @@ void refuse_lost_exports(const ExportJob& job, const Earlier& earlier, const Jso
                all);
   if (!earlier.simulation.empty() && !is_same_simulation)
     refuse(
-        "this export of another simulation of the scene: parameters have changed since, or "
-        "another build of neve has written it",
+        "this export of another simulation of the scene: parameters or files have changed since, "
+        "or another build of neve has written it",
         all);
   for (const Json& before : earlier.replaced)
     if (has_other_moments(before, job)) refuse("this export at other frames or times", all);
@@ -190,6 +219,24 @@ void refuse_lost_exports(const ExportJob& job, const Earlier& earlier, const Jso
     return written.contains(file.first);
   });
   refuse("this export at other frames or times", gone);
+}
+
+/// An export that was cut off has made some of the files that its list names. Others are of people
+/// or other programs, or of the run whose folder it is.
+void refuse_foreign_exports(const ExportJob& job, const Earlier& earlier) {
+  if (job.run.options.replaces) return;
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const std::string& name : files_to_write(job))
+    if (!earlier.names.contains(name) &&
+        fs::is_regular_file(fs::symlink_status(job.run.folder / name, error)))
+      files.push_back(name);
+  if (files.empty()) return;
+  throw UsageError(
+      out_flag(job),
+      fmt::format("{} has files that no neve export there has made; it would replace {}",
+                  job.run.folder.string(), record::files_text(files)),
+      "add --replace, or choose another folder with --out");
 }
 
 /// Goes to a time; a stage also has where things are at the frames on the way from the moment
@@ -251,6 +298,8 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
   }
   json["files"] = kept.files;
   for (const auto& [file, hash] : files) json["files"][file] = hash;
+  // Of one that is killed, the next one knows which files were to be its own.
+  if (result.moments == 0) json["begun"] = files_to_write(job);
   output::write_file(output::export_list_path(job.run.folder), record::with_own_hash(json));
 }
 
@@ -315,9 +364,12 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
   exports::Exporter exporter(run.scene, job.run.folder, timeline.seeded().body_end);
   const Earlier earlier = earlier_exports(job);
   refuse_lost_exports(job, earlier, exporter.to_json(""));
+  refuse_foreign_exports(job, earlier);
   record::remove_listed(job.run.folder, earlier.their_files);
-  output::PictureWriter writer;
   ExportResult result;
+  result.is_whole = false;
+  write_list(job, result, earlier.kept, {});
+  output::PictureWriter writer;
   progress.start(timeline::frame_at(job.times.back(), run.scene.fps),
                  scene::number_of(run.scene, 0));
   std::optional<double> before;

@@ -166,6 +166,7 @@ std::vector<int> RenderRun::begin() {
 }
 
 void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
+  if (!earlier) refuse_unreadable_run(job_);
   refuse_foreign_files(job_, record());
   if (earlier) refuse_loss(job_, *earlier, record(), picture_);
   // Nothing goes before there is a place for what replaces it.

@@ -485,6 +485,39 @@ TEST_F(Export, NoExportIsReplacedWithoutAWord) {
   json_of_export({"pair.toml", "--format", "ply", "--frames", "0", "--out", "x"});
 }
 
+/// They were overwritten without a word, and so were the exports of a run by those of its format.
+TEST_F(Export, FilesAndListsThatItHasNotMadeAreNotReplacedInSilence) {
+  const std::vector<std::string> words{"scene.toml", "--format", "csv", "--frames", "0-1", "--out"};
+  const auto into = [&](const std::string& out, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), out);
+    more.insert(more.begin(), words.begin(), words.end());
+    return more;
+  };
+  folder.write("a/csv/0000.csv", "mine");
+  expect_refused(into("a"), app::exit_usage,
+                 "a has files that no neve export there has made; it would replace csv/0000.csv");
+  EXPECT_EQ(read_text(folder / "a/csv/0000.csv"), "mine");
+  json_of_export(into("a", {"--replace"}));
+  EXPECT_NE(read_text(folder / "a/csv/0000.csv"), "mine");
+  const std::string list = read_text(folder / "a/export.json");
+  for (const std::string& text : {list.substr(0, list.size() / 2), std::string("{}")}) {
+    folder.write("a/export.json", text);
+    expect_refused(into("a", {"--set", "seed=3"}), app::exit_usage,
+                   "a has an export.json that neve cannot read as a list of exports");
+    EXPECT_EQ(read_text(folder / "a/export.json"), text);
+  }
+  // One that was killed has listed its files before it made them.
+  folder.write("a/export.json", list);
+  app::Json begun = json_of("a/export.json");
+  begun["begun"] = {"csv/0000.csv", "csv/0001.csv"};
+  begun["files"] = app::Json::object();
+  begun["exports"] = app::Json::array();
+  begun["is_whole"] = false;
+  folder.write("a/export.json", begun.dump());
+  json_of_export(into("a"));
+  EXPECT_EQ(read_text(folder / "a/export.json"), list);
+}
+
 /// Moments are numbered from 0, whatever they are.
 TEST_F(Export, OtherMomentsAreNotTheSameExport) {
   json_of_export({"scene.toml", "--format", "npz", "--at", "0.01,0.02", "--out", "m"});
@@ -503,7 +536,7 @@ TEST_F(Export, AForgedListRemovesNothingElse) {
   folder.write("x/export.json", R"({"exports": [{"format": "ply", "series": "../precious.txt",
       "files": [{"file": "../precious.txt"}, {"file": ")" +
                                     (folder / "precious.txt").string() + R"("}, {"file": 7}]}]})");
-  json_of_export({"scene.toml", "--format", "ply", "--frames", "0-0", "--out", "x"});
+  json_of_export({"scene.toml", "--format", "ply", "--frames", "0-0", "--out", "x", "--replace"});
   EXPECT_TRUE(exists("precious.txt"));
 }
 
@@ -828,7 +861,11 @@ TEST_F(Export, ARunWhoseFilesHaveChangedIsRefusedByAllThatGoOnWithIt) {
                "90]\n");
   ASSERT_EQ(neve({"render", "mesh.toml", "--out", "run", "--quiet", "--no-movie"}).exit_code, 0);
   ASSERT_EQ(neve({"dump", "run", "--at", "0.02"}).exit_code, 0);
+  const std::vector<std::string> of_scene{"mesh.toml", "--format", "ply", "--out", "ply"};
+  json_of_export(of_scene);
+  json_of_export(of_scene);
   folder.write("solid.obj", tetrahedron("3"));
+  expect_refused(of_scene, app::exit_usage, "parameters or files have changed since");
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"dump", "run", "--at", "0.02"},
            {"strip", "run", "--at", "0,0.05", "--out", "strip.png"},

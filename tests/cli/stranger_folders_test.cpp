@@ -84,7 +84,11 @@ TEST_F(StrangerFolders, NoListDeletesAFileOfAPerson) {
   folder.write("theirs/exports/export.json",
                R"({"scene_file": "scene.toml", "is_whole": true, "exports": [{"name": "ply",
                    "series": "mine.ply", "files": [{"file": "mine.ply"}]}], "files": {}})");
-  EXPECT_EQ(render("theirs").exit_code, 0);
+  EXPECT_EQ(render("theirs").exit_code, 2) << "nothing tells which files are ours";
+  EXPECT_EQ(neve({"render", "scene.toml", "--out", "theirs", "--frames", "0-3", "--no-movie",
+                  "--quiet", "--replace"})
+                .exit_code,
+            0);
   EXPECT_EQ(neve({"export", "theirs", "--format", "ply", "--frames", "0", "--quiet"}).exit_code, 0);
   for (const char* file : {"thesis.tex", "photos/0001.png", "exports/mine.ply"})
     EXPECT_EQ(read_text(folder / ("theirs/" + std::string(file))), "years") << file;
