@@ -10,6 +10,7 @@
 #include "app/output/movie_format.h"
 #include "app/output/sequence.h"
 #include "app/record/earlier.h"
+#include "app/run/drawing.h"
 #include "app/run/identity.h"
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
@@ -141,14 +142,40 @@ std::string drawing_before(const EarlierRun& earlier, const std::string& view) {
              : "";
 }
 
-/// A movie of the same frames in another quality or speed.
+/// A movie of the same frames in another format, quality or speed than the one that is asked for.
 bool has_other_movie(const RenderJob& job, const EarlierRun& earlier, const std::string& view) {
-  if (!job.has_movies()) return false;
+  if (!job.has_movies() || !job.options.movie.is_chosen) return false;
   const std::string name =
       output::movie_path({}, view, job.options.movie.format).filename().string();
   const Json styles = earlier.json.value("movies", Json::object());
-  return earlier.pictures.files.contains(name) && styles.is_object() && styles.contains(name) &&
-         styles[name] != movie_style_text(job, job.options.movie);
+  if (!earlier.pictures.files.contains(name) || !styles.is_object()) return false;
+  const Json style = styles.value(name, Json());
+  return style.is_string() && !has_movie_style(job, style.get<std::string>(), job.options.movie);
+}
+
+/// The first numbered plate that is another file than the one behind its picture; "": none is.
+std::string other_plate(const RenderJob& job, const EarlierRun& earlier,
+                        const record::RunRecord& ours) {
+  std::error_code error;
+  if (job.plate.empty() || fs::is_regular_file(job.plate, error)) return "";
+  for (const std::string& view : ours.views)
+    for (int frame = job.frames.first; frame <= job.frames.last && !find_mosaic(job.scene, view);
+         ++frame) {
+      const int number = scene::number_of(job.scene, frame);
+      const std::string name = record::picture_name(view, number);
+      if (!earlier.pictures.files.contains(name)) continue;
+      const std::string plate = plate_path(job.plate, number).string();
+      try {
+        const record::FileHashes files = record::read_picture_record(job.folder / name).files;
+        if (const auto listed = files.find(plate);
+            listed != files.end() && !record::has_hash(plate, listed->second))
+          return plate;
+      } catch (const std::exception& failure) {
+        rethrow_no_memory(failure);
+        // The picture is damaged, and drawn again.
+      }
+    }
+  return "";
 }
 
 std::string name_of_earlier(const EarlierRun& earlier) {
@@ -229,6 +256,7 @@ std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
     scene.mosaics.push_back(with_settings_of(job.scene, *mosaic));
     for (const std::string& tile : mosaic->views) add(tile);
     picture.passes.clear();
+    picture.files.erase(picture.plate);
     picture.plate.clear();
     picture.has_caption = job.options.has_caption;
   } else {
@@ -330,9 +358,12 @@ void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::
            "has " + joined(views, ", ") +
                " of this run, drawn otherwise: " + difference_from_run(job.folder, picture),
            files_text(views, earlier), "add --replace, or " + elsewhere);
+  if (const std::string plate = other_plate(job, earlier, ours); !plate.empty())
+    refuse(job, "has pictures over " + plate + ", which has changed since",
+           files_text(ours.views, earlier), "add --replace, or " + elsewhere);
   for (const std::string& view : ours.views)
     if (has_other_movie(job, earlier, view))
-      refuse(job, "has a movie of the same pictures in another quality or speed",
+      refuse(job, "has a movie of the same pictures in another format, quality or speed",
              output::movie_path({}, view, job.options.movie.format).filename().string(),
              "add --replace, or make another format with --movie");
   if (!are_exports_kept(job, earlier))

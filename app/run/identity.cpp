@@ -73,15 +73,17 @@ std::string simulation_text(const scene::Scene& scene) {
   return scene::write_scene(simulated);
 }
 
-std::string surroundings_of(const scene::Scene& scene) {
+std::string surroundings_of(const scene::Scene& scene,
+                            const std::vector<scene::LiveChange>& changes) {
   std::string text = std::string("\nversion ") + version + "\nsources " + build().sources;
-  for (const auto& [file, hash] : record::hash_files(scene)) text += "\n" + file + " " + hash;
+  for (const auto& [file, hash] : record::hash_files(scene, changes))
+    text += "\n" + file + " " + hash;
   return text;
 }
 
 std::string identity_of_states(const RenderJob& job, const std::string& simd) {
   return record::hash_of(simulation_text(job.scene) + to_text(scene::to_json(job.changes)) +
-                         surroundings_of(job.scene) + simd);
+                         surroundings_of(job.scene, job.changes) + simd);
 }
 
 std::string identity_of(record::PictureRecord picture) {
@@ -144,6 +146,11 @@ std::string difference_from_run(const std::filesystem::path& folder,
 
 namespace {
 
+/// As earlier builds wrote it: three digits of the rate, and no format.
+std::string earlier_style_text(int quality, double rate) {
+  return fmt::format("quality {}, {} frames per second", quality, rough_text(rate));
+}
+
 double rate_of(const RenderJob& job, const output::MovieStyle& style) {
   return style.fps > 0 ? style.fps : job.scene.fps;
 }
@@ -151,16 +158,30 @@ double rate_of(const RenderJob& job, const output::MovieStyle& style) {
 }  // namespace
 
 std::string movie_style_text(const RenderJob& job, const output::MovieStyle& style) {
-  return fmt::format("quality {}, {} frames per second", style.quality,
-                     rough_text(rate_of(job, style)));
+  return fmt::format("quality {}, {} frames per second, {}", style.quality,
+                     scene::toml::number_text(rate_of(job, style)), output::name(style.format));
 }
 
-output::MovieStyle movie_style_of(const RenderJob& job, const std::string& text) {
+bool has_movie_style(const RenderJob& job, const std::string& text,
+                     const output::MovieStyle& style) {
+  return text == movie_style_text(job, style) ||
+         text == earlier_style_text(style.quality, rate_of(job, style));
+}
+
+output::MovieStyle movie_style_of(const RenderJob& job, const std::string& text,
+                                  const std::filesystem::path& movie) {
   output::MovieStyle style;
   double rate = 0;
-  if (std::sscanf(text.c_str(), "quality %d, %lf", &style.quality, &rate) == 2 &&
-      text != movie_style_text(job, style))
-    style.fps = rate;
+  char format[16] = {};
+  const int count = std::sscanf(text.c_str(), "quality %d, %lf frames per second, %15s",
+                                &style.quality, &rate, format);
+  if (const auto named = output::movie_format_named(format)) style.format = *named;
+  const std::string suffix = movie.extension().string();
+  if (output::info_of(style.format).suffix != suffix)
+    style.format = output::movie_format_named(suffix.substr(1)).value_or(style.format);
+  const bool is_of_scene =
+      rate == job.scene.fps || text == earlier_style_text(style.quality, job.scene.fps);
+  if (count >= 2 && !is_of_scene) style.fps = rate;
   return style;
 }
 

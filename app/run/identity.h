@@ -18,8 +18,9 @@ scene::Mosaic with_settings_of(const scene::Scene& scene, scene::Mosaic mosaic);
 /// and light, its exports, and its length.
 std::string simulation_text(const scene::Scene& scene);
 
-/// Version, sources, and the files that a scene names.
-std::string surroundings_of(const scene::Scene& scene);
+/// Version, sources, and the files that a scene and its changes name.
+std::string surroundings_of(const scene::Scene& scene,
+                            const std::vector<scene::LiveChange>& changes = {});
 
 /// Names all that bits of states depend on. @param simd  of the simulation
 std::string identity_of_states(const RenderJob& job, const std::string& simd);
@@ -36,10 +37,15 @@ std::string difference_text(const std::vector<scene::Difference>& list);
 std::string difference_from_run(const std::filesystem::path& folder,
                                 const record::PictureRecord& picture, const std::string& simd = {});
 
-/// Names the quality and the speed of a movie of a job.
+/// Names the quality, the speed and the format of a movie of a job.
 std::string movie_style_text(const RenderJob& job, const output::MovieStyle& style);
-/// The style that movie_style_text names, without its format.
-output::MovieStyle movie_style_of(const RenderJob& job, const std::string& text);
+/// Whether that names a style. Texts of earlier versions name no format, and of rates three digits.
+bool has_movie_style(const RenderJob& job, const std::string& text,
+                     const output::MovieStyle& style);
+/// The style that movie_style_text names. @param movie  its file, which tells the format where the
+/// text does not
+output::MovieStyle movie_style_of(const RenderJob& job, const std::string& text,
+                                  const std::filesystem::path& movie);
 
 /// Bytes of a particle on disk in single precision, about.
 inline constexpr double state_bytes_per_particle = 160;

@@ -167,7 +167,7 @@ std::vector<std::filesystem::path> Ledger::finish(record::RunStatus status) {
   // One picture is no movie.
   if (job_.has_movies())
     for (const std::string& view : record_.views) {
-      write_movie(view, job_.options.movie, movies);
+      write_movie(view, style_of(view), movies);
       write_earlier_movies(view, movies);
     }
   for (const output::WrittenFile& file : exporter_.finish()) note_file(file);
@@ -182,6 +182,16 @@ bool Ledger::is_movie_short(const std::filesystem::path& file) const {
   return has_added_ || record::short_movies(record_).contains(file.filename().string());
 }
 
+/// A film that is there stays as it is where nobody asks for another one.
+output::MovieStyle Ledger::style_of(const std::string& view) const {
+  const output::MovieStyle& asked = job_.options.movie;
+  const std::string file = output::movie_path({}, view, asked.format).filename().string();
+  const auto listed = record_.movies.find(file);
+  if (asked.is_chosen || listed == record_.movies.end() || !record_.files.contains(file))
+    return asked;
+  return movie_style_of(job_, listed->second, file);
+}
+
 /// Movies in other formats would end where the film did before.
 void Ledger::write_earlier_movies(const std::string& view,
                                   std::vector<std::filesystem::path>& movies) {
@@ -189,9 +199,7 @@ void Ledger::write_earlier_movies(const std::string& view,
   for (const std::filesystem::path file : movies_of(view, record_.files)) {
     const auto listed = record_.movies.find(file.string());
     if (file == own || listed == record_.movies.end() || !is_movie_short(file)) continue;
-    output::MovieStyle style = movie_style_of(job_, listed->second);
-    style.format = *output::movie_format_named(file.extension().string().substr(1));
-    write_movie(view, style, movies);
+    write_movie(view, movie_style_of(job_, listed->second, file), movies);
   }
 }
 
@@ -202,7 +210,9 @@ void Ledger::write_movie(const std::string& view, const output::MovieStyle& styl
   const int first = frames.first - (record_.slate ? 1 : 0);
   const std::filesystem::path file = output::movie_path(job_.folder, view, style.format);
   const auto listed = record_.files.find(file.filename().string());
+  const auto made = record_.movies.find(file.filename().string());
   if (!is_movie_short(file) && listed != record_.files.end() &&
+      (made == record_.movies.end() || has_movie_style(job_, made->second, style)) &&
       record::has_hash(file, listed->second)) {
     movies.push_back(file);
     return;

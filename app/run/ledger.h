@@ -67,6 +67,7 @@ class Ledger {
  private:
   void note_written();
   void note_exports();
+  output::MovieStyle style_of(const std::string& view) const;
   void write_movie(const std::string& view, const output::MovieStyle& style,
                    std::vector<std::filesystem::path>& movies);
   bool is_movie_short(const std::filesystem::path& file) const;

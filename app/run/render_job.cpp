@@ -6,6 +6,7 @@
 #include <set>
 #include <system_error>
 
+#include "app/output/file_hash.h"
 #include "app/record/earlier.h"
 #include "app/record/picture_files.h"
 #include "app/record/verify.h"
@@ -24,6 +25,14 @@
 namespace neve::app::run {
 
 namespace {
+
+/// The look and the plate of all frames; numbered plates are those of their pictures.
+void add_look_files(const RenderJob& job, record::FileHashes& files) {
+  std::error_code error;
+  if (!job.lut.empty()) files[job.lut] = record::hash_text(output::hash_file(job.lut));
+  if (!job.plate.empty() && std::filesystem::is_regular_file(job.plate, error))
+    files[job.plate] = record::hash_text(output::hash_file(job.plate));
+}
 
 /// Degrees at final quality: half of each frame, as film cameras have it.
 constexpr double usual_shutter = 180;
@@ -234,6 +243,7 @@ record::PictureRecord picture_record(const RenderJob& job, const std::string& sc
   picture.shutter = job.shutter;
   picture.passes = job.passes;
   picture.files = record::hash_files(job.scene, job.changes);
+  add_look_files(job, picture.files);
   return picture;
 }
 

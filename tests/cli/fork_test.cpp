@@ -5,6 +5,7 @@
 #include "app/scene/read.h"
 #include "app/setup/seed_scene.h"
 #include "app/timeline/changes.h"
+#include "tests/support/meshes.h"
 #include "tests/support/resume.h"
 
 namespace neve::test {
@@ -346,6 +347,26 @@ TEST_F(Fork, ColoursAndCamerasChangeWithoutATraceInTheState) {
   EXPECT_TRUE(json_of("b/run.json")["changes"].empty());
   EXPECT_FALSE(app::output::read_file(folder / "a/particles/0004.png") ==
                app::output::read_file(folder / "b/particles/0004.png"));
+}
+
+/// Only files that the scene names counted: a branch showed the states of the mesh before.
+TEST_F(Fork, AMeshOfAChangeThatIsAnotherFileIsAnotherSimulation) {
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  const std::vector<std::string> words{
+      "a",     "--from", "0.05", "--set", "collider.floor={shape={mesh={file=\"wall.obj\"}}}",
+      "--out", "b"};
+  folder.write("wall.obj", box_obj({1, 0.02, 1}));
+  const auto first = render(words);
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  const auto before = hashes("b");
+  folder.write("wall.obj", box_obj({1, 0.1, 1}));
+  const auto refused = render(words);
+  EXPECT_EQ(refused.exit_code, 2) << refused.errors;
+  EXPECT_TRUE(contains(refused.errors, "wall.obj has changed since")) << refused.errors;
+  auto again = words;
+  again.push_back("--replace");
+  ASSERT_EQ(render(again).exit_code, 0);
+  EXPECT_NE(hashes("b"), before);
 }
 
 }  // namespace

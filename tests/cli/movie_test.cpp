@@ -83,6 +83,37 @@ TEST_F(MovieFlags, AFilmThatIsShorterThanItsPicturesIsToldUntilItIsMadeAgain) {
   EXPECT_EQ(read_text(folder / "a/particles.gif"), read_text(folder / "b/particles.gif"));
 }
 
+/// The suffix and three digits of the rate were all that was known of a film.
+TEST_F(MovieFlags, FormatAndRateOfAFilmAreThoseThatWereAskedFor) {
+  const auto render = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), "render");
+    return neve(more);
+  };
+  ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
+  EXPECT_EQ(json_of("a/run.json")["movies"]["particles.mp4"],
+            "quality 80, 24 frames per second, h264");
+  for (const auto& [flag, value] : {std::pair{"--movie", "h265"}, {"--movie-fps", "23.976"}}) {
+    const auto refused = render({"scene.toml", "--out", "a", flag, value});
+    EXPECT_EQ(refused.exit_code, 2) << flag;
+    EXPECT_TRUE(contains(refused.errors, "it would replace particles.mp4")) << refused.errors;
+  }
+  ASSERT_EQ(
+      render({"scene.toml", "--out", "b", "--movie", "h265", "--movie-fps", "23.976"}).exit_code,
+      0);
+  const app::Json styles = json_of("b/run.json")["movies"];
+  EXPECT_TRUE(contains(styles["particles.mp4"].get<std::string>(), "h265")) << styles;
+  EXPECT_EQ(render({"b", "--frames", "6"}).exit_code, 0) << "it stays as it is, and is longer";
+  EXPECT_EQ(json_of("b/run.json")["movies"], styles);
+  EXPECT_EQ(render({"b", "--frames", "8", "--movie", "gif"}).exit_code, 0);
+  EXPECT_EQ(json_of("b/run.json")["movies"]["particles.mp4"], styles["particles.mp4"]);
+  // Texts of earlier builds are those of the same films.
+  app::Json run = json_of("a/run.json");
+  run["movies"]["particles.mp4"] = "quality 80, 24 frames per second";
+  folder.write("a/run.json", run.dump());
+  EXPECT_EQ(render({"a", "--movie", "h264"}).exit_code, 0);
+  EXPECT_EQ(render({"a", "--movie", "h264", "--movie-fps", "12"}).exit_code, 2);
+}
+
 TEST_F(MovieFlags, SheetsAndComparisonsHaveThemToo) {
   const auto swept = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--frames", "0-2", "--size",
                            "96x54", "--out", "s", "--movie", "gif"});

@@ -230,5 +230,47 @@ TEST_F(Plates, AWrongPlateOfAnyFrameIsRefusedBeforeAnythingIsRemoved) {
   EXPECT_EQ(neve({"verify", "a"}).exit_code, 0);
 }
 
+/// Their names alone counted: pictures of the old look stayed, and were continued by the new one.
+TEST_F(Plates, AnotherLookOrPlateInTheSameFileIsAnotherDrawing) {
+  const auto plate = [&](const std::string& file, std::uint8_t grey) {
+    const render::Image image{160, 90, 3, std::vector<std::uint8_t>(3 * 160 * 90, grey)};
+    folder.write(file, "");
+    app::output::write_file(folder / file, render::encode_png(image));
+  };
+  const auto look = [&](bool is_other) {
+    folder.write("look.cube",
+                 is_other ? "LUT_1D_SIZE 2\n1 1 1\n0 0 0\n" : "LUT_1D_SIZE 2\n0 0 0\n1 1 1\n");
+  };
+  look(false);
+  for (const char* file : {"one.png", "street/0000.png", "street/0001.png"}) plate(file, 90);
+  const std::vector<std::pair<std::string, std::string>> ways{
+      {"--lut", "look.cube"}, {"--plate", "one.png"}, {"--plate", "street/%04d.png"}};
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    const std::string out = "of_" + std::to_string(k);
+    render({"flying.toml", "--out", out, ways[k].first, ways[k].second});
+    render({"flying.toml", "--out", out, ways[k].first, ways[k].second});
+  }
+  look(true);
+  for (const char* file : {"one.png", "street/0001.png"}) plate(file, 200);
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    const std::string out = "of_" + std::to_string(k);
+    const std::vector<std::string> words{"render",     "flying.toml",  "--out",
+                                         out,          ways[k].first,  ways[k].second,
+                                         "--no-movie", "--no-caption", "--quiet"};
+    const std::string before = read_text(folder / (out + "/particles/0001.png"));
+    const auto refused = neve(words);
+    EXPECT_EQ(refused.exit_code, 2) << ways[k].second;
+    EXPECT_TRUE(contains(refused.errors, "changed since")) << refused.errors;
+    EXPECT_EQ(read_text(folder / (out + "/particles/0001.png")), before);
+    auto resumed = words;
+    resumed.insert(resumed.end(), {"--resume", "--frames", "2"});
+    if (k < 2) {
+      EXPECT_EQ(neve(resumed).exit_code, 2) << ways[k].second;
+    }
+    render({"flying.toml", "--out", out, ways[k].first, ways[k].second, "--replace"});
+    EXPECT_NE(read_text(folder / (out + "/particles/0001.png")), before);
+  }
+}
+
 }  // namespace
 }  // namespace neve::test

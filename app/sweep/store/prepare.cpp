@@ -127,9 +127,13 @@ void write_run(const fs::path& folder, const RunFiles& files) {
   write_status(folder, status);
 }
 
-/// Changes before the fork, of the run that is forked.
+/// Changes before the fork, of the run that is forked, with the files that they name.
 std::string changes_of_source(const plan::SweepPlan& plan) {
-  return plan.source ? to_text(scene::to_json(plan.source->changes)) : "";
+  if (!plan.source) return "";
+  std::string text = to_text(scene::to_json(plan.source->changes));
+  for (const auto& [file, hash] : record::hash_files({}, plan.source->changes))
+    text += "\n" + file + " " + hash;
+  return text;
 }
 
 }  // namespace
