@@ -306,7 +306,8 @@ class State(dict):
         """The snow from the front, brighter where more of it lies behind a pixel."""
         if not len(self.get("x", ())):
             return None
-        x, y = self["x"][:, 0].astype("f8"), self["x"][:, 1].astype("f8")
+        height = "xyz".index(self.up)
+        x, y = self["x"][:, 0].astype("f8"), self["x"][:, height].astype("f8")
         across = max(np.ptp(x), np.ptp(y), 1e-9)
         size = int(np.clip(np.sqrt(len(x) / 2), 12, 400))  # cells with some particles each
         middle = [(a.min() + a.max()) / 2 for a in (x, y)]

@@ -52,7 +52,7 @@ void refuse_strip(const run::RenderOptions& options, const run::RenderJob& job) 
 
 /// A run that is drawn again has written its exports; those of new frames it has not.
 bool grows(const run::RenderJob& job) {
-  return job.folder == job.run && !job.run_frames.empty() &&
+  return job.is_drawn_in_place() && !job.run_frames.empty() &&
          (job.frames.first < job.run_frames.front().frame ||
           job.frames.last > job.run_frames.back().frame);
 }

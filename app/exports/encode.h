@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/exports/columns.h"
+#include "app/exports/series.h"
 #include "sim/types/grid_fields.h"
 
 namespace neve::app::exports {
@@ -17,7 +18,7 @@ struct ExportMoment {
 
   const sim::RasterizedNodes& nodes() const { return state.nodes.at(spec.bodies); }
   /// Time in frames of the scene, with the numbers of its files.
-  double frame() const { return state.time * scene.fps + scene::number_of(scene, 0); }
+  double frame() const { return time_in_frames(scene, state.time); }
 };
 
 /// Binary little endian; a property per number: x y z vx vy vz F_E_xx ... Vertices of a surface

@@ -11,6 +11,7 @@
 #include "app/output/temporary.h"
 #include "app/picture/motion.h"
 #include "app/scene/names.h"
+#include "app/scene/toml/value.h"
 #include "app/support/text.h"
 
 namespace neve::app::exports {
@@ -25,7 +26,7 @@ Json attributes_json(const Table& columns, double scale) {
   const auto unit_of = [&](const Column& column) {
     const std::string unit = column.unit;
     const bool is_scaled = scale != 1 && (unit == "m" || unit == "m/s");
-    return is_scaled ? rough_text(1 / scale) + " " + unit : unit;
+    return is_scaled ? scene::toml::number_text(1 / scale) + " " + unit : unit;
   };
   Json list = Json::array();
   for (const Column& column : columns.columns)
@@ -320,10 +321,9 @@ Json Exporter::to_json(const std::string& below) const {
     json["series"] = series.empty() ? Json() : Json(below + series);
     json["files"] = Json::array();
     for (const Sample& sample : job.samples) {
-      const double frame = sample.time * scene_.fps + scene::number_of(scene_, 0);
       json["files"].push_back({{"file", folder + file_name(spec, sample.number)},
                                {"number", sample.number},
-                               {"frame", number_or_null(frame)},
+                               {"frame", number_or_null(time_in_frames(scene_, sample.time))},
                                {"time", number_or_null(sample.time)},
                                {"state_hash", fmt::format("{:016x}", sample.hash)}});
       add_places(sample, json["files"].back());

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/exports/bytes.h"
 #include "app/scene/names.h"
@@ -12,6 +13,12 @@ namespace neve::app::exports {
 const PlacedShape* Sample::find(const std::string& collider) const {
   const auto found = std::ranges::find(colliders, collider, &PlacedShape::collider);
   return found == colliders.end() ? nullptr : &*found;
+}
+
+double time_in_frames(const scene::Scene& scene, double time) {
+  constexpr double rounding = 1e-6;
+  const double frames = time * scene.fps, whole = std::round(frames);
+  return (std::abs(frames - whole) <= rounding ? whole : frames) + scene::number_of(scene, 0);
 }
 
 std::string file_name(const scene::Export& spec, int number) {

@@ -27,6 +27,10 @@ struct Sample {
   std::uint64_t hash = 0;                        ///< of the state; of files
 };
 
+/// A time in frames, with the numbers that files have. The end of a frame is a whole number: of a
+/// stage whose clip begins a rounding error later, USD shows the clip before.
+double time_in_frames(const scene::Scene& scene, double time);
+
 /// "0024.ply"
 std::string file_name(const scene::Export& spec, int number);
 

@@ -291,7 +291,7 @@ std::string usd_clips(const scene::Scene& scene, const scene::Export& spec, cons
   std::string paths, active, times;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const std::string between = k > 0 ? ", " : "",
-                      time = usd_number(stage_time(scene, samples[k].time));
+                      time = usd_number(time_in_frames(scene, samples[k].time));
     paths += between + "@" + folder + file_name(spec, samples[k].number) + "@";
     active += between + "(" + time + ", " + std::to_string(k) + ")";
     times += between + "(" + time + ", " + time + ")";
@@ -332,8 +332,8 @@ std::string encode_stage(const scene::Scene& scene, const std::vector<scene::Col
                          const scene::Export& spec, const Table& columns,
                          const std::vector<Sample>& files, const std::vector<Sample>& between) {
   const Axes axes(spec);
-  const double first = files.empty() ? 0 : stage_time(scene, files.front().time);
-  const double last = files.empty() ? 0 : stage_time(scene, files.back().time);
+  const double first = files.empty() ? 0 : time_in_frames(scene, files.front().time);
+  const double last = files.empty() ? 0 : time_in_frames(scene, files.back().time);
   const std::vector<Sample> samples = stage_samples(scene, files, between);
   std::string snow;
   for (const auto& [prim, name] : usd_prims(spec)) {

@@ -154,10 +154,6 @@ std::vector<Place> path_of(const std::vector<Sample>& samples,
   return path;
 }
 
-double stage_time(const scene::Scene& scene, double time) {
-  return time * scene.fps + scene::number_of(scene, 0);
-}
-
 std::string usd_property(const scene::Scene& scene, const std::string& declared,
                          const std::vector<std::pair<double, std::string>>& values) {
   const bool is_same = std::ranges::all_of(
@@ -167,7 +163,7 @@ std::string usd_property(const scene::Scene& scene, const std::string& declared,
   std::string text = declared + ".timeSamples = {\n";
   for (const auto& [time, value] : values) {
     text += indent;
-    text += "    " + usd_number(stage_time(scene, time)) + ": ";
+    text += "    " + usd_number(time_in_frames(scene, time)) + ": ";
     text += value + ",\n";
   }
   return text + indent + "}\n";

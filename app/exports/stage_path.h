@@ -35,9 +35,6 @@ std::vector<Place> collider_path(const scene::Scene& scene, const std::string& c
 std::vector<Place> path_of(const std::vector<Sample>& samples,
                            const std::function<Place(double time)>& place_at);
 
-/// A time as stages count it: in frames, with the numbers that files have.
-double stage_time(const scene::Scene& scene, double time);
-
 /// "name = value", or "name.timeSamples = { ... }" where values differ.
 /// @param declared  type and name, indented @param values  one or more, with their times in s
 std::string usd_property(const scene::Scene& scene, const std::string& declared,

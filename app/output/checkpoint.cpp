@@ -32,8 +32,9 @@ constexpr char magic[8] = {'N', 'E', 'V', 'E', 'C', 'K', 'P', '1'};
 constexpr std::size_t number_bytes = 8;
 constexpr std::size_t kept = 2;
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 40;
-/// A frame has about a kilobyte, and takes some ten as an object.
-constexpr std::uint64_t longest_json = std::uint64_t{1} << 26;
+/// Of memory for each byte of the JSON: a frame has about a kilobyte, and takes some ten.
+constexpr double bytes_of_json = 10;
+constexpr const char* no_memory = "needs more memory than may be used";
 constexpr const char* no_checkpoint = "is not a checkpoint of this version";
 
 fs::path folder_of(const fs::path& folder) {
@@ -100,7 +101,7 @@ void check_start(const fs::path& file) {
   if (count == sizeof start && std::memcmp(start, magic, sizeof magic) != 0)
     throw std::runtime_error(no_checkpoint);
   if (static_cast<double>(fs::file_size(file, error)) > memory_room() && !error)
-    throw std::runtime_error("needs more memory than may be used");
+    throw std::runtime_error(no_memory);
 }
 
 /// @return whether the file is whole; its damage is noted where it is not
@@ -136,7 +137,8 @@ std::vector<std::uint8_t> encode_checkpoint(const Checkpoint& checkpoint) {
                                     {"sources", checkpoint.sources},
                                     {"frame", checkpoint.frame},
                                     {"steps", checkpoint.steps},
-                                    {"progress", checkpoint.progress}});
+                                    {"progress", checkpoint.progress}},
+                                   -1);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(checkpoint.state.size() + text.size() + 64);
   append_bytes(bytes, magic, sizeof magic);
@@ -159,7 +161,8 @@ Checkpoint parse_checkpoint(std::vector<std::uint8_t> bytes) {
   std::memcpy(&sum, bytes.data() + body, number_bytes);
   if (sum != checksum({bytes.data(), body})) refuse("is damaged: its checksum is wrong");
   const std::size_t json_start = sizeof magic + number_bytes;
-  if (length > body - json_start || length > longest_json) refuse("is damaged");
+  if (length > body - json_start) refuse("is damaged");
+  if (bytes_of_json * static_cast<double>(length) > memory_room()) refuse(no_memory);
   const Json json = parse_json(std::span(bytes).subspan(json_start, length));
   Checkpoint c;
   c.identity = json.at("identity").get<std::string>();

@@ -333,12 +333,12 @@ void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::
   if (!earlier.is_same) {
     if (!is_of_scene(job, earlier))
       refuse(job, "is the folder of another scene, " + name_of_earlier(earlier), "", elsewhere);
-    if (!earlier.has_same_numbers && (!job.options.replaces || job.folder == job.run))
+    if (!earlier.has_same_numbers && (!job.options.replaces || job.is_drawn_in_place()))
       refuse(job,
              fmt::format("has frames from {} on, and these begin with {}",
                          scene::number_of(earlier.scene, 0), ours.first_number),
              all_files_text(earlier),
-             (job.folder == job.run ? "" : "add --replace, or ") + elsewhere);
+             (job.is_drawn_in_place() ? "" : "add --replace, or ") + elsewhere);
     if (!job.options.replaces)
       refuse(job, "has another simulation: " + difference_from_run(job.folder, picture, ours.simd),
              all_files_text(earlier), "add --replace, or " + elsewhere);

@@ -171,8 +171,9 @@ std::vector<output::Picture> Drawing::draw_incident(const timeline::Timeline& ti
 std::vector<output::Picture> Drawing::draw_slates(const record::RunRecord& record) {
   std::vector<output::Picture> slates;
   for (const std::string& view : record.views) {
-    const auto& part = record.view_records.at(view).frames;
-    const int first = part ? part->first : record.frames.front().frame;
+    const record::ViewFrames frames = record::frames_of(record, view);
+    if (frames.count() <= 0) continue;  // it was interrupted before its first picture
+    const int first = frames.first;
     const render::Image like = output::read_picture(output::frame_path(job_.folder, view, first));
     render::Image slate =
         draw_slate(job_.scene, {first - 1, view, builder_.slate()}, like, renderer_);

@@ -109,24 +109,32 @@ bool take_drawing_of_run(RenderJob& job) {
   const std::optional<record::Pictures> pictures =
       record::listed_pictures(record::read_run_json(job.run));
   if (!pictures) return false;
+  bool has_drawing = false;
   for (const std::string& view : pictures->views) {
+    const bool is_mosaic =
+        std::ranges::find(job.scene.mosaics, view, &scene::Mosaic::name) != job.scene.mosaics.end();
     const bool is_drawn =
         std::ranges::find(job.only_tiles, view) == job.only_tiles.end() &&
-        (std::ranges::find(job.scene.views, view, &scene::View::name) != job.scene.views.end() ||
-         std::ranges::find(job.scene.mosaics, view, &scene::Mosaic::name) !=
-             job.scene.mosaics.end());
-    if (!is_drawn) continue;
+        (is_mosaic ||
+         std::ranges::find(job.scene.views, view, &scene::View::name) != job.scene.views.end());
+    if (!is_drawn || (has_drawing && !is_mosaic)) continue;
     for (auto frame = pictures->frames.rbegin(); frame != pictures->frames.rend(); ++frame) {
       const std::string name = record::picture_name(view, frame->frame);
       const auto listed = pictures->files.find(name);
       if (!pictures->has(view, frame->frame) || listed == pictures->files.end() ||
           !record::has_hash(job.run / name, listed->second))
         continue;
-      take_drawing(record::read_picture_record(job.run / name), job);
-      return true;
+      const record::PictureRecord picture = record::read_picture_record(job.run / name);
+      // Only the picture of a mosaic says whether the run has captions: views have layers.
+      if (has_drawing)
+        job.options.has_caption = job.options.has_caption && picture.has_caption;
+      else
+        take_drawing(picture, job);
+      has_drawing = true;
+      break;
     }
   }
-  return false;
+  return has_drawing;
 }
 
 bool is_only_mosaics(const RenderJob& job) {
@@ -164,6 +172,10 @@ const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& n
         found != mosaics->end())
       return &*found;
   return nullptr;
+}
+
+bool RenderJob::is_drawn_in_place() const {
+  return !run.empty() && record::is_same_path(folder.string(), run.string());
 }
 
 RenderJob make_job(const RenderOptions& options) {

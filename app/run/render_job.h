@@ -39,6 +39,8 @@ struct RenderJob : timeline::Origin {
   std::vector<std::string> prediction_lines{};
   std::optional<Fork> fork{};
 
+  /// True where the folder is that of the run that is drawn, by whatever name.
+  bool is_drawn_in_place() const;
   bool has_movies() const { return options.has_movies && options.movie.is_made; }
 };
 

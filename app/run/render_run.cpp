@@ -234,7 +234,7 @@ std::set<int> RenderRun::trusted_states(const std::optional<EarlierRun>& earlier
 
 /// The run that is drawn has its folder, with its own record and states, which stay as they are.
 bool RenderRun::is_elsewhere() const {
-  return !job_.run.empty() && !job_.fork && job_.folder != job_.run;
+  return !job_.run.empty() && !job_.fork && !job_.is_drawn_in_place();
 }
 
 timeline::StatesFolder RenderRun::states_folder(const std::optional<EarlierRun>& earlier) const {
@@ -288,11 +288,13 @@ bool RenderRun::mend(const std::vector<int>& frames) {
     progress_.frame(frame, frame / job_.scene.fps);
   }
   is_mending_ = false;
-  const auto newest = timeline_.moments().find_newest(timeline_.fps());
-  if (!newest)
+  // Not from a later state: pictures after the checkpoint have not been looked at.
+  output::FoundCheckpoint found = output::find_checkpoint(job_.folder);
+  if (!found.checkpoint)
     throw IoError(job_.folder.string() + ": its checkpoint is missing", job_.folder.string());
-  continue_from(*newest);
-  ledger_.record().retries = newest->retries;
+  const timeline::Moment newest = timeline::to_moment(*std::move(found.checkpoint));
+  continue_from(newest);
+  ledger_.record().retries = newest.retries;
   if (laws_) watch_laws();
   return true;
 }

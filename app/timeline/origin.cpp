@@ -270,7 +270,8 @@ int Origin::last_frame() const {
 std::string advice_on_frame(double time, int last, const scene::Scene& scene) {
   const int first = scene::number_of(scene, 0);
   if (time != std::floor(time) || time < first || time > first + last) return {};
-  return fmt::format("; frame {} is at {} s", time, rough_text((time - first) / scene.fps));
+  return fmt::format("; frame {} is at {} s", time,
+                     scene::toml::number_text((time - first) / scene.fps));
 }
 
 void require_before_end(const char* flag, double time, const Origin& origin) {

@@ -107,6 +107,17 @@ TEST(Exports, AxesKeepTheirHandedness) {
   EXPECT_EQ(axes.tensor(a) * axes.direction(v), axes.direction(a * v));
 }
 
+/// Frame 7 of 25 a second is at 7.000000000000001 frames, where USD shows the clip before.
+TEST(Exports, EndsOfFramesAreWholeNumbers) {
+  for (const double fps : {24.0, 24000 / 1001.0, 25.0, 30.0, 50.0, 60.0, 100.0}) {
+    app::scene::Scene scene = scene_with("");
+    scene.fps = fps;
+    for (int frame = 0; frame < 3000; ++frame)
+      ASSERT_EQ(app::exports::time_in_frames(scene, frame / fps), frame) << fps;
+    EXPECT_NEAR(app::exports::time_in_frames(scene, 7.25 / fps), 7.25, 1e-12);
+  }
+}
+
 TEST(Exports, FoldersAreCalledLikeTheExportOrItsFormat) {
   const app::scene::Scene scene =
       scene_with("[[export]]\nformat = \"vtp\"\n[[export]]\nname = \"fine\"\nformat = \"vtp\"\n");

@@ -47,6 +47,13 @@ TEST(CheckpointFile, CheckpointFileComesBackWholeAndOnlyTwoAreKept) {
   EXPECT_EQ(found.checkpoint->state, checkpoint(10, 99).state);
 }
 
+/// Lists of very long runs were written, and taken for damage when they were read.
+TEST(CheckpointFile, OneWithVeryLongListsIsRead) {
+  app::output::Checkpoint c = checkpoint(1, 10);
+  c.progress = {{"list", std::string(70'000'000, 'x')}};
+  EXPECT_EQ(app::output::parse_checkpoint(app::output::encode_checkpoint(c)).state, c.state);
+}
+
 TEST(CheckpointFile, ADamagedOneIsNamedAndTheOlderOneTaken) {
   const test::TemporaryFolder folder;
   app::output::write_checkpoint(folder.path(), checkpoint(1, 10));

@@ -649,6 +649,58 @@ TEST_F(Addition, FilesThatNoRunHasMadeAreNotReplacedInSilence) {
   EXPECT_EQ(read_text(folder / "c/particles/0009.png"), "mine") << "no frame of the run";
 }
 
+/// They counted as no run: its states went, and pictures of the old simulation stayed among the new
+/// ones.
+TEST_F(Addition, ADamagedOrForeignRunJsonIsNotWrittenOverInSilence) {
+  render({"scene.toml", "--out", "a", "--no-movie"});
+  const std::string whole = read_text(folder / "a/run.json");
+  const auto before = pictures("a/particles");
+  for (const std::string& text :
+       {whole.substr(0, whole.size() / 2), std::string(), std::string(R"({"mine": [1, 2]})")}) {
+    folder.write("a/run.json", text);
+    const auto refused =
+        render({"scene.toml", "--out", "a", "--no-movie", "--frames", "2", "--set", "seed=2"}, 2);
+    EXPECT_TRUE(contains(refused.errors, "a has a run.json that neve cannot read")) << text;
+    EXPECT_EQ(read_text(folder / "a/run.json"), text);
+    EXPECT_TRUE(pictures("a/particles") == before);
+    EXPECT_TRUE(exists("a/states/000003.ckpt"));
+  }
+  render({"scene.toml", "--out", "a", "--no-movie", "--resume"});
+  expect_whole("a");
+  folder.write("a/run.json", R"({"mine": [1, 2]})");
+  render({"scene.toml", "--out", "a", "--no-movie", "--replace"});
+  expect_whole("a");
+}
+
+/// Its exports are files of the run, too.
+TEST_F(Addition, ForeignFilesInThePlaceOfItsExportsAreNotReplacedInSilence) {
+  folder.write("scene.toml", std::string(tiny_scene) +
+                                 "[[export]]\nname = \"geo\"\nformat = \"ply\"\nevery = 2\n");
+  folder.write("a/exports/geo/0002.ply", "mine");
+  const auto refused = render({"scene.toml", "--out", "a", "--no-movie"}, 2);
+  EXPECT_TRUE(contains(refused.errors, "it would replace exports/geo/0002.ply")) << refused.errors;
+  EXPECT_EQ(read_text(folder / "a/exports/geo/0002.ply"), "mine");
+  render({"scene.toml", "--out", "a", "--no-movie", "--replace"});
+  expect_whole("a");
+}
+
+/// "a" and "./a" were two folders.
+TEST_F(Addition, ARunByAnotherNameOfItsFolderKeepsItsStates) {
+  render({"scene.toml", "--out", "a", "--no-movie", "--frames", "2"});
+  render({"a", "--out", "./a", "--no-movie", "--frames", "4"});
+  EXPECT_EQ(states("a"), (std::vector<int>{1, 2, 3, 4}));
+}
+
+/// Views say that they have captions, which is a matter of their layers.
+TEST_F(Addition, ARunWithAMosaicWithoutACaptionIsContinued) {
+  folder.write("scene.toml",
+               std::string(tiny_scene) + "[[mosaic]]\nname = \"both\"\nviews = [\"particles\"]\n");
+  render({"scene.toml", "--out", "a", "--no-movie", "--no-caption", "--frames", "2"});
+  render({"a", "--resume", "--no-movie", "--frames", "4"});
+  render({"scene.toml", "--out", "whole", "--no-movie", "--no-caption"});
+  EXPECT_TRUE(pictures("a/both") == pictures("whole/both"));
+}
+
 /// What a run consists of is replaced by commands that draw the run, by no other.
 TEST_F(Addition, OtherOutputsDoNotReplaceItsFiles) {
   render({"scene.toml", "--out", "a", "--no-movie"});

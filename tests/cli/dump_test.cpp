@@ -276,7 +276,7 @@ TEST_F(Dump, ATimeAfterTheEndIsRefusedByAllThatTakeOne) {
   refused({"export", "scene.toml", "--format", "ply", "--at", "0.5"}, longer);
   refused({"strip", "scene.toml", "--at", "0.1,0.5"}, longer);
   EXPECT_EQ(neve({"dump", "scene.toml", "--at", "0.167"}).exit_code, 0);  // as the end is written
-  refused({"dump", "scene.toml", "--at", "2"}, "; frame 2 is at 0.0833 s");
+  refused({"dump", "scene.toml", "--at", "2"}, "; frame 2 is at 0.08333333333333333 s");
   EXPECT_EQ(neve({"dump", "scene.toml", "--at", "0.5", "--set", "frames=12"}).exit_code, 0);
   // Of a run that was made longer than its scene the end is that of the run.
   const std::vector<std::string> render{"render", "scene.toml", "--out", "a", "--no-movie"};

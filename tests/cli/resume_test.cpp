@@ -168,5 +168,20 @@ TEST_F(Resume, ARunWithoutACheckpointStartsAtTheBeginning) {
   EXPECT_EQ(render("out", {"--checkpoint-every", "-1"}).exit_code, 2);
 }
 
+/// After an early picture was made again, it went on from the newest state, past what was missing.
+TEST_F(Resume, PicturesThatAreMissingAfterTheCheckpointAreMadeToo) {
+  ASSERT_EQ(render("whole").exit_code, 0);
+  ASSERT_EQ(render("parts", {"--checkpoint-every", "2"}).exit_code, 0);
+  const auto files = checkpoints("parts");
+  ASSERT_EQ(files.size(), 2u);
+  fs::remove(files.back());
+  fs::remove(folder / "parts/particles/0001.png");
+  fs::remove(folder / "parts/particles/0003.png");
+  const auto more = render("parts", {"--resume"});
+  ASSERT_EQ(more.exit_code, 0) << more.errors;
+  expect_same("whole", "parts");
+  EXPECT_EQ(neve({"verify", "parts"}).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace neve::test

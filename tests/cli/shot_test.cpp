@@ -11,6 +11,7 @@
 #include "render/image/exr_header.h"
 #include "render/image/image.h"
 #include "tests/cli/run_neve.h"
+#include "tests/support/child.h"
 #include "tests/support/needs.h"
 
 namespace neve::test {
@@ -104,7 +105,7 @@ TEST_F(Shots, HaveTheirNumbersInForecastsNotesAndAdvice) {
                        "continues from the checkpoint of frame 1003"));
   const auto late = neve({"dump", "a", "--at", "1002"});
   EXPECT_EQ(late.exit_code, app::exit_usage);
-  EXPECT_TRUE(contains(late.errors, "frame 1002 is at 0.0833 s")) << late.errors;
+  EXPECT_TRUE(contains(late.errors, "frame 1002 is at 0.08333333333333333 s")) << late.errors;
 }
 
 TEST_F(Shots, PassesHaveTheTimeOfTheRun) {
@@ -162,6 +163,26 @@ TEST_F(Shots, CountBelowZero) {
   EXPECT_EQ(exists("a/particles.mp4"), app::output::find_program("ffmpeg").has_value());
   run({"render", "a/particles/-001.png", "--out", "again", "--no-movie", "--quiet"});
   EXPECT_EQ(run_json("again")["frames"][0]["state_hash"], run_json("a")["frames"][0]["state_hash"]);
+}
+
+/// It has no picture whose size a slate could have: the run became a failed one.
+TEST_F(Shots, AViewThatWasInterruptedBeforeItsFirstPictureHasNoSlate) {
+  const std::vector<std::string> more{"--no-movie",         "--quiet", "--no-keep-states",
+                                      "--checkpoint-every", "0",       "--set",
+                                      "frames=10",          "--set",   "solver.cell_size=0.03"};
+  std::vector<std::string> first{"render", "shot.toml", "--out", "a"};
+  first.insert(first.end(), more.begin(), more.end());
+  run(first);
+  std::vector<std::string> second{NEVE_BINARY, "render",     folder / "shot.toml",
+                                  "--out",     folder / "a", "--view",
+                                  "smoke",     "--frames",   "1012-1012"};
+  second.insert(second.end(), more.begin(), more.end());
+  const pid_t child = start_program(second);
+  ASSERT_GT(child, 0);
+  ASSERT_TRUE(wait_for_file(folder / "a/smoke"));
+  ::kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child), 130);
+  EXPECT_EQ(run_json("a")["status"], "interrupted");
 }
 
 /// The slate of the earlier frames was taken for the picture of its number.

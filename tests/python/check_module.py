@@ -109,6 +109,10 @@ png = b"\x89PNG\r\n\x1a\n"
 assert run._repr_png_() == run.picture().read_bytes() and run._repr_png_().startswith(png)
 assert "<td>max_speed</td>" in run._repr_html_() and "data:image/png;base64," in run._repr_html_()
 assert state._repr_png_().startswith(png) and "<th>attribute</th>" in state._repr_html_()
+x = np.random.default_rng(1).random((500, 3)) * [1, 1, 0.2]  # wide and deep, and flat on the ground
+turned = x[:, [0, 2, 1]]
+assert (neve.State({"x": x}, up="z")._repr_png_()
+        == neve.State({"x": turned}, up="y")._repr_png_() != neve.State({"x": x})._repr_png_())
 
 # A sweep as a table.
 sweep = neve.sweep("scene.toml", "s.cdb", {"material.snow.hardening": [5, 10]}, frames=(0, 2))
