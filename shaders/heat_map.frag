@@ -17,7 +17,9 @@ uniform vec3 normal;
 void main() {
   vec2 at = texture(values, on_map).rg;
   float value = at.r / max(at.g, 1e-6);
-  float t = clamp((value - range_min) / max(range_max - range_min, 1e-30), 0.0, 1.0);
+  // One value all over has the colour in the middle, where the legend has its number.
+  float width = range_max - range_min;
+  float t = width > 0.0 ? clamp((value - range_min) / width, 0.0, 1.0) : 0.5;
   vec3 root_color = pow(texture(colors, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb, vec3(1.1));
   if (isoline_step > 0.0) {
     float steps = (value - range_min) / isoline_step;

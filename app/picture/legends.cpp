@@ -1,10 +1,12 @@
 #include "app/picture/legends.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "app/picture/attributes.h"
 #include "app/picture/smoke_layer.h"
+#include "render/frame/range.h"
 #include "render/smoke_legend.h"
 
 namespace neve::app::picture {
@@ -63,9 +65,11 @@ Extremes of_vectors(const render::Frame& frame) {
   return extremes;
 }
 
-/// What is not seen on the bar is no value beyond it.
+/// What is not seen on the bar is no value beyond it, and what rounding makes of its ends is none.
 void tell_values_beyond(const Extremes& drawn, render::Legend& legend) {
-  const float least = 2e-3f * (legend.max - legend.min);
+  const float largest = std::max(std::abs(legend.min), std::abs(legend.max));
+  const float least = std::max(2e-3f * (legend.max - legend.min),
+                               static_cast<float>(render::min_difference) * largest);
   legend.has_lower_values = drawn.min < legend.min - least;
   legend.has_higher_values = drawn.max > legend.max + least;
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/frame/range.h"
+
 namespace neve::render {
 namespace {
 
@@ -65,7 +67,8 @@ Rgb8 map_color(ColorMap map, float t) {
 
 Rgb8 map_value(ColorMap map, float value, float range_min, float range_max) {
   if (std::isnan(value)) return map_color(map, value);
-  if (!(range_max > range_min)) return map_color(map, 0.5f);
+  if (!has_width(static_cast<double>(range_min), static_cast<double>(range_max)))
+    return map_color(map, 0.5f);
   // Halves keep the difference finite for the widest ranges.
   const float width = 0.5f * range_max - 0.5f * range_min;
   return map_color(map, (0.5f * value - 0.5f * range_min) / width);

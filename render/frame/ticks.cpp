@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "render/frame/range.h"
+
 namespace neve::render {
 namespace {
 
@@ -44,13 +46,12 @@ std::string format(double value, double largest, double step) {
 
 std::vector<Tick> nice_ticks(double min, double max, int count) {
   if (!std::isfinite(min) || !std::isfinite(max)) return {};
-  const double largest = std::max(std::abs(min), std::abs(max));
-  // Floats this close are equal to a reader of the bar.
-  if (!(max - min > 1e-6 * largest)) {
+  if (!has_width(min, max)) {
     char text[64];
     std::snprintf(text, sizeof text, "%.4g", min);
     return {{min, text}};
   }
+  const double largest = std::max(std::abs(min), std::abs(max));
   const double step = nice_step(max - min, count);
   std::vector<Tick> ticks;
   const double slack = 1e-6 * step;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/frame/colormap.h"
+#include "render/frame/range.h"
 #include "render/overlay/overlay_text.h"
 #include "render/overlay/plots.h"
 #include "render/overlay/text_layout.h"
@@ -116,9 +117,9 @@ void draw_legend(const Legend& legend, const LegendText& text, const ImFont& fon
   const float tip = std::round(0.5f * font.FontSize);
   if (legend.has_higher_values) draw_tip(legend, 1, ImVec2(left, top), right - left, -tip);
   if (legend.has_lower_values) draw_tip(legend, 0, ImVec2(left, bottom), right - left, tip);
-  const double range = static_cast<double>(legend.max) - static_cast<double>(legend.min);
+  const auto min = static_cast<double>(legend.min), max = static_cast<double>(legend.max);
   for (const Tick& tick : text.ticks) {
-    const double part = range > 0 ? (tick.value - static_cast<double>(legend.min)) / range : 0.5;
+    const double part = has_width(min, max) ? (tick.value - min) / (max - min) : 0.5;
     const float y = bottom - static_cast<float>(part) * (bottom - top);
     list.AddLine(ImVec2(right, y), ImVec2(right + 0.6f * gap, y), soft_text, std::max(1.0f, unit));
     draw_text(font, ImVec2(right + gap, y - 0.5f * font.FontSize), soft_text, tick.label);

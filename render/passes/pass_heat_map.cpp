@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "render/frame/colormap.h"
+#include "render/frame/range.h"
 #include "render/passes/slice_passes.h"
 #include "render/passes/view_uniforms.h"
 
@@ -51,7 +52,9 @@ void HeatMapPass::draw(const std::vector<HeatMap>& maps, const View& view, float
     program_.set("up", map.up);
     program_.set("normal", normal);
     program_.set("range_min", map.range_min);
-    program_.set("range_max", map.range_max);
+    const bool is_one_value =
+        !has_width(static_cast<double>(map.range_min), static_cast<double>(map.range_max));
+    program_.set("range_max", is_one_value ? map.range_min : map.range_max);
     program_.set("isoline_step", std::max(map.isoline_step, 0.0f));
     program_.set("isoline_width", 1.2f * samples);
     gl_.ActiveTexture(GL_TEXTURE0);

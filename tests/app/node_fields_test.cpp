@@ -227,6 +227,10 @@ TEST(Legends, SayWhereValuesOfTheirPictureLieBeyondTheirRange) {
   frame.heat_maps[0].cover = {1, 1, 0.6f};
   frame.arrows[0].vector = {{3, 4, 3}};
   EXPECT_EQ(told(), "<. .> .> ");
+  // Floats next to the only value of a frame are that value.
+  view.particles.range = app::scene::Range{1, 1};
+  frame.points.value = {0.9999998f, 1.0000002f};
+  EXPECT_EQ(told(), ".. .> .> ");
 }
 
 TEST(Slice, ArrowsKeepTheirDistanceInThePicture) {

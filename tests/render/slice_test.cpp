@@ -67,6 +67,23 @@ TEST(HeatMapPass, HeatMapPassShowsTheColoursOfTheLegend) {
     }
 }
 
+/// Rounding of a constant field fills a range of its own frame: the legend has one number, in its
+/// middle.
+TEST(HeatMapPass, AConstantFieldHasTheColourOfTheOnlyNumberOfItsLegend) {
+  OPEN_OR_SKIP(context, "auto");
+  Renderer renderer(*context);
+  for (const float rounding : {0.0f, 1.2e-7f, 3.6e-7f}) {
+    Frame frame = small_frame();
+    const float high = 1 + rounding;
+    frame.heat_maps = {full_map({1, high, high, 1}, 2, 2)};
+    frame.heat_maps[0].range_min = 1;
+    frame.heat_maps[0].range_max = high;
+    const Image image = renderer.draw(frame);
+    for (const int x : {10, 60, 110})
+      EXPECT_TRUE(is_close(pixel(image, x, 45), map_color(ColorMap::viridis, 0.5f), 3)) << rounding;
+  }
+}
+
 TEST(HeatMapPass, NodesWithoutAValueAreHolesInTheHeatMap) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context);
