@@ -27,4 +27,8 @@ Legend smoke_legend(float full_density, float density_scale) {
   return legend;
 }
 
+std::size_t smoke_left_out(const Smoke& smoke) {
+  return light::strays_of(smoke);
+}
+
 }  // namespace neve::render

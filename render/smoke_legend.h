@@ -1,5 +1,7 @@
 #pragma once
-/// How dense smoke has to be to look so white.
+/// What a picture says of its smoke: how dense it has to be to look so white, and what is missing.
+
+#include <cstddef>
 
 #include "render/frame/frame.h"
 
@@ -9,5 +11,8 @@ namespace neve::render {
 /// through some cells, before a dark background. Where the bar still rises, twice the mass shows.
 /// @param full_density  kg/m3, see Smoke
 Legend smoke_legend(float full_density, float density_scale);
+
+/// Blocks of nodes with smoke that is not drawn, as it lies too far from the rest.
+std::size_t smoke_left_out(const Smoke& smoke);
 
 }  // namespace neve::render

@@ -30,6 +30,7 @@
 #include "app/support/film_rate.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
+#include "render/smoke_legend.h"
 #include "sim/laws/law.h"
 
 namespace neve::app::picture {
@@ -253,6 +254,14 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
                                            })
                            ? ": the plane is where it began"
                            : "");
+  const bool has_words =
+      scene::has_layer(view, scene::Layer::legend) || scene::has_layer(view, scene::Layer::caption);
+  const std::size_t strays = has_words ? render::smoke_left_out(frame.smoke) : 0;
+  if (strays > 0)
+    frame.footnote += fmt::format("{}{} of {} {} far from the rest is not drawn",
+                                  frame.footnote.empty() ? "" : ", ",
+                                  scene::has_layer(view, scene::Layer::dust) ? "dust" : "smoke",
+                                  strays, strays == 1 ? "block" : "blocks");
   if (scene::has_layer(view, scene::Layer::extremes))
     mark_extremes(view, fields, snapshot.advance.dt_max, frame);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "render/frame/range.h"
 #include "render/light/light_fields.h"
 
 namespace neve::render::light {
@@ -11,6 +12,8 @@ namespace {
 
 constexpr int nodes_per_block = 64;
 constexpr float max_opacity = 16;
+/// Nodes per texel and axis up to which smoke loses resolution before it loses strays.
+constexpr int max_coarsening_for_strays = 4;
 
 struct NodeBox {
   Vec3i low, high;  ///< nodes, both inclusive
@@ -79,9 +82,33 @@ bool fits(const NodeBox& box, int nodes_per_texel) {
   return count <= max_smoke_texels;
 }
 
-/// Around nearly all blocks: the middle 99 % widened by half their width.
-void leave_out_strays(const std::vector<NodeBox>& boxes, NodeBox& box) {
+bool is_inside(const NodeBox& box, Vec3i node) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (node[axis] < box.low[axis] || node[axis] > box.high[axis]) return false;
+  }
+  return true;
+}
+
+/// Nodes per texel and axis with which a box fits.
+int coarsening_of(const NodeBox& box) {
+  int f = 1;
+  while (!fits(box, f)) f *= 2;
+  return f;
+}
+
+NodeBox box_around(const std::vector<NodeBox>& boxes) {
+  NodeBox all = boxes.front();
+  for (const NodeBox& b : boxes) {
+    extend(all, b.low);
+    extend(all, b.high);
+  }
+  return all;
+}
+
+/// The middle 99 % of the blocks along each axis.
+NodeBox middle_box(const std::vector<NodeBox>& boxes) {
   std::vector<int> low, high;
+  NodeBox middle{};
   const std::size_t cut = boxes.size() < 8 ? 0 : std::max<std::size_t>(1, boxes.size() / 200);
   for (int axis = 0; axis < 3; ++axis) {
     low.clear();
@@ -92,23 +119,52 @@ void leave_out_strays(const std::vector<NodeBox>& boxes, NodeBox& box) {
     }
     std::sort(low.begin(), low.end());
     std::sort(high.begin(), high.end());
-    const std::int64_t first = low[cut], last = high[high.size() - 1 - cut];
-    const std::int64_t extra = std::max<std::int64_t>(last - first, 4) / 2;
-    box.low[axis] = static_cast<int>(std::max<std::int64_t>(box.low[axis], first - extra));
-    box.high[axis] = static_cast<int>(std::min<std::int64_t>(box.high[axis], last + extra));
+    middle.low[axis] = low[cut];
+    middle.high[axis] = high[high.size() - 1 - cut];
   }
+  return middle;
 }
 
-bool is_inside(const NodeBox& box, Vec3i node) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (node[axis] < box.low[axis] || node[axis] > box.high[axis]) return false;
+/// Around those near the middle: as far away as the coarsest texels reach that smoke takes without
+/// strays, on one side or on both, and at least half the width of the middle.
+NodeBox without_strays(const std::vector<NodeBox>& boxes) {
+  constexpr std::int64_t reach = std::int64_t{max_coarsening_for_strays} * (max_smoke_side - 3);
+  const NodeBox middle = middle_box(boxes);
+  NodeBox near = middle;
+  for (const int sides : {1, 2}) {
+    std::vector<NodeBox> kept;
+    for (const NodeBox& b : boxes) {
+      bool is_near = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::int64_t low = middle.low[axis], high = middle.high[axis], width = high - low;
+        const std::int64_t margin = std::max((reach - width) / sides, width / 2);
+        is_near = is_near && b.low[axis] >= low - margin && b.high[axis] <= high + margin;
+      }
+      if (is_near) kept.push_back(b);
+    }
+    if (kept.empty()) return box_around(boxes);
+    near = box_around(kept);
+    if (fits(near, max_coarsening_for_strays)) break;
   }
-  return true;
+  return near;
+}
+
+/// Around all smoke, or around what is left without strays where that keeps its resolution.
+NodeBox drawn_box(const std::vector<NodeBox>& boxes) {
+  const NodeBox all = box_around(boxes);
+  if (fits(all, max_coarsening_for_strays)) return all;
+  const NodeBox near = without_strays(boxes);
+  return coarsening_of(near) < coarsening_of(all) ? near : all;
+}
+
+bool has_nodes(const Smoke& smoke) {
+  return smoke.nodes && !smoke.nodes->block.empty() && smoke.density_scale > 0;
 }
 
 /// Place of a value in the range; not-a-number counts as its lower end.
 float place_in_range(const Smoke& smoke, float value) {
-  if (!(smoke.range_max > smoke.range_min)) return 0.5f;
+  if (!has_width(static_cast<double>(smoke.range_min), static_cast<double>(smoke.range_max)))
+    return 0.5f;
   const float width = 0.5f * smoke.range_max - 0.5f * smoke.range_min;
   const float place = (0.5f * value - 0.5f * smoke.range_min) / width;
   return place > 0 ? std::min(place, 1.0f) : 0.0f;
@@ -120,21 +176,32 @@ float smoke_opacity(float share) {
   return share > 0 && std::isfinite(share) ? std::pow(share, 0.7f) : 0.0f;
 }
 
+std::size_t strays_of(const Smoke& smoke) {
+  if (!has_nodes(smoke)) return 0;
+  // Most smoke fits: then nothing has to be known of its nodes.
+  const std::vector<Vec3i>& blocks = smoke.nodes->block;
+  NodeBox all{node_of(blocks.front(), 0), node_of(blocks.front(), nodes_per_block - 1)};
+  for (const Vec3i& block : blocks) {
+    extend(all, node_of(block, 0));
+    extend(all, node_of(block, nodes_per_block - 1));
+  }
+  if (fits(all, max_coarsening_for_strays)) return 0;
+  const std::vector<NodeBox> boxes = look_at_blocks(smoke, nullptr).box;
+  if (boxes.empty()) return 0;
+  const NodeBox box = drawn_box(boxes);
+  return static_cast<std::size_t>(std::ranges::count_if(
+      boxes, [&](const NodeBox& b) { return !is_inside(box, b.low) || !is_inside(box, b.high); }));
+}
+
 SmokeGrid make_smoke_grid(const Smoke& smoke, ThreadPool* pool) {
   SmokeGrid grid;
-  if (!smoke.nodes || smoke.nodes->block.empty() || !(smoke.density_scale > 0)) return grid;
+  if (!has_nodes(smoke)) return grid;
   const NodeLattice& nodes = *smoke.nodes;
   const Blocks blocks = look_at_blocks(smoke, pool);
   if (blocks.seen.empty()) return grid;
 
-  NodeBox box = blocks.box.front();
-  for (const NodeBox& b : blocks.box) {
-    extend(box, b.low);
-    extend(box, b.high);
-  }
-  if (!fits(box, 1)) leave_out_strays(blocks.box, box);
-  int f = 1;  // nodes per texel and axis
-  while (!fits(box, f)) f *= 2;
+  const NodeBox box = drawn_box(blocks.box);
+  const int f = coarsening_of(box);  // nodes per texel and axis
 
   const auto to_float = [](int i) { return static_cast<float>(i); };
   const Vec3f low = {to_float(box.low.x), to_float(box.low.y), to_float(box.low.z)};

@@ -32,12 +32,16 @@ struct SmokeGrid {
   }
 };
 
-/// Boxes of more texels, or longer than this, first lose strays and then resolution.
+/// Boxes of more texels, or longer than this, first lose resolution down to a quarter, then strays
+/// where these alone are the cause, and then more resolution.
 inline constexpr int max_smoke_texels = 1 << 22, max_smoke_side = 256;
 
 /// Opacity that a density is drawn with: less than proportional, so that powder shows.
 /// @param share density over that of packed snow; values that are not positive and finite have none
 float smoke_opacity(float share);
+
+/// Blocks of nodes with smoke that is not drawn, as it lies too far from the rest.
+std::size_t strays_of(const Smoke& smoke);
 
 /// Empty where there is nothing to see. @param pool may be null
 SmokeGrid make_smoke_grid(const Smoke& smoke, ThreadPool* pool);

@@ -333,6 +333,22 @@ TEST(SmokeGrid, StraysNeitherEnlargeNorCoarsenIt) {
   EXPECT_EQ(grid.spacing, 0.01f);
   EXPECT_LE(grid.size.x, 90);
   EXPECT_NEAR(total(grid), 64'000e-6, 1e-6);
+  EXPECT_EQ(render::light::strays_of(blocks_at(places)), 2u);
+}
+
+/// A crumb at some distance is coarser, and still there; so it is beside a stray beyond all sizes.
+TEST(SmokeGrid, ACrumbFarFromTheRestIsDrawnCoarser) {
+  std::vector<Vec3i> places;
+  for (int i = 0; i < 1000; ++i) places.push_back({i / 100, i / 10 % 10, i % 10});
+  places.push_back({180, 0, 0});
+  const render::light::SmokeGrid grid = render::light::make_smoke_grid(blocks_at(places), nullptr);
+  EXPECT_FLOAT_EQ(grid.spacing, 0.04f);
+  EXPECT_NEAR(total(grid), 1001 * 64e-6, 1e-6);
+  EXPECT_EQ(render::light::strays_of(blocks_at(places)), 0u);
+  places.push_back({400'000'000, 0, 0});
+  EXPECT_NEAR(total(render::light::make_smoke_grid(blocks_at(places), nullptr)), 1001 * 64e-6,
+              1e-6);
+  EXPECT_EQ(render::light::strays_of(blocks_at(places)), 1u);
 }
 
 TEST(SmokeGrid, WideSmokeLosesResolutionButNotItsSum) {
