@@ -161,12 +161,11 @@ render::Frame FrameBuilder::build_incident(const scene::View& view, const Snapsh
                                            std::optional<render::Points> points) const {
   render::Frame frame = build(view, snapshot, std::move(points));
   // If only a plane is drawn, rings around particles before or behind it point at nothing.
-  const bool is_plane =
-      !scene::shows_particles(view) && !scene::has_layer(view, scene::Layer::smoke);
+  const bool is_plane = scene::shows_slice(view) && !scene::shows_particles(view) &&
+                        !scene::has_layer(view, scene::Layer::smoke);
+  const SlicePlane plane = plane_of(scene_, view, seeded_, snapshot);
   const auto is_shown = [&](const sim::Vec3d& x) {
-    return !is_plane ||
-           std::abs((x - view.slice.point.value_or(x)).dot(view.slice.normal.normalized())) <=
-               scene_.solver.cell_size;
+    return !is_plane || std::abs((x - plane.point).dot(plane.normal)) <= scene_.solver.cell_size;
   };
   for (const std::uint32_t p : divergence.culprits) {
     if (frame.marks.size() == max_marks) break;

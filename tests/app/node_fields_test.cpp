@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/picture/field_sampler.h"
+#include "app/picture/frame_builder.h"
 #include "app/picture/legends.h"
 #include "app/picture/slice.h"
 #include "app/picture/wires.h"
@@ -187,6 +189,38 @@ TEST(Slice, SliceMarksPointsWithoutSnow) {
   const render::Frame frame = frame_of_slice(moment, 2, app::picture::slice_plane(slice, 0));
   EXPECT_TRUE(frame.heat_maps.empty());
   EXPECT_NE(frame.footnote.find("no snow here"), std::string::npos) << frame.footnote;
+}
+
+/// A plane that follows snow has no place without it; another is somewhere else than its point.
+TEST(Slice, RingsAreAroundParticlesBesideThePlaneThatIsDrawn) {
+  std::string text = thrown_ball;
+  text.replace(text.find("[0, 0.5, 0], radius"), 11, "[0, 0.5, 0.4]");
+  text +=
+      "[[view]]\nname = \"a\"\nlayers = [\"heatmap\"]\nslice = { follow = \"ball\" }\n"
+      "[[view]]\nname = \"b\"\nlayers = [\"heatmap\"]\n"
+      "slice = { follow = \"ball\", point = [0, 0, 0] }\n"
+      "[[view]]\nname = \"c\"\nlayers = [\"heatmap\"]\nslice = { point = [0, 0, 0.4] }\n";
+  app::scene::Scene scene = app::scene::read_scene_text(text, "ball.toml");
+  const app::setup::SeededScene seeded = app::setup::seed_scene(scene);
+  app::setup::resolve(scene, seeded.particles.x.size());
+  const sim::Simulation simulation(scene.solver, scene.materials, {}, seeded.particles, 1);
+  const app::picture::Snapshot snapshot =
+      app::picture::take_snapshot(scene, scene.views, simulation, 0);
+  const auto nearest_to = [&](const Vec3d& place) {
+    const std::vector<Vec3d>& x = snapshot.particles.x;
+    const auto found = std::min_element(x.begin(), x.end(), [&](const Vec3d& a, const Vec3d& b) {
+      return (a - place).squaredNorm() < (b - place).squaredNorm();
+    });
+    return snapshot.particles.id_of(static_cast<std::size_t>(found - x.begin()));
+  };
+  sim::Divergence divergence;
+  divergence.culprits = {nearest_to({0, 0.5, 0.4}), nearest_to({0, 0.5, 0.26})};
+  const app::picture::FrameBuilder builder(scene, seeded);
+  for (const app::scene::View& view : scene.views) {
+    const render::Frame frame = builder.build_incident(view, snapshot, divergence, {});
+    ASSERT_EQ(frame.marks.size(), 1u) << view.name;
+    EXPECT_NEAR(frame.marks[0].z, 0.4f, 0.03f) << view.name;
+  }
 }
 
 TEST(Legends, TwoLayersOfOneQuantityShareALegend) {
