@@ -279,9 +279,11 @@ std::optional<StageLook> FrameBuilder::stage_look(const scene::View& view,
   const scene::CameraSettings& camera =
       scene_.camera && scene_.camera->eye ? *scene_.camera : settings_of(scene_, view);
   const sim::Vec3d eye = setup::camera_at(camera, 0, scene::duration(scene_)).eye;
-  return StageLook{
-      StageCut(view, plane_of(scene_, view, seeded_, snapshot), eye, scene_.solver.cell_size),
-      snapshot.stage_change->largest()};
+  SlicePlane plane = plane_of(scene_, view, seeded_, snapshot);
+  // A view without a slice may have no place of one, and its snow may be anywhere.
+  if (!view.slice.point && view.slice.follow.empty()) plane.point = middle_of(snapshot.particles.x);
+  return StageLook{StageCut(view, plane, eye, scene_.solver.cell_size),
+                   snapshot.stage_change->largest()};
 }
 
 /// A box around each body, with its name where there are several.

@@ -109,6 +109,23 @@ TEST(StageChange, ParticlesAreCutAndHaveArrowsAndTheirColoursHaveALegend) {
     EXPECT_EQ(slice.legends[k + 1].title, before[k].title);
 }
 
+/// Views without a slice have no place of one: their cut goes through the snow wherever it is.
+TEST(StageChange, SnowAwayFromTheOriginIsCutInItsMiddle) {
+  const TemporaryFolder folder;
+  std::string aside = tiny_scene;
+  aside.replace(aside.find("[0, 0.12, 0]"), 12, "[0, 0.12, 9]");
+  view::session::Workbench bench = bench_for(folder, aside);
+  bench.session().show_stage(Stage::grid_velocities);
+  const auto live =
+      wait_for(bench.session(), [](const LiveFrame& frame) { return frame.stage.has_value(); });
+  const std::size_t all = live->snapshot.particles.x.size();
+  for (const char* view : {"particles", "smoke"}) {
+    const std::size_t seen = frame_of(bench, *live, view).points.position.size();
+    EXPECT_GT(seen, all / 4) << view;
+    EXPECT_LT(seen, 3 * all / 4) << view;
+  }
+}
+
 /// Explicit steps have no solve: the colour of nothing is that of 0 in the legend.
 TEST(StageChange, AStageThatChangesNothingHasTheColourOfNothing) {
   const TemporaryFolder folder;
