@@ -24,8 +24,10 @@ Displacement displacement(const sim::shapes::Pose& from, const sim::shapes::Pose
   return out;
 }
 
-/// Colliders that hide what is behind them, in the order in which add_colliders() makes them.
-std::vector<Thing> moving_things(const MotionSource& source, bool are_planes, double interval) {
+/// Colliders that hide what is behind them, or those that do not, in the order in which
+/// add_colliders() makes them.
+std::vector<Thing> moving_things(const MotionSource& source, bool are_planes, bool are_hiding,
+                                 double interval) {
   std::vector<Thing> things;
   const std::vector<scene::Collider>& colliders = source.scene.colliders;
   const double now = source.snapshot.time;
@@ -33,7 +35,7 @@ std::vector<Thing> moving_things(const MotionSource& source, bool are_planes, do
     const scene::Collider& collider = colliders[c];
     const bool is_plane = std::holds_alternative<sim::shapes::Plane>(collider.shape.form);
     if (!scene::has_layer(source.view, layer_of(collider))) continue;
-    if (is_plane != are_planes || !hides(collider.style)) continue;
+    if (is_plane != are_planes || hides(collider.style) != are_hiding) continue;
     const sim::shapes::Pose pose = sim::shapes::pose_at(collider, now);
     const auto at = [&](double time) {
       return displacement(pose, sim::shapes::pose_at(collider, time));
@@ -71,11 +73,15 @@ render::Camera camera_after(const MotionSource& source, double seconds) {
 }
 
 std::vector<Thing> moving_meshes(const MotionSource& source, double interval) {
-  return moving_things(source, false, interval);
+  return moving_things(source, false, true, interval);
 }
 
 std::vector<Thing> moving_grounds(const MotionSource& source, double interval) {
-  return moving_things(source, true, interval);
+  return moving_things(source, true, true, interval);
+}
+
+std::vector<Thing> moving_ghost_grounds(const MotionSource& source, double interval) {
+  return moving_things(source, true, false, interval);
 }
 
 std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene& scene,

@@ -27,10 +27,12 @@ std::vector<Vec3f> velocities(const MotionSource& source, const std::vector<std:
 /// @param seconds after the state, or before
 render::Camera camera_after(const MotionSource& source, double seconds);
 
-/// The meshes and the grounds of a frame, with their places an interval before and after.
-/// A mesh that deforms moves as its pose does.
+/// The meshes, the grounds and the ghosts of grounds of a frame, with their places an interval
+/// before and after. A mesh that deforms moves as its pose does.
 std::vector<render::channels::Thing> moving_meshes(const MotionSource& source, double interval);
 std::vector<render::channels::Thing> moving_grounds(const MotionSource& source, double interval);
+std::vector<render::channels::Thing> moving_ghost_grounds(const MotionSource& source,
+                                                          double interval);
 
 /// Centre of mass of the snow of a body, or of a collider that moves by itself; the place of
 /// another collider. Nothing where there is no such snow.

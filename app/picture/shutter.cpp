@@ -25,17 +25,26 @@ int count_of(float pixels, int supersampling) {
   return is_dearer ? std::max(count, enough_to_share) : count;
 }
 
-/// Moves the colliders and the camera of a frame to another time.
-void move_solids(const MotionSource& source, double seconds, render::Frame& frame) {
+/// The colliders of a frame at another time.
+render::Frame colliders_after(const MotionSource& source, double seconds,
+                              const render::Frame& frame) {
   const float spacing = !frame.grounds.empty()         ? frame.grounds.front().line_spacing
                         : !frame.ghost_grounds.empty() ? frame.ghost_grounds.front().line_spacing
                                                        : 1.0f;
   render::Frame moved;
   add_colliders(source.scene, source.view, source.snapshot.time + seconds, spacing, moved);
+  return moved;
+}
+
+/// Moves the colliders and the camera of a frame to another time.
+void move_solids(const MotionSource& source, double seconds, render::Frame& frame) {
+  render::Frame moved = colliders_after(source, seconds, frame);
   frame.meshes = std::move(moved.meshes);
   frame.grounds = std::move(moved.grounds);
   frame.ghosts = std::move(moved.ghosts);
   frame.ghost_grounds = std::move(moved.ghost_grounds);
+  // Wires and edges of ghosts are the first lines of a frame.
+  std::ranges::move(moved.lines, frame.lines.begin());
   frame.camera = camera_after(source, seconds);
 }
 
@@ -111,12 +120,15 @@ class Ends {
 };
 
 /// Pixels that what is seen of a ground moves by, where it has not faded out.
-float ground_motion(const Ends& ends, const render::Frame& frame, const render::GroundPlane& ground,
-                    const Thing& thing) {
+float ground_motion(const Ends& ends, const render::Frame& frame, render::GroundPlane ground,
+                    const Thing& thing, bool is_ghost) {
   constexpr int parts = 16;       // of each side of the picture
   constexpr float has_faded = 2;  // fade distances
   const render::View view = make_view(frame.camera, frame.width, frame.height);
-  if (!render::is_seen_from_above(ground, view)) return 0;
+  if (!render::is_seen_from_above(ground, view)) {
+    if (!is_ghost) return 0;
+    ground.normal = -ground.normal;
+  }
   const render::GroundPlace place = place_ground(ground, frame, view);
   const float height = dot(place.point, place.normal);
   const auto slope = [&](int part, int side) {
@@ -138,10 +150,33 @@ float ground_motion(const Ends& ends, const render::Frame& frame, const render::
   return largest;
 }
 
+/// Pixels that ghosts and wires move by.
+float see_through_motion(const MotionSource& source, const Ends& ends, const render::Frame& frame,
+                         double open) {
+  if (std::ranges::all_of(source.scene.colliders, hides, &scene::Collider::style)) return 0;
+  const render::Frame before = colliders_after(source, -0.5 * open, frame),
+                      after = colliders_after(source, 0.5 * open, frame);
+  float largest = 0;
+  const auto add = [&](const auto& from, const auto& to) {
+    if (from.size() != to.size()) return;  // a mesh that deforms has become another one
+    for (std::size_t k = 0; k < from.size(); ++k)
+      largest = std::max(largest, ends.way(from[k], to[k]).pixels);
+  };
+  for (std::size_t g = 0; g < before.ghosts.size(); ++g)
+    add(before.ghosts[g].position, after.ghosts[g].position);
+  for (std::size_t l = 0; l < before.lines.size(); ++l)
+    add(before.lines[l].ends, after.lines[l].ends);
+  const std::vector<Thing> grounds = moving_ghost_grounds(source, 0.5 * open);
+  for (std::size_t g = 0; g < grounds.size(); ++g)
+    largest =
+        std::max(largest, ground_motion(ends, frame, frame.ghost_grounds[g], grounds[g], true));
+  return largest;
+}
+
 /// Pixels that anything moves by in the picture while the shutter is open.
 float largest_motion(const MotionSource& source, const Ends& ends, const render::Frame& frame,
                      const std::vector<Vec3f>& velocity, double open) {
-  float largest = 0;
+  float largest = see_through_motion(source, ends, frame, open);
   for (std::size_t p = 0; p < frame.points.position.size(); ++p)
     largest = std::max(largest, ends.way_of(frame.points.position[p], velocity[p]).pixels);
   const std::vector<Thing> things = moving_meshes(source, 0.5 * open);
@@ -150,7 +185,7 @@ float largest_motion(const MotionSource& source, const Ends& ends, const render:
       largest = std::max(largest, ends.way(things[m].before(p), things[m].after(p)).pixels);
   const std::vector<Thing> grounds = moving_grounds(source, 0.5 * open);
   for (std::size_t g = 0; g < grounds.size(); ++g)
-    largest = std::max(largest, ground_motion(ends, frame, frame.grounds[g], grounds[g]));
+    largest = std::max(largest, ground_motion(ends, frame, frame.grounds[g], grounds[g], false));
   return largest;
 }
 

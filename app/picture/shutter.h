@@ -10,7 +10,8 @@ inline constexpr int max_moments = 32;
 
 /// Frames around the moment of the state: half of them before it. Each particle has its own phase
 /// between two moments, so that fast snow leaves a streak and no row of copies. As many as pixels
-/// that anything moves by; none if nothing moves by half a pixel. Smoke, slices and lines stay.
+/// that anything moves by; none if nothing moves by half a pixel. Smoke, slices, and lines that are
+/// no wires stay.
 /// @param frame  of the source @param degrees  the shutter is open, of 360 for a whole frame
 std::vector<render::Frame> shutter_moments(const MotionSource& source, const render::Frame& frame,
                                            double degrees);

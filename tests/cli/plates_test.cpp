@@ -104,6 +104,29 @@ TEST_F(Plates, GroundsAreBlurredByTheirWayAndByThatOfTheCamera) {
   }
 }
 
+/// Nothing but a see-through collider moves in these.
+TEST_F(Plates, GhostsAndWiresAreBlurredByTheirWay) {
+  for (const std::string style : {"ghost", "wire"})
+    for (const std::string form :
+         {"sphere = { center = [0, 0.6, 0], radius = 0.3 }",
+          "box = { center = [0, 0.6, 0], size = [0.5, 0.5, 0.5] }", "plane = { }"}) {
+      folder.write("seen.toml",
+                   "frames = 1\n[solver]\ncell_size = 0.08\ngravity = [0, 0, 0]\n[output]\n"
+                   "size = [160, 90]\n[camera]\neye = [0, 1.2, 5]\ntarget = [0, 0.5, 0]\n"
+                   "[[view]]\nname = \"p\"\nlayers = [\"ground\", \"colliders\", \"particles\"]\n"
+                   "[[body]]\nshape = { sphere = { center = [0, 9, 0], radius = 0.1 } }\n"
+                   "[[collider]]\nname = \"seen\"\nstyle = \"" +
+                       style + "\"\nshape = { " + form + " }\n" +
+                       "keyframes = [{ time = 0 }, { time = 0.1, rotation = [0, 0, 30], "
+                       "position = [0.5, 0, 0] }]\n");
+      const auto drawn = [&](const std::string& shutter) {
+        render({"seen.toml", "--frames", "1-1", "--shutter", shutter, "--out", "run", "--replace"});
+        return picture("run/p/0001.png");
+      };
+      EXPECT_GT(render::compare(drawn("0"), drawn("360")).local, 2) << style << " " << form;
+    }
+}
+
 TEST_F(Plates, ABlurredPictureMakesItselfAgain) {
   render({"flying.toml", "--frames", "0-0", "--shutter", "180", "--out", "first"});
   render({"first/particles/0000.png", "--out", "again"});
