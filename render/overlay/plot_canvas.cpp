@@ -186,17 +186,25 @@ class PlotDrawing {
                      k < series.notes.size() ? series.notes[k] : std::string());
   }
 
-  /// "to 12.2", where a curve leaves the axis at its upper end.
+  /// "to 12.2", at each end of the axis where a curve leaves it.
   void draw_beyond() {
-    double largest = max_;
+    double smallest = min_, largest = max_;
     for (const PlotSeries& series : plot_.series)
-      for (const float value : series.value)
-        if (std::isfinite(value)) largest = std::max(largest, static_cast<double>(value));
-    if (!(largest > max_ + 1e-3 * (max_ - min_))) return;
+      for (const float value : series.value) {
+        if (!std::isfinite(value)) continue;
+        smallest = std::min(smallest, static_cast<double>(value));
+        largest = std::max(largest, static_cast<double>(value));
+      }
+    const double least = 1e-3 * (max_ - min_);
+    if (largest > max_ + least) draw_end(largest, panel_.top + 0.2f * size_);
+    if (smallest < min_ - least) draw_end(smallest, panel_.bottom - 1.2f * size_);
+  }
+
+  void draw_end(double value, float top) {
     std::array<char, 32> number{};
-    std::snprintf(number.data(), number.size(), "to %.3g", largest);
-    canvas_.text({panel_.right - 0.4f * size_, panel_.top + 0.2f * size_}, Note::Anchor::right,
-                 bright_text, number.data());
+    std::snprintf(number.data(), number.size(), "to %.3g", value);
+    canvas_.text({panel_.right - 0.4f * size_, top}, Note::Anchor::right, bright_text,
+                 number.data());
   }
 
   void draw_x_words() {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "gl_test.h"
+#include "render/overlay/svg.h"
 
 namespace neve::render {
 namespace {
@@ -103,6 +104,21 @@ TEST(Plots, CurvesAreCutAtTheEndsOfTheirAxis) {
   const Extent beyond = changed_extent(renderer.draw(small_frame(640, 360)), renderer.draw(frame));
   EXPECT_EQ(inside.top, beyond.top);
   EXPECT_EQ(inside.bottom, beyond.bottom);
+}
+
+/// A curve below its axis was gone without a word.
+TEST(Plots, ACurveSaysAtWhichEndItLeavesItsAxis) {
+  const auto says = [](std::vector<float> values, const std::string& words) {
+    Plot plot{.title = "height", .unit = "m", .x_end = 2, .min = 1, .max = 2, .series = {}};
+    plot.series = {{.name = "ball", .color = pure_red, .x = {0, 1, 2}, .value = std::move(values)}};
+    overlay::SvgCanvas canvas(16);
+    overlay::draw_plot(plot, {50, 350, 50, 250}, {}, canvas);
+    return canvas.drawing(400, 300, true).find(">" + words + "<") != std::string::npos;
+  };
+  EXPECT_TRUE(says({1.5f, 1, 0.25f}, "to 0.25"));
+  EXPECT_TRUE(says({1.5f, 2, 12.25f}, "to 12.2"));
+  EXPECT_FALSE(says({1, 1.0005f, 2}, "to 1"));
+  EXPECT_FALSE(says({0.9995f, 1.5f, 2}, "to 1"));
 }
 
 TEST(Plots, SmallPicturesShowTheFirstOnesAndTinyOnesNone) {
