@@ -75,12 +75,16 @@ void refuse_preset(const std::string& named) {
     throw UsageError(named, "is a preset, and no scene", "give it as --preset " + named);
 }
 
-void check_names(const CardOptions& options, const std::vector<timeline::Origin>& origins) {
+/// @param cards  of pictures
+void check_names(const CardOptions& options, const std::vector<timeline::Origin>& origins,
+                 const std::vector<Source>& cards) {
   std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const Source& card : cards) add(card.subject.material.name);
   for (const timeline::Origin& origin : origins)
-    for (const sim::Material& material : origin.scene.materials)
-      if (std::find(names.begin(), names.end(), material.name) == names.end())
-        names.push_back(material.name);
+    for (const sim::Material& material : origin.scene.materials) add(material.name);
   for (const std::string& name : options.materials)
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw UsageError("--material", "there is no material \"" + name + "\"",
@@ -121,7 +125,12 @@ std::vector<Source> sources_of(const CardOptions& options) {
     titles.emplace_back(scene::name(preset));
     origins.push_back(origin_of(preset, options));
   }
-  check_names(options, origins);
+  check_names(options, origins, sources);
+  if (!options.materials.empty())
+    std::erase_if(sources, [&](const Source& card) {
+      return std::ranges::find(options.materials, card.subject.material.name) ==
+             options.materials.end();
+    });
   for (std::size_t k = 0; k < origins.size(); ++k)
     add_sources(origins[k], titles[k], options, sources);
   if (sources.size() > max_materials)

@@ -124,6 +124,24 @@ TEST_F(CardSubjects, OfAPictureAreThoseThatItShows) {
   }
 }
 
+TEST_F(CardSubjects, OfAPictureMayBeChosenByName) {
+  const std::vector<Source> made = sources_of(options);
+  const neve::render::Image pixel{1, 1, 3, {0, 0, 0}};
+  neve::app::output::write_file(folder / "card.png",
+                                neve::render::encode_png(pixel, texts_of(made)));
+  options.scenes = {(folder / "card.png").string()};
+  options.materials = {"sand"};
+  EXPECT_EQ(titles(), Titles{"two: sand"});
+  options.materials = {"spare"};
+  try {
+    sources_of(options);
+    ADD_FAILURE() << "there is no card of it";
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(),
+                 "--material: error: there is no material \"spare\"; expected snow, sand");
+  }
+}
+
 /// A picture carries the scene as it was written: its curves, and what it sets beside them.
 TEST_F(CardSubjects, OfAPictureFollowItsCurves) {
   folder.write("curve.toml", R"(
