@@ -1,7 +1,11 @@
 #include "render/image/jpeg.h"
 
+#include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <utility>
 
 #ifdef NEVE_WITH_JPEG
 #include <turbojpeg.h>
@@ -52,6 +56,67 @@ void check_scans(std::span<const std::uint8_t> bytes) {
                      std::to_string(max_scans));
 }
 
+/// Numbers of a TIFF header, in its order of bytes; 0 beyond its end.
+struct Tiff {
+  std::span<const std::uint8_t> bytes;
+  bool is_little = !bytes.empty() && bytes[0] == 'I';
+
+  std::size_t number(std::size_t at, std::size_t size) const {
+    std::size_t value = 0;
+    if (bytes.size() < size || at > bytes.size() - size) return 0;
+    for (std::size_t k = 0; k < size; ++k)
+      value = value << 8 | bytes[at + (is_little ? size - 1 - k : k)];
+    return value;
+  }
+};
+
+/// How the camera was held, 1 to 8; 1: as the picture is stored, or nothing is said.
+/// Source: Exif 2.32 (CIPA DC-008-2019), tag 0x0112.
+int orientation_of(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 6> exif{'E', 'x', 'i', 'f', 0, 0};
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size() && bytes[at] == 0xff && bytes[at + 1] != 0xda) {
+    const std::size_t length = std::size_t{bytes[at + 2]} << 8 | bytes[at + 3];
+    if (length < 2 || at + 2 + length > bytes.size()) break;
+    const auto part = bytes.subspan(at + 4, length - 2);
+    if (bytes[at + 1] == 0xe1 && part.size() > exif.size() &&
+        std::equal(exif.begin(), exif.end(), part.begin())) {
+      const Tiff tiff{part.subspan(exif.size())};
+      const std::size_t table = tiff.number(4, 4), count = tiff.number(table, 2);
+      for (std::size_t entry = table + 2; entry < table + 2 + 12 * count; entry += 12) {
+        const std::size_t held = tiff.number(entry + 8, 2);
+        if (tiff.number(entry, 2) == 0x0112 && held >= 1 && held <= 8)
+          return static_cast<int>(held);
+      }
+      break;
+    }
+    at += 2 + length;
+  }
+  return 1;
+}
+
+/// The picture as the camera saw it.
+Image upright(const Image& stored, int orientation) {
+  if (orientation == 1) return stored;
+  const auto is_one_of = [&](std::initializer_list<int> list) {
+    return std::ranges::find(list, orientation) != list.end();
+  };
+  const bool is_turned = orientation >= 5, is_flipped_x = is_one_of({2, 3, 7, 8}),
+             is_flipped_y = is_one_of({3, 4, 6, 7});
+  Image image = stored;
+  if (is_turned) std::swap(image.width, image.height);
+  auto to = image.pixels.begin();
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const int u = is_turned ? y : x, v = is_turned ? x : y;
+      const int column = is_flipped_x ? stored.width - 1 - u : u,
+                row = is_flipped_y ? stored.height - 1 - v : v;
+      const std::ptrdiff_t from = std::ptrdiff_t{row} * stored.width + column;
+      to = std::copy_n(stored.pixels.begin() + from * stored.channels, stored.channels, to);
+    }
+  return image;
+}
+
 }  // namespace
 
 /// By libturbojpeg: stb_image of Debian 12 reads outside of its tables where codes are damaged.
@@ -85,7 +150,7 @@ Image decode_jpeg(std::span<const std::uint8_t> bytes, double room) {
       (tjGetErrorCode(decoder.get()) == TJERR_FATAL ||
        std::string(tjGetErrorStr2(decoder.get())).find("extraneous bytes") == std::string::npos))
     fail();
-  return image;
+  return upright(image, orientation_of(bytes));
 }
 
 #else

@@ -23,7 +23,8 @@ extern const char* const jpeg_advice;
 /// @throws ImageError
 std::vector<std::uint8_t> encode_jpeg(const Image& image, int quality, bool has_full_colour);
 
-/// Baseline and progressive, of one or three channels. @throws as decode_png
+/// Baseline and progressive, of one or three channels; turned as Exif says that its camera was
+/// held. @throws as decode_png
 Image decode_jpeg(std::span<const std::uint8_t> bytes,
                   double room = std::numeric_limits<double>::infinity());
 

@@ -55,21 +55,30 @@ TriangleMesh creased_mesh(const std::vector<Vec3f>& position,
 
 Lines mesh_lines(const std::vector<Vec3f>& position, const std::vector<std::uint32_t>& index) {
   // The first face of each edge; at the second the line is known to be needed or not.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3f> first;
+  struct Edge {
+    Vec3f normal;
+    bool is_open = true;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges;
   Lines lines;
   const bool shows_all = index.size() / 3 <= few;
   for (std::size_t t = 0; t + 2 < index.size(); t += 3) {
     const Vec3f normal = normalized(face_normal(position, index.data() + t));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = index[t + k], b = index[t + (k + 1) % 3];
-      const auto [other, is_new] = first.try_emplace(std::minmax(a, b), normal);
+      const auto [other, is_new] = edges.try_emplace(std::minmax(a, b), Edge{normal});
       if (is_new) continue;
-      const float together = dot(normal, other->second);
+      other->second.is_open = false;
+      const float together = dot(normal, other->second.normal);
       // The diagonals of flat polygons are no edges.
       if (together > 0.9999f || (!shows_all && together > cos_crease)) continue;
       lines.ends.insert(lines.ends.end(), {position[a], position[b]});
     }
   }
+  // The rims of holes.
+  for (const auto& [ends, edge] : edges)
+    if (edge.is_open)
+      lines.ends.insert(lines.ends.end(), {position[ends.first], position[ends.second]});
   return lines;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/scene/read.h"
+#include "render/shapes/mesh_shapes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -99,6 +100,15 @@ TEST_F(ColliderLooks, WiresAndGhostsAreTheSameSurfaces) {
     EXPECT_EQ(see_through.ghosts[0].position.size(),
               drawn(scene_with(form, "solid"), 0.4).meshes[0].position.size());
   }
+}
+
+/// A box without its lid: twelve edges, of which four have one face.
+TEST(MeshLines, RimsOfHolesAreLines) {
+  const std::vector<Vec3f> corners{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1},
+                                   {0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}};
+  const std::vector<std::uint32_t> index{0, 1, 2, 0, 2, 3, 0, 4, 5, 0, 5, 1, 1, 5, 6,
+                                         1, 6, 2, 2, 6, 7, 2, 7, 3, 3, 7, 4, 3, 4, 0};
+  EXPECT_EQ(render::shapes::mesh_lines(corners, index).ends.size(), 2u * 12);
 }
 
 }  // namespace

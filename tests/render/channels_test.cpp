@@ -597,6 +597,46 @@ TEST(Jpeg, ManyScansAreRefused) {
   EXPECT_THROW(decode_jpeg(bytes), ImageError);
 }
 
+/// A JPEG with the Exif orientation of a camera.
+std::vector<std::uint8_t> held(std::vector<std::uint8_t> bytes, int orientation, bool is_little) {
+  std::vector<std::uint8_t> exif{0xff, 0xe1, 0, 34, 'E', 'x', 'i', 'f', 0, 0};
+  const auto add = [&](std::size_t value, std::size_t size) {
+    for (std::size_t k = 0; k < size; ++k)
+      exif.push_back(static_cast<std::uint8_t>(value >> 8 * (is_little ? k : size - 1 - k)));
+  };
+  for (int k = 0; k < 2; ++k) exif.push_back(is_little ? 'I' : 'M');
+  for (const auto& [value, size] : std::vector<std::pair<std::size_t, std::size_t>>{
+           {42, 2}, {8, 4}, {1, 2}, {0x0112, 2}, {3, 2}, {1, 4}})
+    add(value, size);
+  add(static_cast<std::size_t>(orientation), 2);
+  add(0, 2);
+  add(0, 4);
+  bytes.insert(bytes.begin() + 2, exif.begin(), exif.end());
+  return bytes;
+}
+
+TEST(Jpeg, PicturesOfATurnedCameraAreUpright) {
+  if (!can_encode_jpeg()) GTEST_SKIP() << jpeg_advice;
+  Image stored{32, 16, 3, std::vector<std::uint8_t>(32 * 16 * 3, 10)};
+  for (std::size_t y = 0; y < 8; ++y)  // white in the upper left corner
+    std::fill_n(stored.pixels.begin() + static_cast<std::ptrdiff_t>(3 * 32 * y), 3 * 8, 250);
+  const std::vector<std::uint8_t> bytes = encode_jpeg(stored, 95, true);
+  EXPECT_EQ(decode_jpeg(held(bytes, 9, true)).pixels, decode_jpeg(bytes).pixels) << "no such one";
+  for (int orientation = 1; orientation <= 8; ++orientation)
+    for (const bool is_little : {false, true}) {
+      const Image image = decode_jpeg(held(bytes, orientation, is_little));
+      const bool is_turned = orientation >= 5;
+      ASSERT_EQ(image.width, is_turned ? 16 : 32);
+      ASSERT_EQ(image.height, is_turned ? 32 : 16);
+      const int quarter = (orientation - 1) % 4;  // from the upper left one, clockwise
+      const int x = quarter == 1 || quarter == 2 ? image.width - 3 : 2,
+                y = quarter >= 2 ? image.height - 3 : 2;
+      for (const int to_x : {2, image.width - 3})
+        for (const int to_y : {2, image.height - 3})
+          EXPECT_EQ(pixel(image, to_x, to_y).g > 128, to_x == x && to_y == y) << orientation;
+    }
+}
+
 TEST(Jpeg, DamagedFilesAreRefused) {
   if (!can_encode_jpeg()) GTEST_SKIP() << jpeg_advice;
   Image image{40, 30, 3, {}};
