@@ -74,14 +74,27 @@ double radical_inverse(int n, int base) {
   return value;
 }
 
-/// Turns a camera by parts of a pixel.
+/// Moves labels to where the frame's camera sees them as another one did: words stay sharp.
+void keep_labels(const render::Camera& camera, render::Frame& frame) {
+  const render::View from = make_view(camera, frame.width, frame.height),
+                     to = make_view(frame.camera, frame.width, frame.height);
+  for (render::Label& label : frame.labels) {
+    const Vec3f ahead = label.position - from.eye;
+    label.position = to.eye + to.right * dot(ahead, from.right) + to.up * dot(ahead, from.up) +
+                     to.forward * dot(ahead, from.forward);
+  }
+}
+
+/// Turns a camera by parts of a pixel, and leaves labels where they are in the picture.
 void turn_by_pixels(double right, double up, render::Frame& frame) {
   render::Camera& camera = frame.camera;
+  const render::Camera before = camera;
   const render::View view = make_view(camera, frame.width, frame.height);
   const float pixel = length(camera.target - camera.eye) / view.pixels_per_slope;
   camera.target =
       camera.target +
       (view.right * static_cast<float>(right) + view.up * static_cast<float>(up)) * pixel;
+  keep_labels(before, frame);
 }
 
 /// Where the picture is seen from at the ends of an interval.
@@ -217,6 +230,7 @@ std::vector<render::Frame> shutter_moments(const MotionSource& source, const ren
   for (int k = 0; k < count; ++k) {
     render::Frame& moment = moments.emplace_back(blurred);
     move_solids(source, open * time_of_share((k + 0.5) / count), moment);
+    keep_labels(frame.camera, moment);
     const auto move = [&](const std::vector<Vec3f>& by, auto& points) {
       std::vector<Vec3f>& position = points.position.edit();
       for (std::size_t p = 0; p < by.size(); ++p) {

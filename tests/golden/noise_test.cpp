@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/picture/frame_builder.h"
 #include "app/picture/shutter.h"
@@ -235,6 +236,26 @@ TEST(Noise, SomeMomentsOfMotionBlurShareTheSamplesOfAPixel) {
     EXPECT_EQ(moment.supersampling, 1);
     EXPECT_EQ(moment.grain_detail, 2);
   }
+}
+
+/// Labels beside moving snow were as smeared as it.
+TEST(Noise, WordsStayWhereMomentsShareSamples) {
+  OPEN_OR_SKIP(context, "auto");
+  render::Renderer renderer(*context);
+  const Shaded flying("1.2");
+  render::Frame frame = flying.frame();
+  frame.labels = {{{0.03f, 0.07f, 0}, "ball"}};
+  std::vector<render::Frame> moments = picture::with_shared_samples(flying.moments(frame));
+  ASSERT_GT(moments.size(), 4u);
+  std::optional<render::Image> first;
+  for (render::Frame& moment : moments) {
+    moment.points = {};
+    const render::Image image = renderer.draw(moment);
+    if (!first) first = image;
+    EXPECT_LE(render::compare(image, *first).max, 2);
+  }
+  EXPECT_GT(std::ranges::count_if(first->pixels, [](int sample) { return sample > 100; }), 200)
+      << "no label";
 }
 
 /// What stands still beside fast snow is as sharp as without motion blur.
