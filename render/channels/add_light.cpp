@@ -45,7 +45,8 @@ light::LightVolume without_shadow(const light::LightVolume& light) {
   return open;
 }
 
-/// Light is linear in the strengths of sun and sky: each part is a picture without the others.
+/// Light is linear in the strengths of sun and sky: each part is a picture without the others. What
+/// holdouts leave of the background is the same in all of them.
 void add_light(const LitSurfaces& lit, const Request& request, float weight, LightPlanes& out) {
   const Frame& frame = lit.frame;
   const auto has = [&](Pass pass) { return request.passes.contains(pass); };
@@ -72,7 +73,17 @@ void add_light(const LitSurfaces& lit, const Request& request, float weight, Lig
     add(out.indirect, 1, beauty);
   }
   if (!has_shadow) return;
-  shade(without_shadow(lit.light), {true, false, true}, open);
+  // The background behind a holdout is no direct light, but the sun's shadow falls on it.
+  const bool has_holdouts = std::ranges::any_of(frame.meshes, &TriangleMesh::is_holdout) ||
+                            std::ranges::any_of(frame.grounds, &GroundPlane::is_holdout);
+  if (has_holdouts) {
+    for (ColorPlanes* part : {&own, &direct}) *part = {};
+    shade(lit.light, {false, false, false, true}, own);
+    shade(lit.light, {true, false, false, true}, direct);
+    add(direct, -1, own);
+  }
+  add(out.shaded, 1, direct);
+  shade(without_shadow(lit.light), {true, false, true, true}, open);
   add(open, -1, own);
   add(out.open, 1, open);
 }

@@ -23,9 +23,9 @@ struct Channels {
 ColorPlanes shadow_of(const LightPlanes& light) {
   ColorPlanes shadow;
   for (std::size_t c = 0; c < 3; ++c) {
-    shadow[c].assign(light.direct[c].size(), 1);
+    shadow[c].assign(light.shaded[c].size(), 1);
     for (std::size_t i = 0; i < shadow[c].size(); ++i)
-      if (light.open[c][i] > 1e-6f) shadow[c][i] = light.direct[c][i] / light.open[c][i];
+      if (light.open[c][i] > 1e-6f) shadow[c][i] = light.shaded[c][i] / light.open[c][i];
   }
   return shadow;
 }

@@ -15,7 +15,9 @@ using ColorPlanes = std::array<Plane, 3>;
 /// Parts of the light: beauty = direct + indirect + emission.
 struct LightPlanes {
   ColorPlanes beauty, direct, indirect, emission;
-  ColorPlanes open;  ///< direct light as it would be without any shadow
+  /// Direct light, with the background behind holdouts lit as they are: with shadows and as it
+  /// would be without any.
+  ColorPlanes shaded, open;
   Plane cover;
 };
 

@@ -125,8 +125,11 @@ NEVE_INLINE Points3<V> surface_light(const ShadeJob& job, const RowPart<V>& part
     // The share of the light that shadows leave.
     const V one = all<V>(1), least = all<V>(1e-6f);
     const Points3<V> white{one, one, one};
-    const Points3<V> left = lit(job, white, n, key, open, one),
-                     full = lit(job, white, n, one, one, one);
+    ShadeJob whole = job;
+    whole.key_intensity = job.holdout_key_intensity;
+    whole.ambient_intensity = job.holdout_ambient_intensity;
+    const Points3<V> left = lit(whole, white, n, key, open, one),
+                     full = lit(whole, white, n, one, one, one);
     const auto share = [&](V a, V b) NEVE_INLINE_BODY {
       return smaller_lanes(a / larger_lanes(b, least), one);
     };

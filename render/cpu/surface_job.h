@@ -38,6 +38,8 @@ struct ShadeJob {
   light::LightCells light;
   Vec3f toward_light;
   float key_intensity, ambient_intensity;
+  /// Of the light whose share holdouts leave of the background.
+  float holdout_key_intensity, holdout_ambient_intensity;
   int is_transparent;
   const light::SmokeCover* smoke;  ///< null if there is none
   const light::GBufferTile* tile;

@@ -160,6 +160,8 @@ ShadeJob Surfaces::shade_job(const light::LightVolume& light,
   job.toward_light = light::toward_light(frame_->light);
   job.key_intensity = frame_->light.intensity;
   job.ambient_intensity = frame_->light.ambient;
+  job.holdout_key_intensity = job.key_intensity;
+  job.holdout_ambient_intensity = job.ambient_intensity;
   job.is_transparent = frame_->is_transparent ? 1 : 0;
   job.smoke = smoke;
   job.pitch = pitch_;
@@ -176,6 +178,10 @@ void Surfaces::shade_linear(const light::LightVolume& light, const light::SmokeC
   ShadeJob job = shade_job(light, smoke);
   if (!parts.has_sun) job.key_intensity = 0;
   if (!parts.has_sky) job.ambient_intensity = 0;
+  if (parts.has_lit_holdouts) {
+    job.holdout_key_intensity = job.key_intensity;
+    job.holdout_ambient_intensity = job.ambient_intensity;
+  }
   job.lit_sun = parts.has_sun && !parts.is_open ? 1 : 0;
   job.lit_open_sun = parts.has_sun && parts.is_open ? 1 : 0;
   job.lit_around = parts.has_sky ? 1 : 0;

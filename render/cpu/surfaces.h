@@ -76,6 +76,8 @@ class Surfaces {
     bool has_sun = true, has_sky = true;
     bool is_open =
         false;  ///< the sun as if nothing were in its way; given the volume of such light
+    /// Holdouts leave the share of this light, as if they were lit, and not that of all light.
+    bool has_lit_holdouts = false;
   };
   /// The same before the tone mapping, from kept tiles.
   void shade_linear(const light::LightVolume& light, const light::SmokeCover* smoke, Parts parts,

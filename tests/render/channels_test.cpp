@@ -260,6 +260,31 @@ TEST_P(PartsOfLight, AddUpToTheBeauty) {
   }
 }
 
+/// A holdout hides what is behind it and shows the background, which no sun of the scene lights.
+TEST_P(PartsOfLight, TheBackgroundBehindAHoldoutIsEmission) {
+  OPEN_OR_SKIP(context, "auto");
+  Frame frame = scene();
+  frame.grounds.clear();
+  frame.meshes = {shapes::box_mesh({0, -0.3f, 0}, {0.8f, 0.1f, 0.8f})};
+  frame.meshes[0].is_holdout = true;
+  const Drawn drawn(*context, frame, request_for(frame));
+  const auto id = drawn.all("id.Y"), depth = drawn.all("depth.Z"), beauty = drawn.all("G"),
+             emission = drawn.all("emission.G"), direct = drawn.all("direct.G"),
+             indirect = drawn.all("indirect.G"), shadow = drawn.all("shadow.G");
+  int seen = 0, shaded = 0;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    // Pixels of the slab alone; the data of a holdout are nothing.
+    if (id[i] >= 0 || depth[i] < channels::nothing_depth) continue;
+    EXPECT_NEAR(emission[i], beauty[i], 2e-3f);
+    EXPECT_NEAR(direct[i], 0, 1e-4f);
+    EXPECT_NEAR(indirect[i], 0, 1e-4f);
+    ++seen;
+    shaded += shadow[i] < 0.8f;
+  }
+  EXPECT_GT(seen, 500);
+  EXPECT_GT(shaded, 20) << "the sun's shadow on the slab";
+}
+
 TEST_P(PartsOfLight, SnowEmitsNone) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = scene();
