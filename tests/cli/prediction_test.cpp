@@ -182,6 +182,18 @@ TEST_F(Prediction, OnlyCoarseRunsOfScenesArePredicted) {
                             "--predict", "--coarsen", "2", "--fork", "0.05"});
   EXPECT_EQ(forked.exit_code, app::exit_usage);
   EXPECT_TRUE(contains(forked.errors, "from the start")) << forked.errors;
+  folder.write("forks.toml",
+               "[sweep]\nscene = \"scene.toml\"\nfork = \"0.05s\"\n[axis]\n"
+               "\"material.snow.hardening\" = [5, 10, 20]\n");
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--predict"}, {"--refine", "2"}, {"--refine-runs", "0"}}) {
+    std::vector<std::string> words{"sweep", "forks.toml", "--coarsen", "2", "--dry-run"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto in_file = neve(words);
+    EXPECT_EQ(in_file.exit_code, app::exit_invalid_scene);
+    EXPECT_TRUE(contains(in_file.errors, "sweep.fork cannot be combined with " + more[0]))
+        << in_file.errors;
+  }
 }
 
 TEST_F(Prediction, ASweepRunsTheCopiesOfItsPointsAmongItsRuns) {

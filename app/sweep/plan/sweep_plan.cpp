@@ -189,6 +189,11 @@ std::optional<double> fork_time(const SweepOptions& options, const read::Sweep& 
   if (options.predicts)
     sweep.fail("sweep.fork", "sweep.fork cannot be combined with --predict",
                "copies are simulated from the start: remove one of them");
+  if (options.refine > 0 || !options.refine_runs.empty())
+    sweep.fail("sweep.fork",
+               std::string("sweep.fork cannot be combined with ") +
+                   (options.refine > 0 ? "--refine" : "--refine-runs"),
+               "a run keeps its cells while it runs: remove one of them");
   try {
     return options::time().read("--fork", sweep.settings.fork);
   } catch (const UsageError& error) {
