@@ -58,6 +58,8 @@ PairPainter::PairPainter(const PairOptions& options, const Pair& pair, render::R
       full_density_(std::max(densest(pair.a.job.scene), densest(pair.b.job.scene))) {
   // The strip has the words.
   std::erase(view_.layers, scene::Layer::caption);
+  // Both runs have one legend, so the ends of a frame would be those of one run alone.
+  view_.slice.range_from = scene::RangeFrom::scene;
 }
 
 void PairPainter::check_sizes(const std::vector<Mode>& modes) const {

@@ -15,7 +15,9 @@ struct Run {
   int index = 0;
   std::string label;                      ///< of a [[run]] or a labelled value
   std::vector<scene::Override> settings;  ///< without the fixed ones
-  std::vector<int> coordinates;           ///< place on each axis of a grid; empty: on none
+  /// Of a run that forks: cameras and ranges that it does not have from its beginning.
+  std::vector<scene::Override> look{};
+  std::vector<int> coordinates;  ///< place on each axis of a grid; empty: on none
 
   setup::FrameRange frames;
   double particles = 0;  ///< foreseen

@@ -26,7 +26,9 @@ namespace fs = std::filesystem;
 /// Two balls that fall far; what is thrown out of the softer one flies wide.
 class SheetFraming : public testing::Test {
  protected:
-  plan::SweepPlan framed(const std::string& sheet, const std::string& axis) {
+  /// @param more  at the end of the scene
+  plan::SweepPlan framed(const std::string& sheet, const std::string& axis,
+                         const std::string& more = "") {
     folder_.write("fall.toml", R"(
 frames = 24
 fps = 24
@@ -36,8 +38,9 @@ cell_size = 0.04
 name = "ball"
 shape = { sphere = { center = [0, 1.6, 0], radius = 0.15 } }
 [[collider]]
+name = "floor"
 shape = { plane = {} }
-)");
+)" + more);
     plan::SweepOptions options;
     options.file = folder_.write("sweep.toml", "[sweep]\nscene = \"fall.toml\"\n[axis]\n" + axis +
                                                    "\n[sheet]\n" + sheet + "\n");
@@ -217,6 +220,81 @@ TEST_F(SheetFraming, RunsKeepTheTurnOfTheirOwnCamera) {
   const plan::SweepPlan near = framed("", "\"camera.push_in\" = [false, true]");
   EXPECT_TRUE(near.runs[0].scene.camera->keyframes.empty());
   EXPECT_FALSE(near.runs[1].scene.camera->keyframes.empty());
+}
+
+/// A second ball, far away.
+const std::string two_balls = R"([[body]]
+name = "other"
+shape = { sphere = { center = [2, 1.6, 0], radius = 0.15 } }
+)";
+
+std::string with_view(const std::string& rest) {
+  return "[[view]]\nname = \"main\"\n" + rest + "\n";
+}
+
+TEST_F(SheetFraming, AViewWithALensOfItsOwnHasOneCameraForAllRuns) {
+  const std::string view = with_view("camera = { fov = 25 }");
+  const std::string sizes = "\"body.ball.shape.sphere.radius\" = [0.15, 0.3]";
+  const plan::SweepPlan plan = framed("", sizes, view);
+  const auto camera = [](const plan::SweepPlan& of, std::size_t run) {
+    return *of.runs[run].scene.views[0].camera;
+  };
+  EXPECT_EQ(camera(plan, 0).fov, 25);
+  EXPECT_EQ(camera(plan, 0).eye, camera(plan, 1).eye);
+  EXPECT_EQ(camera(plan, 0).target, camera(plan, 1).target);
+  const plan::SweepPlan lenses = framed("", "\"view.main.camera.fov\" = [15, 40]", view);
+  EXPECT_NE(camera(lenses, 0).eye, camera(lenses, 1).eye) << "each lens stands where it sees all";
+}
+
+TEST_F(SheetFraming, EachPlaneAndEachFollowedBodyIsSeenByACameraOfItsOwn) {
+  const plan::SweepPlan planes = framed("", "\"view.main.slice.normal\" = [[0, 0, 1], [1, 0, 0]]",
+                                        with_view("layers = [\"ground\", \"heatmap\"]"));
+  for (const plan::PlannedRun& item : planes.runs) {
+    const scene::View& view = item.scene.views[0];
+    const sim::Vec3d towards_eye = (*view.camera->eye - *view.camera->target).normalized();
+    EXPECT_GT(std::abs(towards_eye.dot(view.slice.normal)), 0.7) << "it is no sliver";
+  }
+  const plan::SweepPlan followed = framed("", "\"camera.follow\" = [\"ball\", \"other\"]",
+                                          two_balls + "[camera]\nfollow = \"ball\"\n");
+  EXPECT_EQ(followed.runs[1].scene.camera->follow, "other");
+  EXPECT_NEAR(followed.runs[1].scene.camera->target->x(), 0, 0.3) << "relative to what it follows";
+}
+
+TEST_F(SheetFraming, AxesOfPlotsOfBodiesAreThoseOfAllRuns) {
+  const plan::SweepPlan plan =
+      framed("", "\"collider.stone.velocity\" = [[2, 0, 0], [8, 4, 0]]",
+             "[[collider]]\nname = \"stone\"\ndensity = 900\n"
+             "shape = { sphere = { center = [-0.8, 0.3, 0], radius = 0.1 } }\n" +
+                 with_view("layers = [\"particles\", \"plots\"]"));
+  for (const auto range : {&scene::PlotRanges::body_height, &scene::PlotRanges::body_speed}) {
+    const std::optional<scene::Range>& first = plan.runs[0].scene.views[0].plots.*range;
+    const std::optional<scene::Range>& second = plan.runs[1].scene.views[0].plots.*range;
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->max, second->max);
+    EXPECT_EQ(first->min, second->min);
+  }
+}
+
+/// A sheet has one legend, or each tile has its own.
+TEST_F(SheetFraming, TilesHaveLegendsWhereOneWouldBeUntrue) {
+  const std::string view = with_view(
+      "layers = [\"ground\", \"heatmap\", \"legend\"]\n"
+      "slice = { scalar = \"speed\", range_from = \"frame\" }");
+  const plan::SweepPlan one = framed("", "\"body.ball.velocity\" = [[0, -1, 0], [0, -6, 0]]", view);
+  EXPECT_FALSE(one.have_tiles_legends);
+  for (const plan::PlannedRun& item : one.runs) {
+    EXPECT_EQ(item.scene.views[0].slice.range_from, scene::RangeFrom::scene);
+    EXPECT_FALSE(scene::has_layer(item.scene.views[0], scene::Layer::legend));
+  }
+  for (const std::string axis :
+       {"\"view.main.slice.scalar\" = [\"speed\", \"density\"]",
+        "\"view.main.slice.scalar_range\" = [[0, 1], [0, 9]]",
+        "\"view.main.slice.scalar_colormap\" = [\"magma\", \"viridis\"]"}) {
+    const plan::SweepPlan several = framed("", axis, view);
+    EXPECT_TRUE(several.have_tiles_legends) << axis;
+    for (const plan::PlannedRun& item : several.runs)
+      EXPECT_TRUE(scene::has_layer(item.scene.views[0], scene::Layer::legend)) << axis;
+  }
 }
 
 TEST_F(SheetFraming, NumbersOfFramesAreOfAllRuns) {

@@ -140,6 +140,23 @@ TEST_F(Compare, WipeShowsAOnTheLeftAndBOnTheRight) {
   EXPECT_EQ(wrong, 0);
 }
 
+/// They have one legend, which cannot be that of two frames.
+TEST_F(Compare, BothRunsAreColouredByTheRangeOfTheScene) {
+  for (const std::string from : {"scene", "frame"}) {
+    folder.write("scene.toml", std::string(tiny_scene) +
+                                   "[[view]]\nname = \"cut\"\nlayers = [\"heatmap\", \"legend\"]\n"
+                                   "slice = { scalar = \"speed\", range_from = \"" +
+                                   from + "\" }\n");
+    ASSERT_NO_FATAL_FAILURE(render("a", {"--view", "cut", "--frames", "1", "--replace"}));
+    ASSERT_NO_FATAL_FAILURE(render("b", {"--view", "cut", "--frames", "1", "--replace", "--set",
+                                         "body.ball.velocity=[0, -6, 0]"}));
+    const auto done =
+        compare("a", "b", {"--out", (from + ".png").c_str(), "--mode", "wipe", "--view", "cut"});
+    ASSERT_EQ(done.exit_code, 0) << done.errors;
+  }
+  EXPECT_EQ(picture("scene.png").pixels, picture("frame.png").pixels);
+}
+
 TEST_F(Compare, PicturesAreMadeAgainFromTheirScenes) {
   ASSERT_NO_FATAL_FAILURE(render_both());
   const auto done =

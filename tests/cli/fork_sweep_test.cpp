@@ -5,6 +5,7 @@
 
 #include "app/output/checkpoint.h"
 #include "app/record/picture_record.h"
+#include "app/scene/read.h"
 #include "app/sweep/store/manifest.h"
 #include "app/sweep/store/results.h"
 #include "tests/cli/run_neve.h"
@@ -105,6 +106,34 @@ TEST_F(ForkSweep, TheReportHasTheCommandThatMakesABranchAgain) {
       "/bin/sh", {"-c", "exec '" NEVE_BINARY "' " + found.str(1)}, folder.path());
   ASSERT_EQ(again.exit_code, 0) << found.str(1) << "\n" << again.errors;
   EXPECT_EQ(hashes("again/0002"), all_hashes()[2]);
+}
+
+TEST_F(ForkSweep, BranchesAreSeenByTheCamerasOfTheSheet) {
+  const auto cameras = [&](const std::string& name, const std::string& rest) {
+    folder.write(name + ".toml",
+                 "[sweep]\nscene = \"scene.toml\"\nfork = \"0.125s\"\nframes = \"0-5\"\n" + rest);
+    const auto done = neve({"sweep", name + ".toml", "--size", "64x36", "--movie", "none"});
+    EXPECT_EQ(done.exit_code, 0) << done.errors;
+    std::vector<app::scene::CameraSettings> found;
+    for (const char* run : {"0000", "0001"}) {
+      const auto record = app::record::read_picture_record(
+          folder / ("out/" + name + ".cdb/runs/" + run + "/particles/0005.png"));
+      std::vector<std::string> changes;
+      for (const app::scene::LiveChange& change : record.changes)
+        changes.push_back(change.address + "=" + change.value);
+      const app::scene::Scene beginning = app::scene::read_scene_text(record.scene, "scene.toml");
+      found.push_back(
+          *app::scene::apply(beginning, app::scene::parse_overrides(changes), "scene.toml").camera);
+    }
+    return found;
+  };
+  const auto turned = cameras("turned", "[axis]\n\"camera.orbit\" = [0, 90]\n");
+  EXPECT_EQ(turned[0].eye, turned[1].eye);
+  EXPECT_EQ(turned[1].orbit, 90);
+  const auto each = cameras("each",
+                            "[axis]\n\"solver.gravity\" = [[0, -9.8, 0], [30, -9.8, 0]]\n"
+                            "[sheet]\nframing = \"each\"\n");
+  EXPECT_NE(each[0].eye, each[1].eye);
 }
 
 TEST_F(ForkSweep, TheBeginningIsComputedOnce) {

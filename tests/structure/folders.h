@@ -109,7 +109,7 @@ inline constexpr Folder folders[] = {
      "app/support app/scene/toml app/advice app/scene app/setup app/options app/sweep"},
     {"app/sweep/plan",
      "sim/base sim/types app/support app/scene/toml app/scene app/output app/record app/setup "
-     "app/options app/forecast app/health app/timeline app/run app/predict app/sweep "
+     "app/options app/forecast app/health app/picture app/timeline app/run app/predict app/sweep "
      "app/sweep/read"},
     {"app/sweep/store",
      "sim/base app/support app/scene/toml app/scene app/output app/record app/setup app/options "

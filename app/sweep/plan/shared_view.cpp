@@ -5,10 +5,13 @@
 #include <system_error>
 
 #include "app/output/atomic_file.h"
+#include "app/picture/legends.h"
 #include "app/record/run_json.h"
+#include "app/scene/flat.h"
 #include "app/scene/names.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
+#include "app/setup/camera_path.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/resolve.h"
 #include "app/support/interrupt.h"
@@ -35,7 +38,9 @@ std::vector<RangeSlot> range_slots(scene::View& view) {
           {&view.plots.energy, "energy"},
           {&view.plots.speed, "speed"},
           {&view.plots.force, "force"},
-          {&view.plots.dt, "dt"}};
+          {&view.plots.dt, "dt"},
+          {&view.plots.body_height, "height of bodies"},
+          {&view.plots.body_speed, "speed of bodies"}};
 }
 
 /// Widens the shared ranges by those that were found for a run.
@@ -53,31 +58,39 @@ void widen(scene::View& shared, scene::View own, scene::View resolved, const sce
   }
 }
 
-/// The run's camera in the place of the shared one; nothing where it frames otherwise.
-/// @param base  that of the sweep's scene, which was framed
-std::optional<scene::CameraSettings> placed(const scene::CameraSettings& own,
-                                            const scene::CameraSettings& base,
-                                            const std::optional<scene::CameraSettings>& shared) {
-  if (!shared || !own.keyframes.empty() || own.fov != shared->fov || own.up != shared->up ||
-      own.push_in != base.push_in)
-    return std::nullopt;
-  scene::CameraSettings camera = *shared;
-  camera.orbit = own.orbit;
-  camera.turntable = own.turntable;
-  camera.follow = own.follow;
-  return camera;
+bool has_same_lens(const scene::CameraSettings& a, const scene::CameraSettings& b) {
+  return a.fov == b.fov && a.up == b.up;
+}
+
+/// Puts the shared camera in the place of one that has none and frames as that of the sweep's
+/// scene, for which it was found: with the same lens, and following the same body. What a camera
+/// turns by is its own.
+/// @param base  that of the sweep's scene
+void share_place(const scene::CameraSettings& base,
+                 const std::optional<scene::CameraSettings>& shared,
+                 std::optional<scene::CameraSettings>& camera) {
+  const scene::CameraSettings own = camera.value_or(scene::CameraSettings{});
+  if (!shared || setup::has_place(own) || !own.keyframes.empty() || !has_same_lens(own, base) ||
+      own.push_in != base.push_in || own.follow != base.follow)
+    return;
+  camera = shared;
+  camera->orbit = own.orbit;
+  camera->turntable = own.turntable;
 }
 
 /// Fills in the automatic values of the run.
 /// @param base  the sweep's scene
 void apply(const scene::Scene& base, const scene::Scene& shared, scene::Scene& scene) {
   if (setup::needs_framing(scene)) {
-    const scene::CameraSettings none;
-    if (const auto camera =
-            placed(scene.camera.value_or(none), base.camera.value_or(none), shared.camera);
-        camera && !(scene.camera && scene.camera->eye))
-      scene.camera = camera;
-    if (!scene.views[0].camera) scene.views[0].camera = shared.views[0].camera;
+    const scene::CameraSettings none, base_camera = base.camera.value_or(none);
+    scene::View& view = scene.views[0];
+    const scene::View& base_view = base.views[0];
+    if (view.camera)
+      share_place(base_view.camera.value_or(none), shared.views[0].camera, view.camera);
+    else if (view.slice.normal == base_view.slice.normal &&
+             has_same_lens(scene.camera.value_or(none), base_camera))
+      view.camera = shared.views[0].camera;  // that was found for a plane, if any
+    share_place(base_camera, shared.camera, scene.camera);
   }
   scene::View from = shared.views[0];
   const std::vector<RangeSlot> all = range_slots(from), own = range_slots(scene.views[0]);
@@ -166,6 +179,48 @@ scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
   return shared;
 }
 
+/// What a forked run is told beside its settings, so that it is seen as it was planned: its scene
+/// is that of the beginning, from which alone it would find cameras and ranges anew.
+std::vector<scene::Override> look_of(const scene::Scene& beginning, const PlannedRun& item) {
+  const auto is_look = [](const std::string& address) {
+    return (address.starts_with("camera.") || address.starts_with("view.")) &&
+           !address.ends_with(".found");
+  };
+  std::vector<scene::Override> look;
+  for (const scene::Difference& d : scene::differences(beginning, item.scene))
+    if (is_look(d.address) && item.run.setting(d.address).empty())
+      look.push_back({d.address, d.after ? scene::toml::toml_literal(*d.after) : "none"});
+  if (look.empty() && std::ranges::none_of(item.run.settings, [&](const scene::Override& setting) {
+        return is_look(setting.address);
+      }))
+    return {};
+  // A camera that is given is not found anew for the settings beside it.
+  for (const scene::FlatParam& param : scene::flatten(item.scene))
+    for (const char* place : {"camera.eye", "camera.target", "camera.push_in", "camera.keyframes"})
+      if (param.value && is_look(param.address) && param.address.ends_with(place))
+        look.push_back({param.address, param.text()});
+  return look;
+}
+
+/// Runs that colour other values, or by another scale, cannot share the legend of the sheet: then
+/// each tile has its own.
+void put_legends_on_tiles(const scene::Scene& shared, SweepPlan& plan) {
+  const auto legends = [](const scene::Scene& scene) {
+    return picture::legends_of(scene, scene.views[0]);
+  };
+  plan.have_tiles_legends = std::ranges::any_of(
+      plan.runs, [&](const PlannedRun& item) { return legends(item.scene) != legends(shared); });
+  if (!plan.have_tiles_legends) return;
+  const auto put = [](PlannedRun& item) {
+    scene::View& view = item.scene.views[0];
+    if (!scene::has_layer(view, scene::Layer::legend)) view.layers.push_back(scene::Layer::legend);
+  };
+  std::ranges::for_each(plan.runs, put);
+  std::ranges::for_each(plan.beginnings, put);
+  for (PlannedVariant& variant : plan.variants)
+    if (variant.failure.empty()) put(variant.item);
+}
+
 /// Names the scene that the camera and ranges belong to, and what the camera holds. Axes are no
 /// part of it: they may grow.
 std::string mark_of(const SweepPlan& plan) {
@@ -214,6 +269,10 @@ void share_camera_and_ranges(SweepPlan& plan, int cores) {
   for (PlannedVariant& variant : plan.variants)
     if (variant.failure.empty()) complete(variant.item);
   for (PlannedRun& item : plan.beginnings) complete(item);
+  put_legends_on_tiles(*shared, plan);
+  if (plan.beginnings.empty()) return;
+  for (PlannedRun& item : plan.runs)
+    item.run.look = look_of(plan.beginning_of(item.run).scene, item);
 }
 
 }  // namespace neve::app::sweep::plan

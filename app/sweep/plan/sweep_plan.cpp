@@ -58,7 +58,8 @@ scene::View chosen_view(const SweepOptions& options, const read::Sweep& sweep,
   }
 }
 
-/// One view, as large as a tile, without the words that the sheet has once.
+/// One view, as large as a tile, without the words that the sheet has once. Colours of a frame
+/// would compare nothing: all tiles have the ranges of the scene.
 void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::Scene& scene) {
   scene.views = {chosen_view(options, sweep, scene)};
   scene.mosaics.clear();
@@ -66,6 +67,7 @@ void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::
   setup::set_size(tile_size(options, sweep, scene, view), scene);
   std::erase(view.layers, scene::Layer::legend);
   std::erase(view.layers, scene::Layer::caption);
+  view.slice.range_from = scene::RangeFrom::scene;
 }
 
 /// Whether runs branch off a common beginning, and do not have their values from the start.

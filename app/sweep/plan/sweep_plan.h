@@ -57,6 +57,8 @@ struct SweepPlan {
   /// The run or picture in which the beginning is found; without it is simulated from the start.
   std::optional<run::RenderJob> source;
   bool keeps_states = false;
+  /// Tiles have legends of their own, because the sheet's one is not that of all runs.
+  bool have_tiles_legends = false;
   setup::Quality quality = setup::Quality::preview;
   int columns = -1, rows = -1;  ///< axes of the sheet that were asked for; -1: automatic
   double fork = 0;              ///< s, the time of the fork

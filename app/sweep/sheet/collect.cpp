@@ -38,9 +38,10 @@ namespace {
 
 constexpr const char* collect_lock = ".collect.lock";
 
-/// Colour bars of the view, with the ranges that all runs share.
+/// Colour bars of the view, with the ranges that all runs share; none where tiles have their own.
 std::vector<render::Legend> shared_legends(const fs::path& folder,
                                            const store::Manifest& manifest) {
+  if (manifest.have_tiles_legends) return {};
   std::error_code error;
   const fs::path file = plan::shared_view_path(folder);
   if (!fs::exists(file, error)) return {};

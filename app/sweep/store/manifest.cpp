@@ -84,18 +84,20 @@ std::vector<scene::Override> inherited_values(const plan::PlannedRun& item,
 }
 
 Json run_json(const Run& run) {
-  return {{"run", run.index},
-          {"folder", run.folder},
-          {"key", run.key},
-          {"label", run.label},
-          {"settings", settings_json(run.settings)},
-          {"unset", settings_json(run.inherited)},
-          {"coordinates", run.coordinates},
-          {"first_frame", run.frames.first},
-          {"last_frame", run.frames.last},
-          {"particles", run.particles},
-          {"memory_bytes", run.memory},
-          {"work", run.work}};
+  Json json = {{"run", run.index},
+               {"folder", run.folder},
+               {"key", run.key},
+               {"label", run.label},
+               {"settings", settings_json(run.settings)},
+               {"unset", settings_json(run.inherited)},
+               {"coordinates", run.coordinates},
+               {"first_frame", run.frames.first},
+               {"last_frame", run.frames.last},
+               {"particles", run.particles},
+               {"memory_bytes", run.memory},
+               {"work", run.work}};
+  if (!run.look.empty()) json["look"] = settings_json(run.look);
+  return json;
 }
 
 Run run_of(const Json& json) {
@@ -106,6 +108,7 @@ Run run_of(const Json& json) {
   run.label = json.at("label").get<std::string>();
   run.settings = settings_of(json.at("settings"));
   run.inherited = settings_of(json.at("unset"));
+  run.look = settings_of(json.value("look", Json::array()));
   for (const Json& place : json.at("coordinates"))
     run.coordinates.push_back(whole_number<int>(place));
   run.frames = {whole_number<int>(json.at("first_frame")),
@@ -302,6 +305,7 @@ run::RenderOptions Beginning::fork_of(const Run& branch, const std::string& fold
   // The seed is that of the beginning, whose particles it has drawn.
   std::copy_if(branch.settings.begin(), branch.settings.end(), std::back_inserter(changes),
                [](const scene::Override& setting) { return setting.address != "seed"; });
+  changes.insert(changes.end(), branch.look.begin(), branch.look.end());
   options.overrides = scene::texts_of(changes);
   return options;
 }
@@ -403,6 +407,7 @@ Manifest make_manifest(const plan::SweepPlan& plan, const std::vector<std::strin
   m.coarsened = scene::coarsened_words(plan.base, plan.coarsening);
   if (m.coarsened.starts_with(", ")) m.coarsened.erase(0, 2);
   m.keeps_states = plan.keeps_states;
+  m.have_tiles_legends = plan.have_tiles_legends;
   m.quality = plan.quality;
   m.fixed = plan.sweep.fixed;
   if (plan.fast) m.fixed.resize(m.fixed.size() - plan.fast->overrides.size());
@@ -477,6 +482,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& m) {
   if (m.varied) json["varied"] = *m.varied;
   if (m.beginning) json["beginning"] = beginning_json(*m.beginning);
   json["keeps_states"] = m.keeps_states;
+  if (m.have_tiles_legends) json["tile_legends"] = true;
   json["quality"] = setup::name(m.quality);
   json["seconds_per_work"] = m.seconds_per_work;
   json["seeds"] = m.seeds;
@@ -545,6 +551,7 @@ Manifest parse_manifest(std::span<const std::uint8_t> bytes, const std::string& 
     m.coarsened = json.value("coarsened", "");
     m.seeds = whole_number_or(json, "seeds", 1);
     m.keeps_states = json.value("keeps_states", false);
+    m.have_tiles_legends = json.value("tile_legends", false);
     m.quality = setup::quality_named(json.value("quality", setup::name(m.quality)));
     m.seconds_per_work = json.value("seconds_per_work", 0.0);
     check_values(m);

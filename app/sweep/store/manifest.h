@@ -99,7 +99,8 @@ struct Manifest {
   std::size_t place_of(const Run& run) const { return static_cast<std::size_t>(run.index / apart); }
   double seconds_per_work = 0;  ///< s of one thread, by the forecast; 0: not known
   std::optional<Beginning> beginning{};
-  bool keeps_states = false;  ///< of drawn frames
+  bool keeps_states = false;        ///< of drawn frames
+  bool have_tiles_legends = false;  ///< see plan::SweepPlan
   setup::Quality quality = setup::Quality::preview;
   /// What all runs change in the scene, beside --coarsen and --fast.
   std::vector<scene::Override> fixed{};
