@@ -202,7 +202,7 @@ TEST_F(SweepFileTest, ScenesAreVariedFromTheCommandLine) {
   const auto list = app::sweep::plan::expand(app::sweep::read::read_sweep(
       file, {{"body.ball.velocity=[0,-1,0],[0,-2,0]", "solver.transfer=flip,apic"}, {}}));
   ASSERT_EQ(list.size(), 4u);
-  EXPECT_EQ(values(list[3]), (Strings{"[0,-2,0]", "apic"}));
+  EXPECT_EQ(values(list[3]), (Strings{"[0, -2, 0]", "apic"}));
   const auto titled = app::sweep::plan::expand(
       app::sweep::read::read_sweep(file, {{R"(title="a \"b, c\" d",'e\',plain)"}, {}}));
   ASSERT_EQ(titled.size(), 3u);
@@ -318,6 +318,22 @@ TEST_F(SweepFileTest, RunsNeedTheMemoryOfTheirProcess) {
   EXPECT_EQ(run.run.memory,
             static_cast<double>(run.plan.memory + app::sweep::plan::program_memory));
   EXPECT_GT(run.run.memory, 80e6);
+}
+
+TEST_F(SweepFileTest, NumbersOfTheCommandLineAreWrittenAsThoseOfFiles) {
+  const auto values_of = [&](const std::string& axis) {
+    std::vector<std::string> list;
+    for (const app::sweep::Run& run : app::sweep::plan::expand(
+             app::sweep::read::read_sweep((folder_ / "scene.toml").string(), {{axis}, {}})))
+      list.push_back(values(run).front());
+    return list;
+  };
+  EXPECT_EQ(values_of("material.snow.youngs_modulus=48_000, 1e5"), (Strings{"48000", "100000"}));
+  EXPECT_EQ(values_of("seed=5, 10 ,+7"), (Strings{"5", "10", "7"}));
+  EXPECT_EQ(values_of("body.ball.velocity=[0,-1_0,0], [0, -2.50, 0]"),
+            (Strings{"[0, -10, 0]", "[0, -2.5, 0]"}));
+  EXPECT_EQ(values_of("solver.transfer=flip, apic"), (Strings{"flip", "apic"}));
+  EXPECT_EQ(values_of("title=1.10, b"), (Strings{"\"1.10\"", "b"})) << "texts stay as they are";
 }
 
 TEST_F(SweepFileTest, RangesOfOtherProgramsAndComponentsAreExplained) {

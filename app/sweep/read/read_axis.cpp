@@ -136,6 +136,25 @@ scene::Override override_of(const scene::Source& source, const scene::toml::Entr
   return setting;
 }
 
+/// Numbers and vectors as they are written in tables and labels, as those of sweep files: 48000 for
+/// 48_000. What is no TOML is refused where a scene reads it.
+std::string plain_value(const std::string& address, const std::string& typed) {
+  const std::string text = trimmed(typed);
+  const std::optional<scene::ParamInfo> info = scene::param_at(address);
+  if (!info || (info->type != "number" && info->type != "integer" && info->type != "vector"))
+    return text;
+  try {
+    const scene::toml::Table table = scene::toml::parse_toml("value = " + text, "");
+    const scene::toml::Value& value = table.entries.at(0).value;
+    const bool is_plain = std::holds_alternative<std::int64_t>(value.data) ||
+                          std::holds_alternative<double>(value.data) ||
+                          std::holds_alternative<scene::toml::Array>(value.data);
+    return is_plain && table.entries.size() == 1 ? scene::toml::toml_literal(value) : text;
+  } catch (const scene::toml::SceneError&) {
+    return text;
+  }
+}
+
 AxisRule read_rule(const scene::Source& source, const scene::toml::Entry& entry) {
   AxisRule spec;
   scene::Reading reading{source, {}};
@@ -310,7 +329,7 @@ Axis::Parameter parse_axis(const std::string& argument) {
     if (piece.find_first_not_of(" \t") == std::string::npos)
       throw UsageError(what, "a value is missing", "expected values with commas, as in 5,10,20");
     scene::Override setting = change;
-    setting.value = piece;
+    setting.value = plain_value(change.address, piece);
     parameter.values.push_back(setting);
   }
   quote_numbers(parameter);
