@@ -2,6 +2,7 @@
 /// it is for a large study.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -397,6 +398,22 @@ TEST_F(ReportPage, CellsOfTheHeatMapAreRunsAndArrowKeysMoveThere) {
   EXPECT_EQ(value("document.querySelectorAll('.tile .mark.failed').length"), 1);
   EXPECT_EQ(value("document.querySelectorAll('#table tr.failed').length"), 1);
   EXPECT_EQ(value("document.querySelector('[data-plate=b]').classList.contains('failed')"), true);
+}
+
+/// Not the geometric mean, although the scale of values a factor of 20 apart is logarithmic.
+TEST_F(ReportPage, CellsOfSeveralRunsTellTheMeanOfTheirValues) {
+  Study study({2, 2, 3}, 1);
+  for (std::size_t k = 0; k < study.results.size(); ++k)
+    study.results[k].metrics[0] = std::array{1.0, 4.0, 100.0}[k % 3];
+  open(study);
+  EXPECT_EQ(value("columns[state.colour].scale.isLog"), true);
+  EXPECT_EQ(value("heat.cells[0].runs.length"), 3);
+  EXPECT_EQ(value("meanText(columns[state.colour], heat.cells[0])"), "35");
+}
+
+TEST_F(ReportPage, PicturesAreNamedAsTheFolderHasThem) {
+  open(Study({3, 3}, 1));
+  EXPECT_EQ(value("[7, -2, 12345].map(pictureName).join(' ')"), "0007.png -002.png 12345.png");
 }
 
 TEST_F(ReportPage, HeadsOfTheTableSortIt) {

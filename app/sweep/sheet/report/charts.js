@@ -530,10 +530,14 @@ function cellsOf(axis) {
   return {count, of, texts};
 }
 
-/** Runs of each cell: all that are kept, or those at the sliders of the other axes. */
+/**
+ * Runs of each cell: all that are kept, or those at the sliders of the other axes. Means are those of
+ * values, also where the scale is logarithmic; choices have no values and take their places.
+ */
 function gatherCells(across, up, isSlice) {
   const cells = Array.from({length: across.count * up.count},
                            () => ({runs: [], failed: 0, sum: 0, colour: 0, count: 0}));
+  const column = columns[state.colour];
   for (const at of state.kept) {
     const x = axes[heat.x].stopOf[at], y = axes[heat.y].stopOf[at];
     if (x < 0 || y < 0) continue;
@@ -541,16 +545,22 @@ function gatherCells(across, up, isSlice) {
       (axis, k) => k === heat.x || k === heat.y || axis.isSeed || axis.stopOf[at] === state.stops[k]);
     if (isSlice && !isThere) continue;
     const cell = cells[up.of[y] * across.count + across.of[x]];
-    const column = columns[state.colour], value = state.colour < 0 ? NaN : column.places[at];
     cell.runs.push(at);
     if (rows[at].failed) ++cell.failed;
-    else if (!isNaN(value)) {
-      cell.sum += value;
-      cell.colour += colourPlace(column, at);
+    else if (column && !isNaN(column.places[at])) {
+      const {isChoice} = column.scale;
+      cell.sum += isChoice ? column.places[at] : rows[at].cells[column.at];
+      cell.colour += isChoice ? colourPlace(column, at) : colourValue(column, at);
       ++cell.count;
     }
   }
   return cells;
+}
+
+/** The mean of the runs of a cell, as text. */
+function meanText({scale}, cell) {
+  const mean = cell.sum / cell.count;
+  return scale.isChoice ? scale.text(mean) : scale.show(mean);
 }
 
 const heatBox = drawing => ({x: 74, y: 8, width: drawing.width - 82, height: drawing.height - 52});
@@ -574,15 +584,15 @@ function drawStripes(pen, x, y, width, height, isAll) {
 
 function drawHeatCell(pen, cell, x, y, width, height) {
   if (cell.runs.length === 0) return;
-  const colour = cell.colour / cell.count;  // no number where the metric is noise
+  const column = columns[state.colour], {scale} = column, mean = cell.colour / cell.count;
+  const colour = isNaN(mean) || scale.isChoice ? mean : scale.at(mean);  // no number where the metric is noise
   pen.fillStyle = isNaN(colour) ? theme.faint : rampColour(colour);
   pen.fillRect(x, y, width, height);
   if (cell.failed > 0) drawStripes(pen, x, y, width, height, cell.count === 0);
   if (cell.count === 0 || width < 44 || height < 18) return;
-  const {scale} = columns[state.colour];
-  const ink = isNaN(colour) ? theme.ink : colour > 0.35 ? '#10161d' : '#fff', column = columns[state.colour];
+  const ink = isNaN(colour) ? theme.ink : colour > 0.35 ? '#10161d' : '#fff';
   const s = cell.runs.every(at => pointOf(at) === pointOf(cell.runs[0])) && summaryOf(column, cell.runs[0]);
-  const text = scale.text(cell.sum / cell.count) + (s && !column.isNoise ? '  ' + s.letters : '');
+  const text = meanText(column, cell) + (s && !column.isNoise ? '  ' + s.letters : '');
   drawText(pen, text, x + width / 2, y + height / 2 + 4, width - 4, {align: 'center', colour: ink});
   if (!s || height < 34) return;
   // Its whisker, along the lower edge.
@@ -632,7 +642,7 @@ function heatCellAt(drawing, {x, y}) {
 function heatTip(cell) {
   const lines = [cell.runs.length === 1 ? rows[cell.runs[0]].name : cell.runs.length + ' runs'];
   if (cell.count > 0)
-    lines.push(columns[state.colour].title + ' ' + columns[state.colour].scale.text(cell.sum / cell.count));
+    lines.push(columns[state.colour].title + ' ' + meanText(columns[state.colour], cell));
   if (cell.runs.length <= seeds) lines.push(pointText(columns[state.colour], cell.runs[0]));
   if (cell.failed > 0) lines.push(cell.failed === 1 ? '1 failed' : cell.failed + ' failed');
   return lines.join('\n');

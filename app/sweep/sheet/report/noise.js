@@ -44,11 +44,18 @@ function outcomeText(at) {
   return outcome.text + (broken ? ': here' : ': not here');
 }
 
-/** The place from 0 to 1 that gives a run its colour: points that share a rank share it. */
-function colourPlace(column, at) {
+/** The value that gives a run its colour: points that share a rank share it. No number: it has none. */
+function colourValue(column, at) {
+  if (!column.points) return isNaN(column.places[at]) ? NaN : rows[at].cells[column.at];
   const s = summaryOf(column, at);
+  return s && column.isDrawn && !column.isNoise ? s.shared : NaN;
+}
+
+/** Its place from 0 to 1. */
+function colourPlace(column, at) {
   if (!column.points) return column.places[at];
-  return s && column.isDrawn && !column.isNoise ? column.scale.at(s.shared) : NaN;
+  const value = colourValue(column, at);
+  return isNaN(value) ? NaN : column.scale.at(value);
 }
 
 /** A metric of coarse runs and of full resolution, on one scale; null where seeds give only one of them. */

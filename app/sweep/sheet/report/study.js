@@ -68,6 +68,7 @@ function makeScale(c) {
             return Math.max(-0.04, Math.min(1.04, place));
           },
           value: place => from(a + place * width),
+          show: x => String(Number(x.toPrecision(digits))),
           text: place => String(Number(from(a + place * width).toPrecision(digits)))};
 }
 
@@ -190,9 +191,13 @@ function frameOf(row, frame) {
   return found;
 }
 
+/** The name of a picture as the folder has it: four places, of which a sign is one. */
+const pictureName = frame =>
+  (frame < 0 ? '-' + String(-frame).padStart(3, '0') : String(frame).padStart(4, '0')) + '.png';
+
 function pictureOf(row, frame) {
   const f = frameOf(row, frame);
-  return f === undefined ? '' : encodeURI(row.pictures) + String(f).padStart(4, '0') + '.png';
+  return f === undefined ? '' : encodeURI(row.pictures) + pictureName(f);
 }
 
 /** True where a run ended before this frame. */

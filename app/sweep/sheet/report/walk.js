@@ -285,8 +285,7 @@ function startFacts() {
     const links = [linkRow('again', row.again)];
     if (row.promote) links.push(linkRow('as a shot', row.promote));
     if (frame !== undefined) {
-      const name = String(frame).padStart(4, '0') + '.png';
-      links.unshift(linkRow('this frame', row.viewFrame.replace('FRAME.png', name)));
+      links.unshift(linkRow('this frame', row.viewFrame.replace('FRAME.png', pictureName(frame))));
       links.push(make('a', {href: pictureOf(row, state.frame), textContent: 'picture of frame ' + frame,
                             target: '_blank'}));
     }
