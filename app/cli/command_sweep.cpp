@@ -87,6 +87,7 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
   sweep::plan::SweepRunOptions one;
   one.folder = std::filesystem::absolute(folder).string();
   one.threads = 1;
+  one.backend = options.backend;
   one.verbosity = Verbosity::quiet;
   one.retry_failed = options.retry_failed;
   one.caps = setup::cap_texts();
@@ -118,8 +119,9 @@ sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
                                    const sweep::store::Manifest& manifest, Progress& progress) {
   const std::vector<int> indices = wanted_runs(options, manifest);
   if (options.engine == "slurm") {
-    const sweep::jobs::SlurmOptions slurm{this_program(), options.backend, options.jobs,
-                                          std::max(1, options.threads), options.sbatch};
+    const sweep::jobs::SlurmOptions slurm{
+        this_program(), options.backend, options.jobs,      std::max(1, options.threads),
+        options.sbatch, options.movie,   options.has_review};
     return sweep::jobs::run_slurm(folder, manifest, indices, slurm, options.retry_failed, progress);
   }
   sweep::jobs::LocalOptions engine;
@@ -387,16 +389,22 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
 /// First runs of the points that are to be made at full resolution.
 std::vector<std::size_t> points_to_refine(const sweep::plan::SweepOptions& options,
                                           const sweep::plan::SweepPlan& plan,
-                                          const sweep::store::Manifest& manifest) {
+                                          const sweep::store::Manifest& manifest,
+                                          Progress& progress) {
   std::vector<std::size_t> points;
   for (const int run : sweep::plan::refinement_of(options, plan).named)
     points.push_back(static_cast<std::size_t>(run));
   if (options.refine == 0) return points;
-  for (const std::size_t run :
-       sweep::store::points_to_refine(manifest, sweep::store::read_results(plan.folder, manifest),
-                                      sweep::store::predictions_of(plan.folder, manifest),
-                                      static_cast<std::size_t>(options.refine),
-                                      sweep::store::Best::parse("--best", options.best)))
+  const std::vector<std::size_t> chosen = sweep::store::points_to_refine(
+      manifest, sweep::store::read_results(plan.folder, manifest),
+      sweep::store::predictions_of(plan.folder, manifest), static_cast<std::size_t>(options.refine),
+      sweep::store::Best::parse("--best", options.best));
+  if (chosen.empty())
+    progress.warning(
+        fmt::format("--refine makes no point at full resolution: none is undecided, and none has "
+                    "{} to choose by; give another metric with --best",
+                    options.best));
+  for (const std::size_t run : chosen)
     if (std::find(points.begin(), points.end(), run) == points.end()) points.push_back(run);
   return points;
 }
@@ -405,7 +413,7 @@ std::vector<std::size_t> points_to_refine(const sweep::plan::SweepOptions& optio
 sweep::jobs::JobsResult refine(const sweep::plan::SweepOptions& options, int cores,
                                const sweep::jobs::JobsResult& coarse, sweep::plan::SweepPlan& plan,
                                sweep::store::Manifest& manifest, Progress& progress) {
-  const std::vector<std::size_t> points = points_to_refine(options, plan, manifest);
+  const std::vector<std::size_t> points = points_to_refine(options, plan, manifest, progress);
   if (points.empty()) return coarse;
   sweep::plan::add_full_runs(options, points, plan);
   sweep::plan::share_camera_and_ranges(plan, cores);

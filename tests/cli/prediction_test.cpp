@@ -259,6 +259,29 @@ TEST_F(Prediction, ASweepMakesItsBestPointsAtFullResolutionInTheSameFolder) {
   EXPECT_EQ(result.at("ok"), 6);
 }
 
+TEST_F(Prediction, DamagedRunsAtFullResolutionAreToldByCollect) {
+  const std::vector<std::string> words{
+      "sweep",     "scene.toml", "-p",      "material.snow.hardening=5,10",
+      "--coarsen", "1.5",        "--size",  "96x54",
+      "--out",     "study",      "--movie", "none"};
+  std::vector<std::string> refined = words;
+  refined.insert(refined.end(), {"--refine-runs", "0"});
+  ASSERT_EQ(neve(refined).exit_code, 0);
+  const std::string run = json_of("study/manifest.json").at("variants")[0].at("run").at("folder");
+  folder.write("study/runs/" + run + "/particles/0002.png", "broken");
+  const auto collected = neve({"sweep", "collect", "study", "--movie", "none"});
+  EXPECT_EQ(collected.exit_code, app::exit_check_failed) << collected.errors;
+  EXPECT_TRUE(contains(collected.errors, "0002.png")) << collected.errors;
+  EXPECT_FALSE(contains(collected.errors, "by runs of 1 point")) << "it tells nothing";
+  EXPECT_EQ(neve({"verify", "study"}).exit_code, app::exit_check_failed);
+  // By a metric that no point has nothing is chosen, and that is said.
+  std::vector<std::string> by_bodies = words;
+  by_bodies.insert(by_bodies.end(), {"--refine", "1", "--best", "body_fall"});
+  const auto none = neve(by_bodies);
+  EXPECT_EQ(none.exit_code, 0) << none.errors;
+  EXPECT_TRUE(contains(none.errors, "none has body_fall to choose by")) << none.errors;
+}
+
 class RefinedSeeds : public Prediction {
  protected:
   static std::vector<std::string> words(const std::string& out) {

@@ -56,6 +56,12 @@ TEST_F(SlurmSites, ABannerBeforeTheNumberOfAJobIsPassedOver) {
   EXPECT_TRUE(contains(calls, "--dependency=afterany:4711:4712:4713")) << calls;
 }
 
+TEST_F(SlurmSites, TheJobThatCollectsMakesWhatTheSweepWasAskedFor) {
+  sweep("--movie gif --review");
+  const std::string collect = read_text(folder / "out/slurm/collect.sh");
+  EXPECT_TRUE(contains(collect, " --movie gif") && contains(collect, " --review")) << collect;
+}
+
 TEST_F(SlurmSites, RunsThatAreRefusedAreSubmittedLaterAndNoneTwice) {
   folder.write("full", "");
   const auto done = sweep();

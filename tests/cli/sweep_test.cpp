@@ -623,6 +623,13 @@ TEST_F(SweepCli, EmittedCommandsMakeTheSweepAnywhere) {
   EXPECT_EQ(read_text(folder / "commands.txt"), "") << "nothing is left to do";
 }
 
+TEST_F(SweepCli, EmittedCommandsDrawAsTheSweepWasAskedTo) {
+  const auto emitted =
+      neve({"sweep", "sweep.toml", "--emit", "commands.txt", "--backend", "osmesa"});
+  ASSERT_EQ(emitted.exit_code, 0) << emitted.errors;
+  EXPECT_TRUE(contains(read_text(folder / "commands.txt"), " --backend osmesa"));
+}
+
 TEST_F(SweepCli, ABudgetStopsTheSweepResumable) {
   // The first two values are at rest after a moment, the others take a million steps.
   folder.write("long.toml",

@@ -121,6 +121,8 @@ void write_scripts(const fs::path& folder, const SlurmOptions& options,
   plan::CollectOptions collect;
   collect.folder = run.folder;
   collect.backend = options.backend;
+  collect.movie = options.movie;
+  collect.has_review = options.has_review;
   collect.verbosity = Verbosity::quiet;
   write("collect.sh", options::words_of(collect));
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/output/movie_format.h"
 #include "app/support/progress.h"
 #include "app/sweep/jobs/local.h"
 
@@ -16,6 +17,8 @@ struct SlurmOptions {
   int jobs = 0;                      ///< tasks at once; 0: as many as Slurm gives
   int threads = 1;                   ///< of each run
   std::vector<std::string> options;  ///< further ones of sbatch, "--partition=long"
+  output::MovieStyle movie{};        ///< of the sheets, which the last job makes
+  bool has_review = false;           ///< links to all pictures, see CollectOptions
 };
 
 /// One array that Slurm accepts: task t is the run offset + t.

@@ -75,18 +75,20 @@ bool has_pictures(const std::vector<store::RunResult>& results) {
 }
 
 /// Everything is written by then, with what there is.
+/// @param of_variants  see store::variant_flaws()
 void refuse_flaws(const fs::path& folder, const store::Manifest& manifest,
-                  const std::vector<store::RunResult>& results) {
-  std::string text;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < results.size(); ++k) {
-    if (results[k].flaws.empty()) continue;
-    if (count++ == 0) text = store::run_text(manifest.runs[k]) + ": " + results[k].flaws;
-  }
-  if (count > 1) text += "; and " + std::to_string(count - 1) + " more runs";
-  if (count > 0)
-    throw Error(exit_check_failed, text, folder.string(),
-                "repeat the command of the sweep to make these runs again");
+                  const std::vector<store::RunResult>& results,
+                  const std::vector<std::string>& of_variants) {
+  std::vector<std::string> flaws;
+  for (std::size_t k = 0; k < results.size(); ++k)
+    if (!results[k].flaws.empty())
+      flaws.push_back(store::run_text(manifest.runs[k]) + ": " + results[k].flaws);
+  flaws.insert(flaws.end(), of_variants.begin(), of_variants.end());
+  if (flaws.empty()) return;
+  const std::size_t more = flaws.size() - 1;
+  throw Error(exit_check_failed,
+              flaws.front() + (more > 0 ? "; and " + std::to_string(more) + " more runs" : ""),
+              folder.string(), "repeat the command of the sweep to make these runs again");
 }
 
 /// "sheet", and "sheet_2" of the second page.
@@ -296,6 +298,8 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
   for (const std::string& line : store::mixture_lines(results)) progress.warning(line);
   for (const std::string& line : store::idle_lines(manifest, results)) progress.warning(line);
   for (const std::string& line : store::warning_lines(manifest, results)) progress.warning(line);
+  const std::vector<std::string> of_variants = store::variant_flaws(folder, manifest);
+  for (const std::string& line : of_variants) progress.warning(line);
 
   // An interrupted sweep ends without pictures.
   if (is_interrupted()) return;
@@ -317,7 +321,7 @@ void collect_sweep(const fs::path& folder, const output::MovieStyle& movie, bool
                      report_html(folder.string(), manifest, results, maker.pages().front().layout,
                                  sheet, maker.pages().size(), predictions));
   progress.clear();
-  refuse_flaws(folder, manifest, results);
+  refuse_flaws(folder, manifest, results, of_variants);
 }
 
 }  // namespace neve::app::sweep::sheet

@@ -12,8 +12,9 @@ namespace neve::app::sweep::store {
 
 namespace {
 
-/// Why a copy has no end; "" of one that has.
+/// Why a copy has no end; "" of one that has. Numbers of a damaged one are none.
 std::string failure_of(const Run& run, const RunResult& result) {
+  if (!result.flaws.empty()) return result.flaws;
   if (is_whole(run, result)) return "";
   if (result.status.state == RunState::diverged) return "it diverged";
   if (has_failed(result.status.state)) return result.status.reason;
@@ -93,7 +94,7 @@ std::vector<std::optional<RunResult>> full_results(const std::filesystem::path& 
     if (!variant.is_full()) continue;
     full.resize(manifest.runs.size());
     RunResult result = read_result(folder, variant.run, manifest.view);
-    if (is_whole(variant.run, result)) full[variant.of] = std::move(result);
+    if (failure_of(variant.run, result).empty()) full[variant.of] = std::move(result);
   }
   return full;
 }

@@ -12,8 +12,8 @@
 
 namespace neve::app::sweep::store {
 
-/// The results of the runs at full resolution that have ended, one place for each run of the sweep;
-/// empty for a sweep without --refine.
+/// The results of the runs at full resolution that have ended and are whole, one place for each run
+/// of the sweep; empty for a sweep without --refine.
 std::vector<std::optional<RunResult>> full_results(const std::filesystem::path& folder,
                                                    const Manifest& manifest);
 

@@ -69,14 +69,17 @@ std::vector<std::size_t> points_to_refine(const Manifest& manifest,
                                           const std::vector<predict::Prediction>& predictions,
                                           std::size_t count, const Best& best) {
   const std::vector<Point> points = points_of(manifest, results);
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (points[k].metrics[best.metric].count > 0) order.push_back(k);
+  const auto is_measured = [&](std::size_t k) { return points[k].metrics[best.metric].count > 0; };
   const auto open = [&](std::size_t k) {
     return predictions.empty() ? is_undecided(points[k]) : is_open(predictions[k]);
   };
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (open(k) || is_measured(k)) order.push_back(k);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     if (open(a) != open(b)) return open(a);
+    // Points without the metric are no worse and no better than each other.
+    if (!is_measured(a) || !is_measured(b)) return is_measured(a) && !is_measured(b);
     const double x = points[a].metrics[best.metric].mean, y = points[b].metrics[best.metric].mean;
     return best.is_least ? x < y : x > y;
   });

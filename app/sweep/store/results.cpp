@@ -219,6 +219,20 @@ std::vector<RunResult> read_results(const std::filesystem::path& folder, const M
   return results;
 }
 
+std::vector<std::string> variant_flaws(const std::filesystem::path& folder,
+                                       const Manifest& manifest) {
+  std::set<std::string> told;  // one that is a run of the sweep as well is read with those
+  for (const Run& run : manifest.runs) told.insert(run.folder);
+  std::vector<std::string> lines;
+  for (const Variant& variant : manifest.variants) {
+    if (!variant.failure.empty() || !told.insert(variant.run.folder).second) continue;
+    if (const RunResult result = read_result(folder, variant.run, manifest.view);
+        !result.flaws.empty())
+      lines.push_back(run_text(variant.run) + ": " + result.flaws);
+  }
+  return lines;
+}
+
 namespace {
 
 /// States are of the snow alone: they say nothing of dust and of pictures.

@@ -72,6 +72,10 @@ std::optional<double> told_metric(const Run& run, const RunResult& result, std::
 RunResult read_result(const std::filesystem::path& folder, const Run& run, const std::string& view);
 std::vector<RunResult> read_results(const std::filesystem::path& folder, const Manifest& manifest);
 
+/// "run 4: FLAWS" of each copy and run at full resolution that has some; see RunResult::flaws.
+std::vector<std::string> variant_flaws(const std::filesystem::path& folder,
+                                       const Manifest& manifest);
+
 /// "1 warning", "2 warnings"
 std::string warning_count_text(std::size_t count);
 
