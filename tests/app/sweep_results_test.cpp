@@ -553,6 +553,19 @@ TEST(Stars, StarsStayWithTheirRunWhenTheSweepHasOthers) {
   EXPECT_EQ(read_marks(folder.path(), seeded).marks.at(2).note, "wet");
 }
 
+TEST(Stars, AListOfThePageTakesAwayWhatWasTakenAwayThere) {
+  using namespace app::sweep::store;
+  const test::TemporaryFolder folder;
+  const Manifest sweep = sweep_over({"0.3", "0.6"}, "x");
+  KeptMarks kept{{{0, {true, "wet"}}, {1, {true, ""}}}, {}};
+  const std::string list = folder.write(
+      "list.json",
+      R"({"format": "neve stars 1", "runs": [{"run": 0, "star": false, "note": ""}]})");
+  add_marks(read_marks_file(list, sweep), kept);
+  ASSERT_EQ(kept.marks.size(), 1u);
+  EXPECT_TRUE(kept.marks.contains(1));
+}
+
 TEST(Stars, ListsWithoutSettingsAreReadByNumber) {
   using namespace app::sweep::store;
   const test::TemporaryFolder folder;

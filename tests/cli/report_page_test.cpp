@@ -367,6 +367,13 @@ TEST_F(ReportPage, StarsAndNotesAreOnTilesInTheTableAndOfferedToTheFolder) {
   lines();
   EXPECT_EQ(value("document.getElementById('run-4').cells[starColumn].textContent"),
             "\u2605 as agreed");
+  // A note that the folder has is taken away by name.
+  value("setMark(rows[4], {note: ''})");
+  settle();
+  EXPECT_NE(text_of("#unsaved code").find("sweep star 'out/a b.cdb' 4 --note ''"),
+            std::string::npos);
+  value("setMark(rows[4], {note: 'as agreed'})");
+  settle();
   click("#only-stars input");
   EXPECT_EQ(text_of("#count"), "3 of 9 runs");
   click("#only-stars input");

@@ -482,6 +482,13 @@ TEST_F(SweepCli, StarsAndNotesStayWithTheSweep) {
   EXPECT_FALSE(fs::exists(folder / "s.cdb/starred.png"));
   EXPECT_EQ(neve({"sweep", "star", "s.cdb", "3"}).exit_code, 2);
   EXPECT_EQ(neve({"sweep", "star", "s.cdb", "--note", "x"}).exit_code, 2);
+  // A note can be taken away alone, and one that no list may have is refused where it is given.
+  neve({"sweep", "star", "s.cdb", "1", "--note", "wet"});
+  EXPECT_EQ(neve({"sweep", "star", "s.cdb", "1", "--note", ""}).output, "* run 1\n");
+  const auto long_note = neve({"sweep", "star", "s.cdb", "1", "--note", std::string(2001, 'x')});
+  EXPECT_EQ(long_note.exit_code, 2);
+  EXPECT_TRUE(contains(long_note.errors, "this note has 2001 bytes")) << long_note.errors;
+  EXPECT_EQ(neve({"sweep", "star", "s.cdb", "1", "--remove"}).exit_code, 0);
   folder.write("stars.json", R"({"format": "neve stars 1", "runs": [{"run": 7, "star": true}]})");
   const auto beyond = neve({"sweep", "star", "s.cdb", "--read", "stars.json"});
   for (const auto& [text, said] :

@@ -32,7 +32,7 @@ void change(const StarOptions& options, const store::Manifest& manifest, store::
     }
     store::Mark& mark = marks[run];
     mark.has_star = true;
-    if (!options.note.empty()) mark.note = options.note;
+    if (options.note) mark.note = *options.note;
   }
 }
 
@@ -54,7 +54,8 @@ void describe(options::Command& visit, StarOptions& o) {
   visit("DIR", o.folder, options::text(""), "Output folder of a sweep").required();
   visit("RUNS", o.runs, options::text("RUNS", "3,7-9"),
         "Numbers of tiles, as the sheet and the report have them");
-  visit("--note", o.note, options::text("TEXT", "\"the edge is right\""), "A note for these runs");
+  visit("--note", o.note, options::text("TEXT", "\"the edge is right\""),
+        "A note for these runs; \"\" takes theirs away");
   visit("--remove", o.is_removed, "Take star and note away from these runs");
   visit("--read", o.read, options::text("FILE", "stars.json"),
         "Add the stars of a file that the report has made");
@@ -63,11 +64,15 @@ void describe(options::Command& visit, StarOptions& o) {
 
 int run_star(const StarOptions& options) {
   const bool is_changed = !options.runs.empty() || !options.read.empty();
-  if (options.runs.empty() && (options.is_removed || !options.note.empty()))
+  if (options.runs.empty() && (options.is_removed || options.note))
     throw UsageError("sweep star", "no run is named", "name some, as in neve sweep star DIR 3,7");
-  if (options.is_removed && !options.note.empty())
+  if (options.is_removed && options.note)
     throw UsageError("sweep star", "--remove takes the note away, --note gives one",
                      "give one of the two");
+  if (options.note && options.note->size() > store::longest_note)
+    throw UsageError("--note", fmt::format("this note has {} bytes", options.note->size()),
+                     fmt::format("expected {} at most; write a file for more, and its name here",
+                                 store::longest_note));
   store::Manifest manifest = store::read_manifest(options.folder);
   store::KeptMarks kept = store::read_marks(options.folder, manifest);
   change(options, manifest, kept);

@@ -1,6 +1,7 @@
 #pragma once
 /// `neve sweep star DIR RUNS`: stars and notes of runs, kept with the sweep.
 
+#include <optional>
 #include <string>
 
 #include "app/options/option.h"
@@ -8,10 +9,10 @@
 namespace neve::app::sweep::sheet {
 
 struct StarOptions {
-  std::string folder;  ///< of a sweep
-  std::string runs;    ///< "3,7-9"; "": none
-  std::string note;
-  std::string read;  ///< a list that the report has made; "": none
+  std::string folder;               ///< of a sweep
+  std::string runs;                 ///< "3,7-9"; "": none
+  std::optional<std::string> note;  ///< "": takes notes away
+  std::string read;                 ///< a list that the report has made; "": none
   bool is_removed = false;
   bool is_json = false;
 };

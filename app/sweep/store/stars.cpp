@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_note = 2000;  // bytes
 constexpr const char* format = "neve stars 1";
 
 fs::path marks_path(const fs::path& folder) {
@@ -49,7 +48,7 @@ std::vector<KeptMark> parse_marks(const fs::path& file) {
       for (const Json& setting : item.value("settings", Json::array()))
         one.settings.push_back({line_text(setting.at(0).get<std::string>()),
                                 line_text(setting.at(1).get<std::string>())});
-      if (one.mark.is_given()) kept.push_back(std::move(one));
+      kept.push_back(std::move(one));
     }
   } catch (const Error&) {
     throw;
@@ -94,7 +93,7 @@ KeptMarks placed(std::vector<KeptMark> list, const Manifest& manifest) {
   for (KeptMark& one : list) {
     if (const Run* run = find_run(one, manifest, kept.marks))
       kept.marks[run->index] = std::move(one.mark);
-    else
+    else if (one.mark.is_given())
       kept.lost.push_back(std::move(one));
   }
   return kept;
@@ -124,7 +123,10 @@ std::vector<scene::Override> telling_settings(const Manifest& manifest, const Ru
 KeptMarks read_marks(const fs::path& folder, const Manifest& manifest) {
   std::error_code error;
   const fs::path file = marks_path(folder);
-  return fs::exists(file, error) ? placed(parse_marks(file), manifest) : KeptMarks{};
+  if (!fs::exists(file, error)) return {};
+  KeptMarks kept = placed(parse_marks(file), manifest);
+  std::erase_if(kept.marks, [](const auto& mark) { return !mark.second.is_given(); });
+  return kept;
 }
 
 KeptMarks read_marks_file(const fs::path& file, const Manifest& manifest) {
@@ -137,7 +139,11 @@ KeptMarks read_marks_file(const fs::path& file, const Manifest& manifest) {
 }
 
 void add_marks(const KeptMarks& more, KeptMarks& kept) {
-  for (const auto& [run, mark] : more.marks) kept.marks[run] = mark;
+  for (const auto& [run, mark] : more.marks)
+    if (mark.is_given())
+      kept.marks[run] = mark;
+    else
+      kept.marks.erase(run);
   for (const KeptMark& lost : more.lost) {
     std::erase_if(kept.lost, [&](const KeptMark& other) {
       return !other.is_numbered && is_same(other.settings, lost.settings);

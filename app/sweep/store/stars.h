@@ -11,6 +11,8 @@
 
 namespace neve::app::sweep::store {
 
+constexpr std::size_t longest_note = 2000;  ///< bytes
+
 /// A mark as a file has it, with what tells its run from others.
 struct KeptMark {
   int run = 0;  ///< its number when the mark was written: all that files of earlier versions have
@@ -32,11 +34,12 @@ std::vector<scene::Override> telling_settings(const Manifest& manifest, const Ru
 /// None where there is no such file. @throws Error if it is broken, IoError
 KeptMarks read_marks(const std::filesystem::path& folder, const Manifest& manifest);
 
-/// Those of a file that the report has made. @throws Error if it is broken, or has no more than
-/// numbers, of runs that the sweep does not have; IoError
+/// Those of a file that the report has made; one without star and note was taken away there.
+/// @throws Error if it is broken, or has no more than numbers, of runs that the sweep does not
+/// have; IoError
 KeptMarks read_marks_file(const std::filesystem::path& file, const Manifest& manifest);
 
-/// In the place of those that the same runs have.
+/// In the place of those that the same runs have; takes away those that were taken away.
 void add_marks(const KeptMarks& more, KeptMarks& kept);
 
 /// Removes the file where nothing is marked. @throws IoError

@@ -66,15 +66,17 @@ const shellWord = text => /^[\w.,/-]+$/.test(text) ? text : "'" + text.replaceAl
 function starCommands() {
   const groups = new Map();
   for (const row of unsavedRows()) {
-    const {star, note} = row.mark;
-    const end = !star ? ' --remove' : note ? ' --note ' + shellWord(note) : '';
+    const {star, note} = row.mark, isNoteChanged = note !== row.savedMark.note;
+    const end = !star ? ' --remove' : isNoteChanged ? ' --note ' + shellWord(note) : '';
     groups.set(end, [...groups.get(end) || [], row.run]);
   }
   return [...groups].map(([end, runs]) => `${study.star} ${runs.join(',')}${end}`).join(' && ');
 }
 
+/** With those that were taken away here: the folder still has them. */
 function downloadStars() {
-  const runs = rows.filter(row => row.mark.star || row.mark.note)
+  const isGiven = mark => mark.star || mark.note;
+  const runs = rows.filter(row => isGiven(row.mark) || isGiven(row.savedMark))
     .map(row => ({run: row.run, ...row.mark, key: row.key, settings: row.settings}));
   const text = JSON.stringify({format: 'neve stars 1', runs}, null, 2) + '\n';
   const link = make('a', {download: 'stars.json',
