@@ -7,6 +7,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/pick/page.h"
+#include "app/record/picture_files.h"
 #include "app/record/run_json.h"
 #include "app/scene/read.h"
 #include "app/setup/curves.h"
@@ -227,10 +228,12 @@ sweep::plan::SweepOptions Game::begin_refinement() const {
 
 /// Says which search the clicks are of.
 std::vector<std::string> Game::comment() const {
-  // Clicks are of what the tiles showed: the snow of the scene, and how it was seen.
-  std::string what =
-      fmt::format("{} ({})", scene_.file,
-                  record::hash_of(scene::write_scene(scene::read_scene_file(scene_.file))));
+  // Clicks are of what the tiles showed: the snow of the scene with the files that it names, and
+  // how it was seen.
+  const scene::Scene scene = scene::read_scene_file(scene_.file);
+  std::string shown = scene::write_scene(scene);
+  for (const auto& [file, hash] : record::hash_files(scene)) shown += "\n" + file + " " + hash;
+  std::string what = fmt::format("{} ({})", scene_.file, record::hash_of(shown));
   for (const PickAxis& axis : scene_.axes)
     what += fmt::format(", {} {} to {}{}", axis.address, axis.text(0), axis.text(1),
                         axis.is_logarithmic ? " in ratios" : "");

@@ -181,6 +181,32 @@ TEST_F(PickCli, ClicksOnOtherSnowAreNotTakenOver) {
   EXPECT_TRUE(contains(tiles.output + tiles.errors, "has other tiles than this program chooses"));
 }
 
+TEST_F(PickCli, ClicksOnAnotherMeshAreNotTakenOver) {
+  const auto mesh_with_side = [&](const std::string& s) {
+    std::string text;
+    for (const char* corner :
+         {"- 0 -", "- 0 +", "- # -", "- # +", "+ 0 -", "+ 0 +", "+ # -", "+ # +"}) {
+      text += "v ";
+      for (const char* c = corner; *c; ++c)
+        text += *c == '+' || *c == '#' ? s : *c == '-' ? "-" + s : std::string(1, *c);
+      text += "\n";
+    }
+    folder.write("cube.obj", text +
+                                 "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\n"
+                                 "f 2 6 8 4\n");
+  };
+  mesh_with_side("0.1");
+  folder.write("scene.toml",
+               "frames = 2\n[solver]\ncell_size = 0.04\n[[body]]\n"
+               "shape = { mesh = { file = \"cube.obj\" } }\n[output]\nsize = [64, 36]\n");
+  const auto first = pick("4\n", "a");
+  ASSERT_EQ(first.exit_code, 0) << first.output << first.errors;
+  mesh_with_side("0.08");
+  const auto changed = pick("4\n", "a");
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_TRUE(contains(changed.output + changed.errors, "has another search")) << changed.errors;
+}
+
 /// The favourite of a search may be a place that no tile has; the pick is a tile.
 TEST_F(PickCli, WhatWasLearnedIsToldOfThePick) {
   const auto made = pick("3\n2 7\n", "a");
