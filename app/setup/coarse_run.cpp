@@ -100,7 +100,7 @@ Run run_within_budget(const scene::Scene& coarse) {
   const sim::ParticleArrays particles = seed_what_fits(coarse);
   Run result;
   result.is_whole = true;
-  const double emitted = planned_emission(coarse, coarse.frames / coarse.fps);
+  const double emitted = planned_emission(coarse, scene::duration(coarse));
   if (particles.x.empty() && emitted == 0) return result;
   sim::Simulation simulation = coarse_simulation(coarse, particles);
   const auto note = [&](double time, const std::vector<sim::Vec3d>& x) {
@@ -108,7 +108,7 @@ Run run_within_budget(const scene::Scene& coarse) {
   };
   note(0, particles.x);
   long steps_left = std::lround(work_budget / (static_cast<double>(particles.x.size()) + emitted));
-  const double duration = coarse.frames / coarse.fps;
+  const double duration = scene::duration(coarse);
   for (int k = 1; k <= moments && duration > 0; ++k) {
     if (!coarse.curves.empty()) {
       const scene::Scene now =

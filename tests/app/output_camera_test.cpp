@@ -253,6 +253,18 @@ TEST(DryRun, DryRunCoversTheWholeScene) {
   EXPECT_LT(moments.front().x.size(), 2000u);
 }
 
+/// A film of six frames with three more on both sides is as long as one of twelve.
+TEST(DryRun, HandlesArePartOfTheScene) {
+  std::string text = drop;
+  text.replace(text.find("frames = 12"), 11, "frames = 6\nhandles = 3");
+  app::scene::Scene whole = app::scene::read_scene_text(drop, "drop.toml"),
+                    handled = app::scene::read_scene_text(text, "drop.toml");
+  EXPECT_DOUBLE_EQ(app::setup::coarse_run(handled).back().time, 0.5);
+  app::setup::resolve(whole, 1000);
+  app::setup::resolve(handled, 1000);
+  EXPECT_EQ(*handled.camera->eye, *whole.camera->eye);
+}
+
 TEST(AutomaticRange, AutomaticRangeOfSpeedReachesTheImpact) {
   const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
   // From rest through half a metre: sqrt(2 g 0.5) = 3.13 m/s, rounded up.

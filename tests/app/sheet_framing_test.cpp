@@ -78,6 +78,12 @@ TEST_F(SheetFraming, TheMomentIsTheLastFrameThatIsDrawn) {
   EXPECT_LT(late.runs[0].scene.camera->target->y(), 0.3);
 }
 
+TEST_F(SheetFraming, HandlesAreFramesToo) {
+  const plan::SweepPlan whole = framed("", two_densities),
+                        handled = framed("[set]\nframes = 8\nhandles = 8\n", two_densities);
+  EXPECT_EQ(handled.runs[0].scene.camera->eye, whole.runs[0].scene.camera->eye);
+}
+
 TEST_F(SheetFraming, EachRunMayHaveACameraOfItsOwn) {
   const std::string places = "\"body.ball.shape.sphere.radius\" = [0.15, 0.45]";
   const plan::SweepPlan shared = framed("", places), each = framed("framing = \"each\"", places);

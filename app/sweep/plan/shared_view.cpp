@@ -107,7 +107,8 @@ std::vector<std::vector<int>> coordinates_of(const SweepPlan& plan) {
 /// The scene as far as its tile shows it: all that it does is in its frames.
 scene::Scene until_last_frame(const PlannedRun& item) {
   scene::Scene scene = item.scene;
-  scene.frames = std::min(scene.frames, item.run.frames.last - scene::number_of(scene, 0));
+  scene.frames = std::min(scene::last_frame(scene), scene::frame_of(scene, item.run.frames.last));
+  scene.handles = 0;  // they are among these frames
   return scene;
 }
 
@@ -130,7 +131,7 @@ std::vector<std::vector<setup::CoarseMoment>> coarse_runs(const std::vector<scen
 std::vector<setup::CoarseMoment> moment_of_sheet(const scene::Scene& scene,
                                                  std::vector<setup::CoarseMoment> moments) {
   constexpr double near_the_end = 0.9;
-  if (moments.empty() || moments.back().time < near_the_end * scene.frames / scene.fps)
+  if (moments.empty() || moments.back().time < near_the_end * scene::duration(scene))
     return moments;
   return {std::move(moments.back())};
 }
