@@ -17,7 +17,9 @@
 #include "app/setup/snow_pieces.h"
 #include "app/support/text.h"
 #include "sim/dust_cost.h"
+#include "sim/health/diagnostics.h"
 #include "sim/laws/law.h"
+#include "sim/shapes/variation.h"
 
 namespace neve::app::health {
 
@@ -34,8 +36,13 @@ sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) 
   sim::StateLimits limits;
   for (const setup::SnowPiece& piece : setup::snow_places(scene)) {
     limits.max_speed = std::max(limits.max_speed, piece.velocity.norm());
-    limits.max_sound_speed = std::max(limits.max_sound_speed, sim::sound_speed(*piece.material));
-    sim::laws::include_hardening(*piece.material, limits);
+    const sim::Material& m = *piece.material;
+    const double stiffest = sim::shapes::max_factor(m.variation.youngs_modulus);
+    limits.max_sound_speed =
+        std::max(limits.max_sound_speed,
+                 std::sqrt(stiffest) *
+                     sim::health::wave_speed(m, sim::Mat3d::Identity(), piece.J_P, m.density));
+    sim::laws::include_hardening(m, limits, stiffest);
   }
   start = {sim::limits_on_dt(scene.solver, limits), limits.max_speed, limits.max_sound_speed, 0};
   return sim::choose_dt(scene.solver, limits, 1 / scene.fps);

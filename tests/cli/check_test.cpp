@@ -188,6 +188,25 @@ TEST_F(Check, AdaptiveStepsThatCannotHoldAreAnError) {
   EXPECT_EQ(findings(scene("acoustic_cfl = 0.85", floor_plane)), Findings{});
 }
 
+/// An emitter has no particle yet when it is checked: its snow is as stiff as that of a body.
+TEST_F(Check, SoundInEmittedSnowKnowsHowItIsPacked) {
+  const auto sound = [&](const std::string& source) {
+    folder.write("scene.toml",
+                 "frames = 1\n[solver]\ncell_size = 0.04\n" + source +
+                     "velocity = [0, -8, 0]\nshape = { box = { center = [0, 0.5, 0], size = "
+                     "[0.16, 0.16, 0.16] } }\n" +
+                     floor_plane);
+    const auto check = neve({"check", "scene.toml", "--json"});
+    EXPECT_EQ(check.exit_code, 0) << check.errors;
+    return app::parse_json(std::string_view(check.output))["sound_speed"].get<double>();
+  };
+  for (const char* J_P : {"J_P = 0.8\n", "J_P = 1.5\n"}) {
+    const double of_body = sound(std::string("[[body]]\n") + J_P);
+    EXPECT_NEAR(sound(std::string("[[emitter]]\nrate = 4\n") + J_P), of_body, 1e-3 * of_body)
+        << J_P;
+  }
+}
+
 TEST_F(Check, SnowFarSmallerThanACellIsForetoldInSeconds) {
   const auto check =
       neve({"check", "scene.toml", "--json", "--set", "body.ball.shape.sphere.radius=1e-9"});
