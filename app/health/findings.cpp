@@ -195,8 +195,7 @@ void check_adaptive_steps(const sim::SolverSettings& s, const Check& check,
       {Severity::error, "solver.acoustic_cfl",
        fmt::format("{} allows steps of {} s, in which sound crosses {} cells: the run will diverge",
                    rough_text(s.acoustic_cfl), rough_text(check.dt_start), rough_text(cells)),
-       scene::setting_text("solver.acoustic_cfl", sim::SolverSettings{}.acoustic_cfl,
-                           check.coarsening) +
+       scene::setting_text("solver.acoustic_cfl", sim::SolverSettings{}.acoustic_cfl, 1) +
            " holds"});
 }
 

@@ -186,6 +186,10 @@ TEST_F(Check, AdaptiveStepsThatCannotHoldAreAnError) {
             "error solver.acoustic_cfl");
   // As --fast has it.
   EXPECT_EQ(findings(scene("acoustic_cfl = 0.85", floor_plane)), Findings{});
+  // The limit is a number of cells, whatever their size.
+  folder.write("scene.toml", scene("acoustic_cfl = 20\nmax_dt = 0.01", floor_plane));
+  const auto coarse = neve({"check", "scene.toml", "--coarsen", "2"});
+  EXPECT_TRUE(contains(coarse.output, "solver.acoustic_cfl = 0.5 holds")) << coarse.output;
 }
 
 /// An emitter has no particle yet when it is checked: its snow is as stiff as that of a body.
