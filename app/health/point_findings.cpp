@@ -37,15 +37,16 @@ void check_point_distance(const sim::seeding::Body& body, double cell_size, doub
   if (!is_too_few && per_cell <= max_useful_per_cell) return;
   const std::string eight =
       scene::setting_text("solver.cell_size", cell_size * std::cbrt(8 / per_cell), coarsening);
+  // --coarsen thins further, by the growth of a cell.
+  const double thinning = std::get<sim::shapes::Points>(body.shape.form).thinning * per_cell / 8 /
+                          std::pow(coarsening, 3);
   findings.push_back(
       {is_too_few ? Severity::warning : Severity::note, "body." + body.name + ".shape.points",
        "the points of " + display_name("body", body.name) + " are " + rough_text(per_cell) +
            " in a cell, from their volumes" +
            (is_too_few ? ": they leave gaps, and snow breaks at them"
                        : ": more than the grid resolves"),
-       eight + " has 8" +
-           (is_too_few ? ""
-                       : ", or thinning = " + rough_text(per_cell / 8 / std::pow(coarsening, 3)))});
+       eight + " has 8" + (is_too_few ? "" : ", or thinning = " + rough_text(thinning))});
 }
 
 namespace {

@@ -164,6 +164,19 @@ TEST_F(PointFiles, PointFilesAreExaminedByTheirDistanceAndMass) {
       << warnings();
 }
 
+/// The thinning to type is that of the file: --coarsen 2 multiplies it by eight.
+TEST_F(PointFiles, AdviceOnThinningIsTheNumberToType) {
+  const auto advice = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"check", "scene.toml", "--set", "solver.cell_size=0.1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return neve(words).output;
+  };
+  for (const std::vector<std::string>& more : {std::vector<std::string>{},
+                                               {"--coarsen", "2"},
+                                               {"--set", "body.block.shape.points.thinning=2"}})
+    EXPECT_TRUE(contains(advice(more), " has 8, or thinning = 15.6")) << advice(more);
+}
+
 /// Points outside of the range of their material came to its end in their first step that yields.
 TEST_F(PointFiles, PackingOfPointsOutsideTheRangeOfTheirMaterialIsSaid) {
   std::istringstream block(block_csv(3.2e-3));
