@@ -12,6 +12,8 @@
 #include "sim/health/diagnostics.h"
 #include "sim/laws/law.h"
 #include "sim/laws/threshold_cell.h"
+#include "sim/rigid/mass.h"
+#include "sim/rigid/rigid_bodies.h"
 #include "sim/shapes/height_samples.h"
 #include "sim/shapes/placed_points.h"
 #include "sim/types/time_step.h"
@@ -164,15 +166,63 @@ struct BodyHeights {
   double low = 1e300, high = -1e300;
 };
 
-/// m, along gravity to what is below; until the end of the scene where nothing is. A joint holds.
-double fall_of(const scene::Scene& scene, const sim::shapes::Collider& body, const Vec3d& down) {
-  if (body.body.joint != sim::shapes::Joint::none) return 0;
+/// What is left of a vector along the ways that a body may go; about a ball joint or a hinge it may
+/// swing to all sides.
+Vec3d along_free_ways(const sim::shapes::RigidBody& body, Vec3d v) {
+  using sim::shapes::HeldAxis;
+  if (body.joint == sim::shapes::Joint::slider) {
+    const Vec3d axis = body.joint_axis.stableNormalized();
+    v = axis.dot(v) * axis;
+  }
+  constexpr HeldAxis ways[] = {HeldAxis::x, HeldAxis::y, HeldAxis::z};
+  for (int a = 0; a < 3; ++a)
+    if (std::ranges::find(body.hold, ways[a]) != body.hold.end()) v[a] = 0;
+  return v;
+}
+
+/// A spring that pulls a body to a place.
+struct Spring {
+  double rate = 0;      ///< 1/s2, stiffness over mass; 0: there is none
+  Vec3d away{0, 0, 0};  ///< m, from the body at the start to that place
+};
+
+Spring spring_of(const sim::shapes::Collider& collider) {
+  const sim::shapes::RigidBody& body = collider.body;
+  const bool is_sprung_slider =
+      body.joint == sim::shapes::Joint::slider && body.joint_stiffness > 0;
+  if (!(body.spring_stiffness > 0) && !is_sprung_slider) return {};
+  const double mass = sim::rigid::mass_properties(collider).mass;
+  if (!(body.spring_stiffness > 0)) return {body.joint_stiffness / mass, Vec3d::Zero()};
+  return {body.spring_stiffness / mass,
+          along_free_ways(body, body.spring_place - sim::rigid::motion_at(collider, 0).centre)};
+}
+
+/// How a body falls, and how far.
+struct Fall {
+  Vec3d gravity{0, 0, 0};  ///< m/s2, what of it the body may follow
+  double way = 0;          ///< m, along it
+};
+
+/// To what is below, or the turn of the spring; until the end of the scene where nothing is. Ball
+/// joints and hinges hold.
+Fall fall_of(const scene::Scene& scene, const sim::shapes::Collider& body) {
+  using sim::shapes::Joint;
+  Fall fall{along_free_ways(body.body, scene.solver.gravity), 0};
+  const double g = fall.gravity.norm();
+  if (g == 0 || body.body.joint == Joint::ball || body.body.joint == Joint::hinge) return fall;
+  const Vec3d down = fall.gravity / g;
   const double duration = scene::duration(scene);
-  double fall = 0.5 * scene.solver.gravity.norm() * duration * duration;
+  fall.way = 0.5 * g * duration * duration;
   for (const sim::shapes::Collider& collider : scene.colliders) {
     if (collider.body.moves()) continue;
     const double distance = distance_to(collider, sim::shapes::center(body.shape), down);
-    if (distance >= 0) fall = std::min(fall, distance);
+    if (distance >= 0) fall.way = std::min(fall.way, distance);
+  }
+  if (const Spring spring = spring_of(body); spring.rate > 0) {
+    // It swings about the place where the spring carries it, as far as it starts from there.
+    const double to_rest = spring.away.dot(down) + g / spring.rate,
+                 speed = body.velocity.dot(down) / std::sqrt(spring.rate);
+    fall.way = std::min(fall.way, std::max(0.0, to_rest + std::hypot(to_rest, speed)));
   }
   return fall;
 }
@@ -192,8 +242,9 @@ BodyHeights body_heights(const scene::Scene& scene) {
     const double size = radius_around(box), y = 0.5 * (box.min + box.max).y();
     const double up = std::max(0.0, -body.velocity.dot(down));
     const double rise = g > 0 ? 0.5 * up * up / g : up * scene::duration(scene);
-    const double fall = fall_of(scene, body, down);
-    heights.low = std::min(heights.low, y - std::max(fall * -down.y(), size));
+    const Fall fall = fall_of(scene, body);
+    const double lower = g > 0 ? -fall.way * fall.gravity.y() / g : 0;
+    heights.low = std::min(heights.low, y - std::max(lower, size));
     heights.high = std::max(heights.high, y + std::max(rise, size));
   }
   return heights;
@@ -208,9 +259,11 @@ scene::Range rounded_range(double low, double high) {
 /// m/s, of a collider that moves by itself
 double body_speed(const scene::Scene& scene, const sim::shapes::Collider& body) {
   const double size = radius_around(sim::shapes::bounds_at(body, 0));
-  const double fall = std::max(fall_of(scene, body, down_in(scene)), size);
+  const Fall fall = fall_of(scene, body);
+  const Spring spring = spring_of(body);
   const double falling =
-      std::sqrt(body.velocity.squaredNorm() + 2 * scene.solver.gravity.norm() * fall);
+      std::sqrt(body.velocity.squaredNorm() + 2 * fall.gravity.norm() * std::max(fall.way, size) +
+                spring.rate * spring.away.squaredNorm());
   return std::max(setup::impact_speed(scene), falling);
 }
 

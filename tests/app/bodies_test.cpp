@@ -201,6 +201,29 @@ TEST(Ranges, AxesReachToWhatPushesAndSlides) {
   EXPECT_LT(speed_with(slope + "contact = \"sticky\"\n"), 1.2 * still);
 }
 
+/// A body that nothing carries falls until the end of the scene, and one that is held does not.
+TEST(Ranges, WhatHoldsABodyBoundsItsFall) {
+  const auto speed_with = [](const std::string& more) {
+    const scene::Scene scene = scene::read_scene_text(
+        "frames = 240\n[[body]]\nshape = { box = { center = [0, 0.1, 0], size = [0.3, 0.2, 0.3] "
+        "} }\n[[collider]]\nname = \"ledge\"\nshape = { box = { center = [0, -0.1, 0], size = "
+        "[1, 0.2, 1] } }\n" +
+            ball_that("density = 500\n" + more, "[2, 0.5, 0]"),
+        "s.toml");
+    return setup::collider_speed(scene, "ball");
+  };
+  const double g = 9.81, freely = 10 * g, snow = std::sqrt(2 * g * 0.1);
+  EXPECT_NEAR(speed_with(""), freely, 1e-6);
+  EXPECT_NEAR(speed_with("hold = [\"x\", \"z\"]"), freely, 1e-6);
+  EXPECT_NEAR(speed_with("hold = [\"x\", \"y\", \"z\"]\nangular_velocity = [0, 1, 0]"), snow, 0.1);
+  EXPECT_NEAR(speed_with("joint = \"slider\"\njoint_axis = [0, 1, 0]"), freely, 1e-6);
+  EXPECT_NEAR(speed_with("joint = \"slider\"\njoint_axis = [1, 0, 0]"), snow, 0.1);
+  // 2.09 kg on 500 N/m sink by 4 cm and as much again; 50 cm off, the spring gives them its energy.
+  const std::string spring = "spring_stiffness = 500\n";
+  EXPECT_LT(speed_with(spring + "spring_place = [2, 0.5, 0]"), 3);
+  EXPECT_NEAR(speed_with(spring + "spring_place = [2, 1, 0]"), 0.5 * std::sqrt(500 / 2.094), 0.5);
+}
+
 double share_of_picture(const scene::CameraSettings& camera, double aspect, const Vec3d& point) {
   const Vec3d forward = (*camera.target - *camera.eye).normalized();
   const Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);

@@ -65,8 +65,8 @@ inline constexpr Folder folders[] = {
      "sim/base sim/types sim sim/checks render/image app/support app/scene/toml app/scene "
      "app/output sim/shapes sim/rigid"},
     {"app/setup",
-     "sim/base sim/types sim/shapes sim/seeding sim/kernels sim/laws sim/health sim app/support "
-     "app/scene/toml app/advice app/scene app/output"},
+     "sim/base sim/types sim/shapes sim/rigid sim/seeding sim/kernels sim/laws sim/health sim "
+     "app/support app/scene/toml app/advice app/scene app/output"},
     {"app/options",
      "render/gl app/support app/scene/toml app/advice app/scene app/output app/setup"},
     {"app/forecast",
