@@ -188,9 +188,10 @@ Check examine(const scene::Scene& given, const setup::Plan& plan, int threads, d
     check.findings.push_back(
         {Severity::note, "",
          "too large for a check of its particles: overlaps, dt and time per step are not known",
-         is_too_large(scene) ? "lengths in metres make it smaller"
-                             : "try neve check with --coarsen " +
-                                   fixed_text(std::ceil(coarsening * std::cbrt(excess)), 0)});
+         setup::is_too_large(scene)
+             ? "lengths in metres make it smaller"
+             : "try neve check with --coarsen " +
+                   fixed_text(std::ceil(coarsening * std::cbrt(excess)), 0)});
   }
   check.foreseen =
       forecast::foresee(scene, check.plan.particles, scene::last_frame(scene), coarse_budget);

@@ -138,14 +138,20 @@ Hypothesis begins_dense(const Case& c) {
 
 Hypothesis units(const Case& c) {
   const double g = c.scene.solver.gravity.norm(), largest = setup::largest_extent(c.scene);
-  if (g <= cause(Law::gravity) && largest <= cause(Law::extent)) return std::nullopt;
+  const bool is_strong = g > cause(Law::gravity), is_large = setup::is_too_large(c.scene);
+  if (!is_strong && !is_large) return std::nullopt;
+  const std::string gravity = fmt::format("gravity of {} m/s2", rough_text(g)),
+                    body = fmt::format("a body {} m across", rough_text(largest));
   return Diagnosis{
       Cause::units,
-      fmt::format("gravity of {} m/s2 and a body {} m across look like centimetres; "
-                  "snow hits something at {} m/s, its sound runs at {} m/s",
-                  rough_text(g), rough_text(largest), rough_text(setup::impact_speed(c.scene)),
-                  rough_text(c.start_sound())),
-      "write lengths in metres, gravity as 9.81 m/s2", "solver.gravity"};
+      fmt::format("{} like centimetres; snow hits something at {} m/s, its sound runs at {} m/s",
+                  is_strong && is_large ? gravity + " and " + body + " look"
+                                        : (is_strong ? gravity : body) + " looks",
+                  rough_text(setup::impact_speed(c.scene)), rough_text(c.start_sound())),
+      is_strong && is_large ? "write lengths in metres, gravity as 9.81 m/s2"
+      : is_strong           ? "write gravity as 9.81 m/s2"
+                            : "write lengths in metres",
+      is_strong ? "solver.gravity" : setup::snow_places(c.scene).front().address + ".shape"};
 }
 
 Hypothesis raised_limits(const Case& c) {

@@ -306,15 +306,6 @@ double thickness(const sim::shapes::Shape& shape) {
   return extent(level).minCoeff();
 }
 
-bool is_too_large(const scene::Scene& scene) {
-  // Maps are in metres.
-  const auto is_terrain = [](const sim::shapes::Collider& collider) {
-    return std::holds_alternative<sim::shapes::Terrain>(collider.shape.form);
-  };
-  if (std::any_of(scene.colliders.begin(), scene.colliders.end(), is_terrain)) return false;
-  return setup::largest_extent(scene) > line(Law::extent);
-}
-
 void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening) {
   const std::vector<setup::SnowPiece> pieces = setup::snow_places(scene);
   for (const sim::Material& material : scene.materials) {
@@ -343,7 +334,7 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
                                     rough_text(g), rough_text(g / 9.81)),
                         "981 would be cm/s2; lengths are in metres"});
   const double largest = setup::largest_extent(scene), cells = scene.solver.cell_size / coarsening;
-  if (!is_too_large(scene)) return;
+  if (!setup::is_too_large(scene)) return;
   // With fewer cells than this across the snow, cell_size is in the same wrong unit.
   constexpr double few = 200;
   std::string hint = fmt::format("lengths are in metres: in centimetres it would be {} m",

@@ -27,9 +27,6 @@ inline constexpr double max_useful_per_cell = 40;
 /// The thinnest part of a shape, m.
 double thickness(const sim::shapes::Shape& shape);
 
-/// True of snow whose size suggests that its lengths are no metres.
-bool is_too_large(const scene::Scene& scene);
-
 /// Numbers that look like centimetres, grams or kilopascals, and those of a material of nothing.
 /// @param coarsening the N of --coarsen, for advice
 void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening = 1);

@@ -229,7 +229,7 @@ void check_slowness(const scene::Scene& scene, const Check& check, std::vector<F
   } else if (!check.foreseen.ignored.empty()) {
     // A finding of its own says so: snow that bursts has no usual steps.
   } else if (work >= very_long && check.plan.particles >= min_work_of_step) {
-    if (!is_too_large(scene))
+    if (!setup::is_too_large(scene))
       note("solver.cell_size",
            fmt::format("about {} steps of {} particles are a long run", about_count_text(steps),
                        about_count_text(check.plan.particles)),

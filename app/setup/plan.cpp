@@ -19,7 +19,6 @@
 #include "app/support/round_number.h"
 #include "app/support/text.h"
 #include "sim/dust_cost.h"
-#include "sim/health/limits.h"
 #include "sim/shapes/deforming_field.h"
 #include "sim/shapes/distance_field.h"
 #include "sim/shapes/height_field.h"
@@ -115,7 +114,7 @@ std::string size_advice(const scene::Scene& scene, const Plan& plan, const std::
                         double excess, double coarsening) {
   const std::string fitting = fitting_cells(scene, excess, coarsening);
   const double largest = largest_extent(scene);
-  if (largest > sim::health::limits_of(sim::health::Law::extent).check_warning)
+  if (is_too_large(scene))
     return "the largest piece of snow is " + rough_text(largest) +
            " m across: lengths are in metres, and in centimetres it would be " +
            rough_text(0.01 * largest) + " m. If metres are right, " + fitting;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/setup/seed_scene.h"
+#include "sim/health/limits.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::app::setup {
@@ -60,6 +61,15 @@ double largest_extent(const scene::Scene& scene) {
     largest = std::max(largest, (box.max - box.min).maxCoeff());
   }
   return largest;
+}
+
+bool is_too_large(const scene::Scene& scene) {
+  // Maps are in metres.
+  const auto is_terrain = [](const sim::shapes::Collider& collider) {
+    return std::holds_alternative<sim::shapes::Terrain>(collider.shape.form);
+  };
+  return !std::ranges::any_of(scene.colliders, is_terrain) &&
+         largest_extent(scene) > sim::health::limits_of(sim::health::Law::extent).check_warning;
 }
 
 double speed_of_spin(const SnowPiece& piece) {

@@ -31,6 +31,8 @@ double speed_of_spin(const SnowPiece& piece);
 
 /// The longest edge of the boxes around bodies and emitters, m.
 double largest_extent(const scene::Scene& scene);
+/// True of snow whose size suggests that its lengths are no metres; on terrain they are.
+bool is_too_large(const scene::Scene& scene);
 
 /// Particles of all emitters until a time, s.
 double planned_emission(const scene::Scene& scene, double time);

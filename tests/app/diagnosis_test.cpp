@@ -223,6 +223,29 @@ TEST(Diagnosis, DiagnosisNamesTheCauseOfEachFault) {
   }
 }
 
+/// Only the number that looks like centimetres is named, and not the other one beside it.
+TEST(Diagnosis, UnitsAreNamedByTheNumberThatIsStrange) {
+  const auto evidence = [](const std::vector<std::string>& changes) {
+    sim::Divergence divergence;
+    divergence.rule = "not_finite";
+    const app::scene::Scene scene =
+        app::scene::read_scene_text(base, "fault.toml", {}, app::scene::parse_overrides(changes));
+    const app::health::Diagnosis diagnosis = app::health::diagnose(scene, divergence);
+    return diagnosis.address + ": " + diagnosis.evidence;
+  };
+  const std::string strong = evidence({"solver.gravity=[0,-981,0]"}),
+                    large = evidence({"body.ball.shape.sphere.radius=16"}),
+                    both =
+                        evidence({"solver.gravity=[0,-981,0]", "body.ball.shape.sphere.radius=16"});
+  EXPECT_TRUE(strong.starts_with("solver.gravity: gravity of 981 m/s2 looks like centimetres"))
+      << strong;
+  EXPECT_TRUE(large.starts_with("body.ball.shape: a body 32 m across looks like centimetres"))
+      << large;
+  EXPECT_TRUE(both.starts_with(
+      "solver.gravity: gravity of 981 m/s2 and a body 32 m across look like centimetres"))
+      << both;
+}
+
 /// States that no scene can ask for, as from a damaged file.
 TEST(Diagnosis, DiagnosisNamesFaultsBeforeTheFirstStep) {
   const app::scene::Scene scene = app::scene::read_scene_text(base, "fault.toml");

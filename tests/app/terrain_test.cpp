@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <variant>
 
+#include "app/health/diagnosis.h"
 #include "app/picture/collider_looks.h"
 #include "app/picture/snow_volume.h"
 #include "app/scene/read.h"
+#include "app/setup/plan.h"
 #include "sim/shapes/solid.h"
 #include "tests/support/height_files.h"
 #include "tests/support/temporary_folder.h"
@@ -119,6 +123,34 @@ TEST_F(TerrainScene, IsDrawnOnItsSurfaceWithTheNormalsOfContact) {
     }
   }
   EXPECT_EQ(on_surface, 8u * 6 * 5);
+}
+
+/// Maps are in metres: large snow on them is no mistake of units, wherever advice is given.
+TEST_F(TerrainScene, LargeSnowOnAMapIsNotTakenForCentimetres) {
+  scene::Scene scene = read("file = \"hills.asc\"");
+  std::get<sim::shapes::Cover>(scene.bodies[0].shape.form).radius = 100;
+  sim::seeding::Body ball = scene.bodies[0];
+  ball.name = "ball";
+  ball.shape = {};
+  ball.shape.form = sim::shapes::Sphere{.radius = 30};
+  scene.bodies = {ball};
+  scene.solver.cell_size = 2;
+  scene.limits.particles = 10;
+  const auto told = [&] {
+    try {
+      setup::check_limits(scene, setup::make_plan(scene, {0, 1}, setup::Quality::draft, 1), 1);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  sim::Divergence divergence;
+  divergence.rule = "not_finite";
+  EXPECT_NE(told().find("raise it"), std::string::npos) << told();
+  EXPECT_NE(health::diagnose(scene, divergence).cause, health::Cause::units);
+  scene.colliders.clear();
+  EXPECT_NE(told().find("in centimetres it would be 0.6 m"), std::string::npos) << told();
+  EXPECT_EQ(health::diagnose(scene, divergence).cause, health::Cause::units);
 }
 
 TEST_F(TerrainScene, BelongsToTheGround) {
