@@ -34,6 +34,14 @@ std::vector<std::string> addresses_of(const ParamInfo& info, const toml::Table& 
   return addresses;
 }
 
+void add_addresses(const toml::Table& table, const std::string& before, Path& addresses) {
+  for (const toml::Entry& entry : table.entries) {
+    addresses.push_back(before + entry.key);
+    if (const auto* members = std::get_if<toml::Table>(&entry.value.data))
+      add_addresses(*members, before + entry.key + ".", addresses);
+  }
+}
+
 /// body.bull.velocity: the kind exists, the name does not.
 void refuse_unknown_name(const Override& change, const toml::Table& root) {
   const Path path = words_of(change.address);
@@ -309,7 +317,13 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& arguments)
 
 std::vector<std::string> addresses_of(const std::vector<Override>& changes) {
   std::vector<std::string> addresses;
-  for (const Override& change : changes) addresses.push_back(change.address);
+  for (const Override& change : changes) {
+    addresses.push_back(change.address);
+    if (!change.value.starts_with("{")) continue;
+    const toml::Value value = value_of(change, "table");
+    if (const auto* table = std::get_if<toml::Table>(&value.data))
+      add_addresses(*table, change.address + ".", addresses);
+  }
   return addresses;
 }
 

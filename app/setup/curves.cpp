@@ -97,11 +97,9 @@ std::vector<int> few_of(const scene::Scene& scene, const std::vector<int>& all) 
 
 /// True for a change of the address, and of a table around it that has a value there.
 bool sets(const scene::Override& change, const std::string& address) {
-  if (change.address == address) return true;
-  if (!address.starts_with(change.address + ".") || !change.value.starts_with("{")) return false;
-  const scene::toml::Value table = scene::value_of(change, "table");
-  const auto* members = std::get_if<scene::toml::Table>(&table.data);
-  return members && scene::value_at(*members, address.substr(change.address.size() + 1));
+  if (!address.starts_with(change.address)) return false;
+  const std::vector<std::string> all = scene::addresses_of({change});
+  return std::ranges::find(all, address) != all.end();
 }
 
 }  // namespace

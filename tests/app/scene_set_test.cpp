@@ -75,6 +75,15 @@ TEST(Set, SettingTakesWholeTables) {
   EXPECT_EQ(scene.camera->eye->z(), 2);
 }
 
+TEST(Set, ATableSetsAllThatIsInIt) {
+  EXPECT_EQ(addresses_of(
+                parse_overrides({"fps=12", "solver={ cfl = 0.3, period = [0, 0, 0] }",
+                                 "material.snow={ variation = { size = 0.1 } }", "camera=none"})),
+            (std::vector<std::string>{"fps", "solver", "solver.cfl", "solver.period",
+                                      "material.snow", "material.snow.variation",
+                                      "material.snow.variation.size", "camera"}));
+}
+
 TEST(Set, SettingReadsBareWordsAsStrings) {
   EXPECT_EQ(set({"solver.kernel=quadratic"}).solver.kernel, sim::Kernel::quadratic);
   EXPECT_EQ(set({"title=Boule de névé # 2"}).title, "Boule de névé # 2");

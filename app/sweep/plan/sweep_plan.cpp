@@ -175,7 +175,8 @@ forecast::FastLook take_fast_look(const SweepOptions& options, const scene::Scen
     for (const read::Axis::Parameter& parameter : axis.parameters)
       chosen.push_back(parameter.address);
   for (const Run& row : sweep.rows)
-    for (const scene::Override& setting : row.settings) chosen.push_back(setting.address);
+    for (std::string& address : scene::addresses_of(row.settings))
+      chosen.push_back(std::move(address));
   const forecast::FastLook look = forecast::fast_look(base, frames_of(options, sweep, base).last,
                                                       chosen, options.coarsening.value_or(1));
   for (const std::string& change : look.overrides)
