@@ -9,6 +9,8 @@
 #include "app/health/findings.h"
 #include "app/health/places.h"
 #include "app/scene/coarsen.h"
+#include "app/setup/auto_ranges.h"
+#include "app/setup/curves.h"
 #include "app/support/text.h"
 #include "sim/rigid/mass.h"
 #include "sim/rigid/rigid_bodies.h"
@@ -193,7 +195,8 @@ void check_fall(const scene::Scene& scene, const Collider& body,
 }
 
 void check_rest(const scene::Scene& scene, const Collider& body, std::vector<Finding>& findings) {
-  const bool is_pulled = scene.solver.gravity.norm() > 0 || body.body.spring_stiffness > 0;
+  const bool is_pulled = setup::largest_gravity(scene) > 0 || body.body.spring_stiffness > 0 ||
+                         setup::curve_of(scene, address_of(body) + ".spring_stiffness");
   if (is_pulled || !body.velocity.isZero(0) || !body.angular_velocity.isZero(0)) return;
   findings.push_back({Severity::note, address_of(body),
                       fmt::format("solver.gravity is 0: {} rests until snow hits it",

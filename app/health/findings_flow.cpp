@@ -9,6 +9,7 @@
 
 #include "app/health/findings.h"
 #include "app/scene/coarsen.h"
+#include "app/setup/curves.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/text.h"
 #include "sim/laws/law.h"
@@ -19,12 +20,21 @@ namespace neve::app::health {
 
 namespace {
 
+/// kg/s, of sim::seeding, at the moment when gravity, which may follow a curve, carries away most.
+double largest_natural_rate(const scene::Scene& scene, const sim::seeding::Emitter& emitter) {
+  const sim::Material& material = scene.materials[setup::material_index(scene, emitter.material)];
+  double largest = 0;
+  for (const int frame : setup::telling_frames(scene))
+    largest = std::max(
+        largest, natural_rate(emitter, material, setup::with_curves(scene, frame).solver.gravity));
+  return largest;
+}
+
 /// What withholds snow however much room there is; nothing where the rate is not too large.
 std::optional<std::string> rate_problem(const scene::Scene& scene,
                                         const sim::seeding::Emitter& emitter) {
   const sim::Material& material = scene.materials[setup::material_index(scene, emitter.material)];
-  const sim::Vec3d& gravity = scene.solver.gravity;
-  const double natural = natural_rate(emitter, material, gravity);
+  const double natural = largest_natural_rate(scene, emitter);
   if (!sim::seeding::exceeds(emitter.rate, natural)) return std::nullopt;
   if (natural == 0)
     return "new snow is at rest, and gravity does not move it away: it fills the emitter once";
@@ -74,7 +84,7 @@ void check_opening(const scene::Scene& scene, const sim::seeding::Emitter& emitt
              "a rate of {} kg/s, a longer time, or smaller particles ({})",
              rough_text(emitter.rate * of_one / mass),
              scene::setting_text("solver.cell_size", h * std::cbrt(mass / of_one), coarsening))});
-  const double natural = natural_rate(emitter, material, scene.solver.gravity);
+  const double natural = largest_natural_rate(scene, emitter);
   const double carried = natural > 0 ? natural * (last - emitter.start)
                                      : density_at_birth(emitter, material) * volume(emitter.shape);
   if (mass < carried + of_one) return;
@@ -90,7 +100,7 @@ std::optional<Clogging> clogging(const scene::Scene& scene, const std::string& e
   const sim::seeding::Emitter* e = find_emitter(scene, emitter);
   if (!e) return std::nullopt;
   const sim::Material& material = scene.materials[setup::material_index(scene, e->material)];
-  const double natural = natural_rate(*e, material, scene.solver.gravity);
+  const double natural = largest_natural_rate(scene, *e);
   constexpr double notable = 0.02;
   if (const auto problem = rate_problem(scene, *e);
       problem && share < 1 - natural / e->rate + notable)

@@ -115,7 +115,10 @@ void check_snow_in_views(const scene::Scene& scene, std::vector<Finding>& findin
   for (const sim::seeding::Body& body : scene.bodies) all.add(sim::shapes::bounds(body.shape));
   // Snow that falls or flies across a plane may come to it.
   const auto stays = [&](const sim::Vec3d& normal) {
-    double across = std::abs(scene.solver.gravity.dot(normal));
+    double across = 0;
+    for (const int frame : setup::telling_frames(scene))
+      across =
+          std::max(across, std::abs(setup::with_curves(scene, frame).solver.gravity.dot(normal)));
     for (const sim::seeding::Body& body : scene.bodies)
       across += std::abs(body.velocity.dot(normal));
     return across < 1e-9;
@@ -214,6 +217,7 @@ std::optional<Idle> idle_in_transfer(const scene::Scene& scene, const std::strin
 std::optional<Idle> idle_in_solver(const scene::Scene& scene, const std::string& key) {
   const sim::SolverSettings& s = scene.solver;
   const bool is_fixed = s.time_step == sim::TimeStep::fixed,
+             is_implicit = s.is_implicit() || setup::curve_of(scene, "solver.beta"),
              is_asflip = s.transfer == sim::Transfer::asflip,
              is_aflip = s.transfer == sim::Transfer::aflip;
   if (key == "dt" && !is_fixed)
@@ -221,7 +225,7 @@ std::optional<Idle> idle_in_solver(const scene::Scene& scene, const std::string&
                 "set time_step = \"fixed\"; solver.max_dt limits adaptive steps"};
   // Explicit parts of a solve that is given up keep two of the limits.
   const bool is_limit = is_one_of(key, {"max_dt", "strain_limit"}) ||
-                        (is_one_of(key, {"cfl", "acoustic_cfl"}) && !s.is_implicit());
+                        (is_one_of(key, {"cfl", "acoustic_cfl"}) && !is_implicit);
   if (is_limit && is_fixed)
     return Idle{"it limits adaptive steps, and time_step = \"fixed\" takes dt",
                 "remove it, or set solver.time_step = \"adaptive\""};
@@ -235,9 +239,9 @@ std::optional<Idle> idle_in_solver(const scene::Scene& scene, const std::string&
       (s.transfer == sim::Transfer::apic || s.transfer == sim::Transfer::mls))
     return Idle{fmt::format("transfer = \"{}\" has no share of FLIP", scene::name(s.transfer)),
                 "remove it, or set solver.transfer = \"asflip\", \"aflip\" or \"flip\""};
-  if (is_one_of(key, {"solve_tolerance", "solve_iterations"}) && !s.is_implicit())
+  if (is_one_of(key, {"solve_tolerance", "solve_iterations"}) && !is_implicit)
     return Idle{"it is for semi-implicit steps", "remove it, or set solver.beta, as to 0.5"};
-  if (key == "collide_after_solve" && !(s.is_implicit() && s.contact_at == sim::ContactAt::nodes))
+  if (key == "collide_after_solve" && !(is_implicit && s.contact_at == sim::ContactAt::nodes))
     return Idle{"it is for semi-implicit steps with contact at nodes",
                 "solver.collide_after_solve = false"};
   return idle_in_transfer(scene, key);
@@ -278,7 +282,8 @@ std::optional<Idle> idle_in_material(const scene::Scene& scene, const sim::Mater
 }
 
 /// Of a collider whose other settings switch it off.
-std::optional<Idle> idle_in_collider(const scene::Collider& collider, const std::string& key) {
+std::optional<Idle> idle_in_collider(const scene::Scene& scene, const scene::Collider& collider,
+                                     const std::string& key) {
   using sim::shapes::Joint;
   const auto& body = collider.body;
   const bool has_axis = body.joint == Joint::hinge || body.joint == Joint::slider,
@@ -287,7 +292,11 @@ std::optional<Idle> idle_in_collider(const scene::Collider& collider, const std:
     return Idle{"only a hinge or a slider has an axis", "give joint = \"hinge\" or \"slider\""};
   if (key == "joint_point" && !has_point)
     return Idle{"only a hinge or a ball joint has a point", "give joint = \"hinge\" or \"ball\""};
-  if (key == "spring_place" && body.spring_stiffness == 0 && body.spring_damping == 0)
+  const auto stays_0 = [&](const char* name, double value) {
+    return stays(scene, "collider." + collider.name + "." + name, value, 0);
+  };
+  if (key == "spring_place" && stays_0("spring_stiffness", body.spring_stiffness) &&
+      stays_0("spring_damping", body.spring_damping))
     return Idle{"the spring has no stiffness", "give spring_stiffness, in N/m"};
   if (key == "friction" && collider.contact != sim::shapes::Contact::separate)
     return Idle{fmt::format("contact = \"{}\" has no friction", scene::name(collider.contact)),
@@ -314,7 +323,7 @@ std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& addres
       return idle_in_material(scene, m, key);
   for (const scene::Collider& collider : scene.colliders)
     if (const std::string key = key_in("collider." + collider.name + "."); !key.empty())
-      return idle_in_collider(collider, key);
+      return idle_in_collider(scene, collider, key);
   if (const std::string key = key_in("dust."); !key.empty()) return idle_in_dust(scene, key);
   return std::nullopt;
 }

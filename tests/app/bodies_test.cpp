@@ -401,6 +401,20 @@ shape = { box = { center = [0, 0.08, 0], size = [0.4, 0.16, 0.4] } }
   health::check_moving_bodies(weightless, setup::coarse_run(weightless), 1, findings);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].severity, health::Severity::note);
+  // A curve may give it gravity later, or a spring.
+  const auto curved = [](const std::string& parameter, const std::string& key) {
+    return "[[curve]]\nparameter = \"" + parameter + "\"\nkeyframes = [{ time = 0, " + key +
+           " }]\n";
+  };
+  for (const std::string& curve :
+       {curved("solver.gravity", "vector = [0, 0, 0] }, { time = 0.2, vector = [0, -9.81, 0]"),
+        curved("collider.ball.spring_stiffness", "value = 0 }, { time = 0.2, value = 500")}) {
+    scene::Scene pulled = scene_with_body(ball_that("density = 900") + curve);
+    pulled.solver.gravity.setZero();
+    findings.clear();
+    health::check_moving_bodies(pulled, {}, 1, findings);
+    EXPECT_TRUE(findings.empty()) << findings[0].what;
+  }
 }
 
 TEST(Bodies, MotionsThatAJointTakesAwayAreTold) {

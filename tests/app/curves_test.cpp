@@ -285,6 +285,14 @@ TEST(Curves, WithoutEffectAreTold) {
     EXPECT_NE(health::why_idle(still, std::string("collider.sign.") + key), "") << key;
   EXPECT_EQ(health::why_idle(still, "collider.sign.joint_axis"), "");
   EXPECT_EQ(health::why_idle(falling(curve("material.snow.dust")), "dust.speed"), "");
+  // A number that is 0 at first is not 0 for ever.
+  const std::string sprung =
+      "[[collider]]\nname = \"can\"\nshape = { sphere = { radius = 0.1 } }\ndensity = 300\n";
+  EXPECT_NE(health::why_idle(falling(sprung), "collider.can.spring_place"), "");
+  EXPECT_EQ(health::why_idle(falling(sprung + curve("collider.can.spring_stiffness")),
+                             "collider.can.spring_place"),
+            "");
+  EXPECT_EQ(health::why_idle(falling(curve("solver.beta")), "solver.solve_tolerance"), "");
 }
 
 /// Values without effect have none: the same bits.

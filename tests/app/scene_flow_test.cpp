@@ -293,6 +293,17 @@ TEST(SceneFlow, SnowBornAtRestHasToFallOut) {
             std::vector<std::string>{"emitter.spout.rate"});
 }
 
+/// Gravity that begins at 0 and grows carries snow away all the same.
+TEST(SceneFlow, GravityOfACurveCarriesSnowAway) {
+  std::string still = spout + "end = 0.5\n";
+  still.replace(still.find("velocity = [0, -2, 0]"), 21, "velocity = [0, 0, 0]");
+  still.replace(still.find("rate = 20"), 9, "rate = 5");
+  EXPECT_TRUE(findings_of("[[curve]]\nparameter = \"solver.gravity\"\nkeyframes = [{ time = 0, "
+                          "vector = [0, 0, 0] }, { time = 0.2, vector = [0, -9.81, 0] }]\n" +
+                          still)
+                  .empty());
+}
+
 TEST(SceneFlow, SinksThatSnowFliesThroughAreFound) {
   const auto found = [](double thick, double speed, const std::string& more) {
     std::vector<app::health::Finding> findings;
