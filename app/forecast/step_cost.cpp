@@ -61,9 +61,13 @@ StepTime measure_steps(sim::Simulation& simulation, double frame, const StepTimi
     // A solve that is given up is followed by many explicit steps.
     const auto taken =
         static_cast<double>(std::max<std::size_t>(1, simulation.steps() - steps_before));
-    if (k >= 2) seconds.push_back(seconds_since(before) / taken);
+    seconds.push_back(seconds_since(before) / taken);
     if (simulation.divergence() || is_interrupted()) break;
   }
+  // The first two warm caches up. Steps so long that there are no others tell the time all the
+  // same.
+  constexpr std::ptrdiff_t warming = 2;
+  if (std::ssize(seconds) > warming) seconds.erase(seconds.begin(), seconds.begin() + warming);
   time.seconds = median_of(std::move(seconds));
   return time;
 }

@@ -30,7 +30,7 @@ struct StepTiming {
   double seconds = 1;
 };
 
-/// Takes some steps after two that warm caches up.
+/// Takes some steps after two that warm caches up, which count where there is no time for more.
 /// @param frame  s, the longest step
 StepTime measure_steps(sim::Simulation& simulation, double frame, const StepTiming& timing = {});
 

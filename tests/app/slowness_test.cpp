@@ -173,6 +173,16 @@ TEST(Slowness, AStepOfManyPartsTakesTheTimeOfOnePartEach) {
   EXPECT_LT(time.seconds * static_cast<double>(simulation.steps()), 3 * all);
 }
 
+/// Steps of which a second has room for one or two tell their time, too.
+TEST(Slowness, AFewStepsTellTheirTime) {
+  const scene::Scene scene = scene::read_scene_text(slow_ball, "");
+  for (const int steps : {1, 2, 3}) {
+    sim::Simulation simulation =
+        setup::make_simulation(scene, setup::seed_scene(scene).particles, 1);
+    EXPECT_GT(forecast::measure_steps(simulation, 1 / scene.fps, {steps, 20}).seconds, 0) << steps;
+  }
+}
+
 /// Spray takes explicit steps off the grid. A solve has all snow on it, with a block for each
 /// particle here, so its steps cost many times as much, and a forecast that does not know so takes
 /// semi-implicit steps for the faster ones, as it did at impacts of 200 m/s.
