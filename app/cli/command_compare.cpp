@@ -36,12 +36,17 @@ render::Image read_picture(const std::string& file) {
 
 int compare_pictures(const CompareOptions& options) {
   const render::Image a = read_picture(options.pictures.a), b = read_picture(options.pictures.b);
-  if (a.width != b.width || a.height != b.height || a.channels != b.channels)
+  if (a.width != b.width || a.height != b.height)
     throw Error(exit_check_failed,
                 "the pictures have different sizes: " + std::to_string(a.width) + "x" +
                     std::to_string(a.height) + " and " + std::to_string(b.width) + "x" +
                     std::to_string(b.height),
                 options.pictures.b);
+  if (a.channels != b.channels)
+    throw Error(exit_check_failed,
+                fmt::format("{} has {} channels and {} has {}", options.pictures.a, a.channels,
+                            options.pictures.b, b.channels),
+                options.pictures.b, "draw both with the same output.background");
   const render::Difference difference = render::compare(a, b);
   const bool is_same =
       difference.mean <= options.threshold && difference.local <= options.local_threshold;

@@ -329,6 +329,22 @@ TEST_F(Compare, PicturesWithoutAStateAreShownBesideEachOtherOrWiped) {
   EXPECT_TRUE(contains(mass.errors, "hold no scene of neve")) << mass.errors;
 }
 
+TEST_F(Compare, PicturesOfOtherSizesOrChannelsAreToldApart) {
+  const auto write = [&](const char* file, int width, int channels) {
+    render::Image image{width, 48, channels, {}};
+    image.pixels.assign(static_cast<std::size_t>(width * 48 * channels), 90);
+    app::output::write_file(folder / file, render::encode_png(image));
+  };
+  write("p.png", 64, 3);
+  write("wide.png", 80, 3);
+  write("clear.png", 64, 4);
+  const auto wide = compare("p.png", "wide.png", {}), clear = compare("p.png", "clear.png", {});
+  EXPECT_EQ(wide.exit_code, 9) << wide.errors;
+  EXPECT_TRUE(contains(wide.errors, "different sizes: 64x48 and 80x48")) << wide.errors;
+  EXPECT_EQ(clear.exit_code, 9) << clear.errors;
+  EXPECT_TRUE(contains(clear.errors, "p.png has 3 channels and clear.png has 4")) << clear.errors;
+}
+
 TEST_F(Compare, RunsOfASweepAreNamedByTheirFolders) {
   const auto sweep =
       neve({"sweep", "scene.toml", "-p", "material.snow.hardening=5,10", "--out", "study.cdb"});
