@@ -195,6 +195,7 @@ void Held::add_joint(std::vector<Row>& rows) const {
 
 Held::Speeds Held::allowed(const Speeds& given, const Mat3d& inertia) const {
   const std::vector<Row> held = rows();
+  if (held.empty()) return given;  // a spring or a damper alone
   const auto count = static_cast<Eigen::Index>(held.size());
   // Of a row, and of what an impulse along it gives; a row may repeat others.
   Eigen::MatrixXd row(count, 6), given_by(6, count);

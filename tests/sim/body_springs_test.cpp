@@ -186,6 +186,30 @@ TEST(BodySprings, SpringsAreStableForAnySteps) {
   EXPECT_NEAR(most, 1, 1e-3);
 }
 
+/// Nothing holds a body that has a spring or a damper alone: it begins as the scene says, and may
+/// get either during a run.
+TEST(BodySprings, ABodyThatOnlyASpringHoldsBegins) {
+  SolverSettings settings;
+  settings.gravity.setZero();
+  for (const auto& [stiffness, damping] : {std::pair{100.0, 0.0}, {0.0, 5.0}, {100.0, 5.0}}) {
+    shapes::Collider ball = ball_of(700, {0, 0.6, 0}, 0.1, {1, 0, 0});
+    ball.angular_velocity = {0, 2, 0};
+    Simulation plain(settings, {Material{}}, {ball}, {});
+    ball.body.spring_place = {0, 0.6, 0};
+    ball.body.spring_stiffness = stiffness;
+    ball.body.spring_damping = damping;
+    Simulation simulation(settings, {Material{}}, {ball}, {});
+    EXPECT_EQ(motion_of(simulation, 0).velocity, Vec3d(1, 0, 0));
+    EXPECT_EQ(motion_of(simulation, 0).angular_velocity, Vec3d(0, 2, 0));
+    plain.apply(settings, {Material{}}, {ball});
+    for (Simulation* each : {&simulation, &plain}) {
+      for (int k = 0; k < 10; ++k) each->step(1e-3);
+      EXPECT_LT(motion_of(*each, 0).velocity.x(), 1 - 1e-4);
+    }
+    EXPECT_EQ(simulation.state_hash(), plain.state_hash());
+  }
+}
+
 /// A spring presses its body on a floor with the force that it has there, and the body stays.
 TEST(BodySprings, ASpringPressesOnTheFloor) {
   shapes::Collider box = box_of(700, {0, 0.1, 0}, {0.2, 0.2, 0.2});
