@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sim/files/mesh_reader.h"
+#include "sim/shapes/mesh_edges.h"
 #include "sim/shapes/numbered_files.h"
 #include "sim/types/number_text.h"
 
@@ -72,6 +73,24 @@ void require_same_topology(const files::PolygonMesh& first, const std::string& f
                      "topology" + advice + " (" + count(first.polygons.size(), " faces)"));
 }
 
+/// For each vertex the first that it coincides with in every file: what only touches in one of
+/// them comes apart in others. Most meshes have none, and are not read again for it.
+std::vector<std::uint32_t> together_in_all(const files::PolygonMesh& first,
+                                           const std::vector<std::string>& paths) {
+  std::vector<std::uint32_t> together = coinciding(first.vertices);
+  const auto any = [&] {
+    for (std::size_t v = 0; v < together.size(); ++v)
+      if (together[v] != v) return true;
+    return false;
+  };
+  for (std::size_t k = 1; k < paths.size() && any(); ++k) {
+    const files::PolygonMesh mesh = files::read_mesh(paths[k]);
+    require_same_topology(first, paths.front(), mesh, paths[k]);
+    together = coinciding(mesh.vertices, together);
+  }
+  return together;
+}
+
 /// Vertices that triangles have, in the order of the file; the triangles count these alone then.
 std::vector<std::uint32_t> keep_used(std::size_t count, std::vector<Triangle>& triangles) {
   constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
@@ -131,7 +150,8 @@ DeformingMesh::DeformingMesh(const MeshSequence& sequence)
   const std::vector<std::string> paths = files_of(sequence);
   require_files(sequence, paths);
   const files::PolygonMesh first = files::read_mesh(paths.front());
-  const SolidMesh closed = solid_mesh(first, paths.front(), Fill::closed);
+  const SolidMesh closed =
+      solid_mesh(first, paths.front(), Fill::closed, together_in_all(first, paths));
   require_faces(closed, paths.front());
   reading_ = closed.reading;
   triangles_ = scaled(closed, sequence.scale, paths.front()).triangles;

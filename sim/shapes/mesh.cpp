@@ -85,7 +85,12 @@ Bounds bounds_of(const SolidMesh& mesh, const Mat3d& rotation) {
 }
 
 SolidMesh solid_mesh(const files::PolygonMesh& mesh, const std::string& name, Fill fill) {
-  MeshEdges edges = find_edges(mesh, name);
+  return solid_mesh(mesh, name, fill, coinciding(mesh.vertices));
+}
+
+SolidMesh solid_mesh(const files::PolygonMesh& mesh, const std::string& name, Fill fill,
+                     std::vector<std::uint32_t> together) {
+  MeshEdges edges = find_edges(mesh, name, std::move(together));
   const bool is_open = !edges.defect.empty();
   if (is_open && (fill == Fill::closed || fill == Fill::even_odd))
     throw ShapeError(edges.defect + ", or fill what it nearly encloses: fill = \"winding\"");

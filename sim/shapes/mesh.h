@@ -76,6 +76,9 @@ Bounds bounds_of(const SolidMesh& mesh, const Mat3d& rotation = Mat3d::Identity(
 ///         0 within rounding
 SolidMesh solid_mesh(const files::PolygonMesh& mesh, const std::string& name,
                      Fill fill = Fill::automatic);
+/// @param together  for each vertex the first of those that it may be one with: see mesh_edges.h
+SolidMesh solid_mesh(const files::PolygonMesh& mesh, const std::string& name, Fill fill,
+                     std::vector<std::uint32_t> together);
 
 /// The mesh in metres. @param scale metres per unit of the file
 /// @throws ShapeError for a scale that is no number above 0, or makes the mesh larger than numbers

@@ -26,21 +26,6 @@ std::vector<Corner> every_vertex(const files::PolygonMesh& mesh) {
   return vertex;
 }
 
-/// For every vertex the first one at the same position.
-std::vector<Corner> weld(const std::vector<Vec3d>& vertices) {
-  std::vector<Corner> order(vertices.size()), representative(vertices.size());
-  std::iota(order.begin(), order.end(), Corner{0});
-  const auto key = [&](Corner c) {
-    return std::tuple(vertices[c].x(), vertices[c].y(), vertices[c].z(), c);
-  };
-  std::sort(order.begin(), order.end(), [&](Corner a, Corner b) { return key(a) < key(b); });
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool is_same = k > 0 && vertices[order[k]] == vertices[order[k - 1]];
-    representative[order[k]] = is_same ? representative[order[k - 1]] : order[k];
-  }
-  return representative;
-}
-
 /// Side of a polygon, from the vertex of the lower number to the higher or the other way round.
 struct Edge {
   Corner low, high;
@@ -277,6 +262,23 @@ std::size_t weld_near(const files::PolygonMesh& mesh, const MeshEdges& open,
 
 }  // namespace
 
+std::vector<std::uint32_t> coinciding(const std::vector<Vec3d>& vertices,
+                                      const std::vector<std::uint32_t>& among) {
+  std::vector<Corner> order(vertices.size()), representative(vertices.size());
+  std::iota(order.begin(), order.end(), Corner{0});
+  const auto set_of = [&](Corner c) { return among.empty() ? Corner{0} : among[c]; };
+  const auto key = [&](Corner c) {
+    return std::tuple(set_of(c), vertices[c].x(), vertices[c].y(), vertices[c].z(), c);
+  };
+  std::sort(order.begin(), order.end(), [&](Corner a, Corner b) { return key(a) < key(b); });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool is_same = k > 0 && set_of(order[k]) == set_of(order[k - 1]) &&
+                         vertices[order[k]] == vertices[order[k - 1]];
+    representative[order[k]] = is_same ? representative[order[k - 1]] : order[k];
+  }
+  return representative;
+}
+
 void merged_corners(const files::PolygonMesh& mesh, const std::vector<std::uint32_t>& vertex,
                     std::size_t polygon, std::vector<std::uint32_t>& corners) {
   corners.clear();
@@ -287,8 +289,9 @@ void merged_corners(const files::PolygonMesh& mesh, const std::vector<std::uint3
   while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
 }
 
-MeshEdges find_edges(const files::PolygonMesh& mesh, const std::string& name) {
-  Attempt welded = attempt(mesh, name, weld(mesh.vertices));
+MeshEdges find_edges(const files::PolygonMesh& mesh, const std::string& name,
+                     std::vector<std::uint32_t> together) {
+  Attempt welded = attempt(mesh, name, std::move(together));
   if (welded.is_manifold) return std::move(welded.edges);
   if (Attempt as_written = attempt(mesh, name, every_vertex(mesh)); as_written.is_manifold)
     return std::move(as_written.edges);

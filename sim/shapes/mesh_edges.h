@@ -21,12 +21,19 @@ struct MeshEdges {
   std::vector<std::array<std::uint32_t, 2>> open_edges;  ///< vertices
 };
 
+/// For every vertex the first one at the same position.
+/// @param among  only vertices with the same number here are compared; empty: all
+std::vector<std::uint32_t> coinciding(const std::vector<Vec3d>& vertices,
+                                      const std::vector<std::uint32_t>& among = {});
+
 /// Vertices at one position are one where that closes the mesh, those of the file where their
 /// indices close it, so that parts which touch stay apart; vertices on open edges that nearly
 /// coincide are one where neither does. A mesh is closed if as many faces run along each edge one
 /// way as the other way, once faces are turned to agree with their neighbours.
 /// @param name of the mesh in messages
-MeshEdges find_edges(const files::PolygonMesh& mesh, const std::string& name);
+/// @param together  the vertices at one position, as coinciding() has them
+MeshEdges find_edges(const files::PolygonMesh& mesh, const std::string& name,
+                     std::vector<std::uint32_t> together);
 
 /// The corners of a polygon, of vertices that are one, without those that repeat their neighbour.
 void merged_corners(const files::PolygonMesh& mesh, const std::vector<std::uint32_t>& vertex,

@@ -133,6 +133,45 @@ TEST(DeformingMesh, WhatIsWrongWithNumberedFilesIsNamedWithFileAndLine) {
   has("expected one %d, %04d, #### or $F4");
 }
 
+/// Two tetrahedra that touch with their tips in one file and are apart in the next.
+TEST(DeformingMesh, WhatTouchesInOneFileIsNotGlued) {
+  const TemporaryFolder folder;
+  const auto tips = [](double way) {
+    std::ostringstream text;
+    for (const double side : {-1.0, 1.0}) {
+      const double shift = side > 0 ? way : 0;
+      for (const auto& [y, z] : {std::pair{-0.3, -0.3}, {0.3, -0.3}, {0.0, 0.3}})
+        text << "v " << 0.5 * side + shift << ' ' << y << ' ' << z << '\n';
+      text << "v " << shift << " 0 0\n";
+    }
+    return text.str() + "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
+  };
+  for (const int touching : {0, 1}) {
+    SCOPED_TRACE(touching);
+    const MeshSequence sequence =
+        test::written_sequence(folder, "tips" + std::to_string(touching), 2, 1,
+                               [&](int k) { return tips(k == touching ? 0 : 1); });
+    const DeformingMesh mesh(sequence);
+    EXPECT_EQ(mesh.mesh_at(0).vertices.size(), 8u);
+    for (const double time : {0.0, 0.5, 1.0})
+      EXPECT_NEAR(mesh.mesh_at(time).volume, 2 * 0.5 * 0.6 * 0.6 / 6, 1e-12) << time;
+  }
+  // Vertices of every face alone, which go together, are one.
+  const auto soup = [](double way) {
+    std::ostringstream text;
+    const double corners[4][3] = {{way, 0, 0}, {1 + way, 0, 0}, {way, 1, 0}, {way, 0, 1}};
+    const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    for (const auto& face : faces)
+      for (const int c : face)
+        text << "v " << corners[c][0] << ' ' << corners[c][1] << ' ' << corners[c][2] << '\n';
+    return text.str() + "f 1 2 3\nf 4 5 6\nf 7 8 9\nf 10 11 12\n";
+  };
+  const DeformingMesh mesh(
+      test::written_sequence(folder, "soup", 3, 1, [&](int k) { return soup(0.5 * k); }));
+  EXPECT_EQ(mesh.mesh_at(0).vertices.size(), 4u);
+  EXPECT_NEAR(mesh.mesh_at(1.5).volume, 1.0 / 6, 1e-12);
+}
+
 /// One place as kernels see it.
 struct Seen {
   double distance;
