@@ -71,6 +71,22 @@ bool is_in_lattice(const Vec3d& x, double cell_size) {
   return x.cwiseAbs().maxCoeff() / cell_size < 4.0 * kernels::block_limit;
 }
 
+/// Kernels count from the point of the pose, in single precision. Where that would show, as for a
+/// mesh whose file has the coordinates of a map, the middle of the field takes its place. A body
+/// keeps its own: moments of its contact are about it.
+void move_to_middle(const Mat3d& axes, double cell_size, shapes::Pose& pose,
+                    shapes::DistanceSamples& samples) {
+  constexpr double single = 0x1p-23, visible = 1e-3;  // of a cell
+  Vec3d middle;
+  for (int a = 0; a < 3; ++a)
+    middle[a] = samples.first[a] + 0.5 * samples.spacing * (samples.size[a] - 1);
+  if (single * middle.cwiseAbs().maxCoeff() < visible * cell_size) return;
+  const Vec3d way = axes * middle;
+  pose.point += way;
+  pose.velocity += pose.angular_velocity.cross(way);
+  for (int a = 0; a < 3; ++a) samples.first[a] -= middle[a];
+}
+
 /// The same plane by the point of its surface that is nearest to the origin.
 void move_to_foot(const shapes::Plane& plane, shapes::Pose& pose) {
   const Vec3d n = pose.rotation * plane.normal.normalized();
@@ -89,8 +105,10 @@ std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& c, doub
   if (const auto* plane = std::get_if<shapes::Plane>(&c.shape.form);
       plane && !is_in_lattice(pose.point, cell_size))
     move_to_foot(*plane, pose);
-  if (!is_in_lattice(pose.point, cell_size)) return std::nullopt;
   const Mat3d axes = pose.rotation * shapes::form_axes(c.shape);
+  shapes::DistanceSamples field = samples;
+  if (field.distance && !c.body.moves()) move_to_middle(axes, cell_size, pose, field);
+  if (!is_in_lattice(pose.point, cell_size)) return std::nullopt;
   kernels::ColliderPose out{};
   out.contact = static_cast<kernels::ContactLaw>(c.contact);
   out.friction = c.friction;
@@ -103,7 +121,7 @@ std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& c, doub
     out.omega[a] = pose.angular_velocity[a];
     for (int b = 0; b < 3; ++b) out.axes[3 * a + b] = axes(a, b);
   }
-  std::visit(SetForm{out, pose, samples, heights}, c.shape.form);
+  std::visit(SetForm{out, pose, field, heights}, c.shape.form);
   return out;
 }
 

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iomanip>
+#include <memory>
 #include <random>
+#include <sstream>
 #include <vector>
 
+#include "sim/shapes/distance_field.h"
 #include "sim/simulation.h"
 #include "sim/staged.h"
 #include "sim/state/kernel_pose.h"
@@ -105,6 +109,41 @@ TEST(ContactKernel, ContactKernelAgreesWithTheHostForEveryShape) {
     }
     EXPECT_GT(inside, 80);
   }
+}
+
+/// The same box at the origin of its file and 200 km from it, as of a map, taken home by its
+/// centre.
+TEST(ContactKernel, AMeshIsAsExactFarFromTheOriginOfItsFile) {
+  const test::TemporaryFolder folder;
+  ThreadPool pool(1);
+  std::vector<sim::kernels::ColliderPose> poses;
+  std::vector<std::shared_ptr<const sim::shapes::DistanceField>> fields;
+  std::vector<Vec3d> velocities;
+  const auto seen = [&](double away) {
+    std::ostringstream text;
+    for (int k = 0; k < 8; ++k)
+      text << "v " << std::setprecision(17) << away + (k & 1 ? 0.25 : -0.25) << ' '
+           << away + (k & 2 ? 0.5 : -0.5) << ' ' << away + (k & 4 ? 0.125 : -0.125) << '\n';
+    text << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    sim::shapes::Collider c;
+    const sim::shapes::Mesh mesh{
+        folder.write("box_" + std::to_string(away) + ".obj", text.str()).string()};
+    c.shape = {mesh, {20, -35, 50}};
+    const Vec3d way = rotation_from_degrees(c.shape.rotation) * Vec3d(away, away, away);
+    std::get<sim::shapes::Mesh>(c.shape.form).center = middle_of_shapes - way;
+    c.angular_velocity = {0.5, 1, -0.7};
+    c.velocity = -c.angular_velocity.cross(way);
+    fields.push_back(sim::shapes::distance_field(mesh, h, pool));
+    poses.push_back(*sim::engine::kernel_pose(c, 0, h, Vec3i::Zero(), fields.back()->samples()));
+    velocities.push_back(Vec3d::Map(poses.back().velocity));
+  };
+  seen(0);
+  seen(2e5);
+  for (const Vec3d& x : random_places(500, 0.6)) {
+    const Seen near = seen_by_kernel<float>(poses[0], x), far = seen_by_kernel<float>(poses[1], x);
+    EXPECT_NEAR(near.distance, far.distance, 2e-6);
+  }
+  EXPECT_LT((velocities[0] - velocities[1]).norm(), 1e-9);
 }
 
 TEST(ContactKernel, NormalIsTheGradientOfTheDistanceInside) {
