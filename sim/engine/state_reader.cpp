@@ -140,6 +140,13 @@ std::uint64_t StateReader<Real>::state_hash() const {
     hash = hash_bytes(p.F_E, sizeof p.F_E, hash);
     hash = hash_bytes(&p.J_P, sizeof p.J_P, hash);
     hash = hash_bytes(p.C, sizeof p.C, hash);
+    // Most particles have the numbers of the first material as they are.
+    if (p.stiffness != 1 || p.threshold != 1) {
+      const Real factors[] = {p.stiffness, p.threshold};
+      hash = hash_bytes(factors, sizeof factors, hash);
+    }
+    if (const auto material = p.material(); material != 0)
+      hash = hash_bytes(&material, sizeof material, hash);
     sum += mix64(static_cast<std::uint64_t>(p.id), hash);
   }
   const rigid::RigidBodies& bodies = state_.colliders.bodies();

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/checks/watch.h"
@@ -131,6 +132,26 @@ TEST(Variation, EveryLawOfAStepHolds) {
     }
     EXPECT_FALSE(watch.has_errors());
   }
+}
+
+/// Factors and materials are of the state, where they are not those that most snow has.
+TEST(Variation, TheHashOfAStateTellsFactorsAndMaterialsApart) {
+  const ParticleArrays plain = ball_of_snow({0, 0.2, 0}, 0.03, 0.01, Vec3d::Zero());
+  const auto hash = [](const ParticleArrays& p) {
+    return Simulation({}, {Material{}, Material{}}, {}, p, 1).state_hash();
+  };
+  ParticleArrays ones = plain, stiff = plain, strong = plain, other = plain;
+  ones.stiffness.assign(plain.x.size(), 1.0);
+  ones.threshold.assign(plain.x.size(), 1.0);
+  EXPECT_EQ(hash(ones), hash(plain));
+  stiff.stiffness = ones.stiffness, strong.threshold = ones.threshold;
+  stiff.stiffness[3] = strong.threshold[3] = 1.25;
+  other.material.assign(plain.x.size(), 0);
+  EXPECT_EQ(hash(other), hash(plain));
+  other.material[3] = 1;
+  std::vector<std::uint64_t> all{hash(plain), hash(stiff), hash(strong), hash(other)};
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(std::unique(all.begin(), all.end()), all.end());
 }
 
 TEST(Variation, VariationRefusesFactorsThatAreNotPositive) {
