@@ -15,10 +15,37 @@
 namespace neve::sim::shapes {
 namespace {
 
+/// Cells along each side of the cube around points, in bits; three of them fit into a key.
+constexpr int key_bits = 21;
+
+/// How far along the Hilbert curve of the cube a cell is: cells that follow each other are
+/// neighbours. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707 (2004) 381.
+std::uint64_t place_on_curve(std::array<std::uint32_t, 3> x) {
+  constexpr std::uint32_t top = 1u << (key_bits - 1);
+  for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+    const std::uint32_t below = bit - 1;
+    for (std::uint32_t& along : x) {
+      const std::uint32_t swapped = (x[0] ^ along) & below;
+      if ((along & bit) != 0)
+        x[0] ^= below;
+      else
+        x[0] ^= swapped, along ^= swapped;
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t turned = 0;
+  for (std::uint32_t bit = top; bit > 1; bit >>= 1)
+    if ((x[2] & bit) != 0) turned ^= bit - 1;
+  std::uint64_t place = 0;
+  for (int bit = key_bits - 1; bit >= 0; --bit)
+    for (const std::uint32_t along : x) place = place << 1 | ((along ^ turned) >> bit & 1);
+  return place;
+}
+
 template <class T>
-void thin(std::vector<T>& list, double thinning) {
+void keep(const std::vector<std::size_t>& kept, std::vector<T>& list) {
   if (list.empty()) return;
-  const std::vector<std::size_t> kept = kept_points(list.size(), thinning);
   for (std::size_t k = 0; k < kept.size(); ++k) list[k] = list[kept[k]];
   list.resize(kept.size());
 }
@@ -86,24 +113,41 @@ std::optional<SummaryKey> key_of(const Points& points, const Mat3d& rotation) {
 
 }  // namespace
 
-/// One of every `thinning`, evenly, at least one. Neighbours in a file tend to be neighbours in
-/// space, so the rest is spread evenly there too.
-std::vector<std::size_t> kept_points(std::size_t count, double thinning) {
-  std::vector<std::size_t> kept;
-  for (std::size_t p = 0; p < count; ++p) {
-    const double before = std::floor(static_cast<double>(p) / thinning);
-    if (std::floor(static_cast<double>(p + 1) / thinning) > before) kept.push_back(p);
+/// One of every `thinning` along a curve through space. Along the rows of the file it was one plane
+/// of a lattice, where the points of a row fit into that number.
+std::vector<std::size_t> kept_points(const std::vector<Vec3d>& x, double thinning) {
+  Bounds box;
+  for (const Vec3d& place : x) box.add(place);
+  const double size = (box.max - box.min).maxCoeff();
+  constexpr double last = (1u << key_bits) - 1;
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  order.reserve(x.size());
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    std::array<std::uint32_t, 3> cell{};
+    for (int a = 0; a < 3; ++a)
+      if (const double share = (x[p][a] - box.min[a]) / size; share > 0)
+        cell[static_cast<std::size_t>(a)] = static_cast<std::uint32_t>(last * std::min(share, 1.0));
+    order.emplace_back(place_on_curve(cell), p);
   }
-  if (kept.empty() && count > 0) kept.push_back(0);
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const double before = std::floor(static_cast<double>(k) / thinning);
+    if (std::floor(static_cast<double>(k + 1) / thinning) > before) kept.push_back(order[k].second);
+  }
+  if (kept.empty() && !x.empty()) kept.push_back(0);
+  std::sort(kept.begin(), kept.end());
   return kept;
 }
 
 std::vector<files::PointColumn> placed_columns(const Points& points,
                                                const std::vector<std::string>& names) {
-  std::vector<files::PointColumn> columns = files::read_points(points.file, names).further;
-  if (points.thinning != 1)
-    for (files::PointColumn& column : columns) thin(column.value, points.thinning);
-  return columns;
+  files::PointCloud cloud = files::read_points(points.file, names);
+  if (points.thinning != 1) {
+    const std::vector<std::size_t> kept = kept_points(cloud.x, points.thinning);
+    for (files::PointColumn& column : cloud.further) keep(kept, column.value);
+  }
+  return std::move(cloud.further);
 }
 
 std::vector<std::string> column_names(const Points& points) {
@@ -115,6 +159,8 @@ PlacedPoints::PlacedPoints(const Points& points)
 
 PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const std::string& name)
     : PointCloud(std::move(cloud)) {
+  std::vector<std::size_t> kept;  // by the numbers of the file, as for its further columns
+  if (points.thinning != 1) kept = kept_points(x, points.thinning);
   constexpr double furthest = 1e6;  // m, where single precision is 6 cm
   for (Vec3d& place : x) {
     place -= points.origin;
@@ -137,12 +183,9 @@ PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const 
   const double mass = sum(m);
   if (V.empty())
     for (const double packed : J_P) V.push_back(1 / packed);
-  thin(x, points.thinning);
-  thin(v, points.thinning);
-  thin(m, points.thinning);
-  thin(V, points.thinning);
-  for (std::vector<double>* list : {&J_P, &stiffness, &threshold}) thin(*list, points.thinning);
-  for (std::vector<Mat3d>* list : {&F_E, &C}) thin(*list, points.thinning);
+  for (std::vector<Vec3d>* list : {&x, &v}) keep(kept, *list);
+  for (std::vector<double>* list : {&m, &V, &J_P, &stiffness, &threshold}) keep(kept, *list);
+  for (std::vector<Mat3d>* list : {&F_E, &C}) keep(kept, *list);
   scale_to(mass, m);
   scale_to(V0, V);
 }

@@ -23,8 +23,10 @@ struct PlacedPoints : files::PointCloud {
   double expected_count = 0;  ///< points over thinning, which may be less than the one there is
 };
 
-/// Numbers, in the file, of the points that are left of a count after thinning.
-std::vector<std::size_t> kept_points(std::size_t count, double thinning);
+/// Numbers, in the file, of the points that are left after thinning, in its order: as even in space
+/// as the points are, in whatever order the file has them.
+/// @param x  m, as the file has them
+std::vector<std::size_t> kept_points(const std::vector<Vec3d>& x, double thinning);
 
 /// Columns of a body's file that mean nothing to neve, of the points that are left.
 /// @param names  those that the file does not have are left out

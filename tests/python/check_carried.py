@@ -60,8 +60,11 @@ def check(folder, number):
     npz = np.load(name.format("npz"))
     assert (npz["id"] == np.arange(len(npz["id"]))).all()
     balls = int((npz["body"] == 0).sum())
-    kept = [p for p in range(COUNT) if (p + 1) // THINNING > p // THINNING]
-    assert len(npz["id"]) == balls + COUNT + len(kept) and balls > 20
+    # Which points of the CSV are left; they fall, and keep their place along x and z.
+    kept = [int(np.flatnonzero(of_csv == value)[0]) for value in npz["weight"][balls + COUNT:]]
+    assert len(kept) == COUNT // THINNING and kept == sorted(set(kept)) and balls > 20
+    way = npz["x"][balls + COUNT:] - places([0.3, 0.1, 0])[kept]
+    assert abs(way[:, [0, 2]]).max() < 0.5 * SPACING, abs(way).max(axis=0)
     wanted = {}
     for what, kind in (("temperature", "f4"), ("weight", "f8"), ("brush", "i4"), ("mark", "i4")):
         of_thinned = of_csv[kept] if what == "weight" else np.zeros(len(kept))

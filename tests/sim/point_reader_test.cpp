@@ -1,6 +1,7 @@
 // Particles from PLY and CSV files, also from files that are none.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -389,6 +390,37 @@ TEST(Points, ThinnedPointsKeepMassAndVolume) {
     EXPECT_NEAR(kept_mass, mass, 1e-12 * mass);
     EXPECT_NEAR(kept_volume, volume, 1e-12 * volume);
   }
+}
+
+/// Of a lattice whose points the file has in order or shuffled: as many in every part of it.
+TEST(PlacedPoints, ThinPointsAreAsEvenInSpaceAsTheyWere) {
+  constexpr int side = 32;
+  std::vector<Vec3d> lattice;
+  for (int x = 0; x < side; ++x)
+    for (int y = 0; y < side; ++y)
+      for (int z = 0; z < side; ++z) lattice.emplace_back(x, y, z);
+  std::vector<Vec3d> shuffled = lattice;
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(3));
+  for (const std::vector<Vec3d>& x : {lattice, shuffled})
+    for (const double thinning : {2.0, 3.375, 8.0, 20.0, 64.0}) {
+      SCOPED_TRACE(thinning);
+      const std::vector<std::size_t> kept = sim::shapes::kept_points(x, thinning);
+      EXPECT_EQ(kept.size(), static_cast<std::size_t>(std::floor(32768 / thinning)));
+      EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+      // In cubes of 8 points a side, and in layers of 4 along each axis.
+      int in_cube[4][4][4] = {}, in_layer[3][side / 4] = {};
+      for (const std::size_t k : kept) {
+        const Eigen::Vector3i cell = x[k].cast<int>();
+        ++in_cube[cell[0] / 8][cell[1] / 8][cell[2] / 8];
+        for (int a = 0; a < 3; ++a) ++in_layer[a][cell[a] / 4];
+      }
+      for (const auto& slab : in_cube)
+        for (const auto& row : slab)
+          for (const int count : row) EXPECT_NEAR(count, 512 / thinning, 1);
+      const double whole_layer = 4 * side * side / thinning;
+      for (const auto& layers : in_layer)
+        for (const int count : layers) EXPECT_NEAR(count, whole_layer, 0.3 * whole_layer);
+    }
 }
 
 /// Snow that was packed by half in every second point: what it was before stays, however thin.
