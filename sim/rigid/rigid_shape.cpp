@@ -214,6 +214,35 @@ class Ground final : public RigidShape {
   btCompoundShape shape_;
 };
 
+/// Bullet adds the margin of a cone to it, that of other forms it keeps inside of them. Here it is
+/// added to a cone that lies so far inside.
+class InnerCone final : public btConeShape {
+ public:
+  BT_DECLARE_ALIGNED_ALLOCATOR();
+
+  InnerCone(double radius, double height, double margin)
+      : InnerCone(radius, height, margin, margin * std::hypot(radius, height) / radius) {}
+
+  btVector3 localGetSupportingVertex(const btVector3& along) const override {
+    return btConeShape::localGetSupportingVertex(along) + middle_;
+  }
+  btVector3 localGetSupportingVertexWithoutMargin(const btVector3& along) const override {
+    return btConeShape::localGetSupportingVertexWithoutMargin(along) + middle_;
+  }
+  void batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* along, btVector3* found,
+                                                         int count) const override {
+    for (int k = 0; k < count; ++k) found[k] = localGetSupportingVertexWithoutMargin(along[k]);
+  }
+
+ private:
+  /// @param from_apex  from the apex to that of the inner cone
+  InnerCone(double radius, double height, double margin, double from_apex)
+      : btConeShape(radius * (1 - (margin + from_apex) / height), height - margin - from_apex),
+        middle_(0, 0.5 * (margin - from_apex), 0) {}
+
+  const btVector3 middle_;
+};
+
 template <class Shape, class... Args>
 std::unique_ptr<RigidShape> single(double smallest, Args&&... args) {
   return std::make_unique<Single<Shape>>(smallest, std::forward<Args>(args)...);
@@ -333,7 +362,8 @@ struct MakeForm {
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Cone& s) const {
     const double radius = s.radius / unit, height = s.height / unit;
-    return single<btConeShape>(std::min(radius, 0.5 * height), radius, height);
+    const double smallest = std::min(radius, 0.5 * height);
+    return single<InnerCone>(smallest, radius, height, rounding * smallest);
   }
   std::unique_ptr<RigidShape> operator()(const shapes::Torus& s) const {
     return ring(s.major_radius / unit, s.minor_radius / unit);

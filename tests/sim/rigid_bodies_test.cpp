@@ -732,9 +732,35 @@ TEST(RigidBodies, EveryFormComesToRestOnTheFloor) {
     world.run(3, 1e-3);
     const shapes::Pose pose = world.pose(1);
     const shapes::Bounds box = shapes::bounds_at(world.list[1], world.time);
-    EXPECT_NEAR(box.min.y(), 0, 5e-3);
+    EXPECT_NEAR(box.min.y(), 0, 1e-3);
     EXPECT_LE(pose.velocity.norm(), 0.05);
   }
+}
+
+/// On its base on a floor, and under a box: a cone is as large as its numbers say.
+TEST(RigidBodies, AConeIsNoLargerThanItIs) {
+  shapes::Collider cone = box_of(500, {0, 0, 0}, {1, 1, 1});
+  for (const auto& [radius, height] : {std::pair{0.5, 1.0}, {0.5, 0.1}, {0.1, 1.0}}) {
+    SCOPED_TRACE(height / radius);
+    cone.shape.form = shapes::Cone{{0, 0.5 * height, 0}, radius, height};
+    BodiesAlone world({plane({0, 0, 0}, {0, 1, 0}, 0.5), cone});
+    world.run(0.5, 1e-3);
+    EXPECT_NEAR(world.pose(1).point.y(), 0.5 * height, 2e-4);
+  }
+  // Its base is up.
+  shapes::Collider table;
+  table.name = "table";
+  table.shape = {shapes::Cone{{0, -0.5, 0}, 2, 1}, {180, 0, 0}};
+  BodiesAlone world({table, box_of(500, {0, 0.1, 0}, {0.2, 0.2, 0.2})});
+  world.run(0.5, 1e-3);
+  EXPECT_NEAR(world.pose(1).point.y(), 0.1, 5e-4);
+  // A ball on its wall, held in its place along the ground: a floor that falls by 1 in 2.
+  table.shape = {shapes::Cone{{0, -0.5, 0}, 2, 1}, {0, 0, 0}};
+  shapes::Collider ball = ball_of(500, {1, 0, 0}, 0.1);
+  ball.body.hold = {shapes::HeldAxis::x, shapes::HeldAxis::z};
+  BodiesAlone slope({table, ball});
+  slope.run(1, 1e-3);
+  EXPECT_NEAR(slope.pose(1).point.y(), -0.5 + 0.1 * std::hypot(1, 0.5), 1e-3);
 }
 
 /// Posts from 0 to 2 m along both sides, 1 m apart, and more around them.
