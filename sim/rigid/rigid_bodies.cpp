@@ -4,6 +4,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <LinearMath/btAabbUtil2.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -28,7 +29,7 @@ constexpr int iterations = 50;
 constexpr double largest_in_units = 0.2;
 /// What holds a body in place has no slack, and what overlaps is moved apart, by this share a step.
 constexpr double taken_back = 0.2;
-/// What gravity drives together in so many steps does not bounce: it lies.
+/// What gravity and springs drive together in so many steps does not bounce: it lies.
 constexpr double resting_steps = 3;
 /// Bullet's largest coefficient; sticky.
 constexpr double without_sliding = 10;
@@ -98,7 +99,43 @@ class RigidBodies::World {
     const double slowest = resting_steps * dt * gravity.norm() / unit_;
     if (any_bounces_) set_bounces(dt, slowest);
     solve(dt);
-    for (std::size_t b = 0; b < bodies.size(); ++b) read(things_[moving_[b]], bodies[b]);
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      read(things_[moving_[b]], bodies[b]);
+      settle(things_[moving_[b]], bodies[b]);
+    }
+  }
+
+  /// m/s, of the others that may touch a body in a step. @param own  speed of the body
+  double fastest_near(const Body& body, double own, const std::vector<shapes::Collider>& colliders,
+                      double time, double dt) const {
+    const auto bounds = [](const Thing& thing) {
+      std::array<btVector3, 2> box;
+      thing.shape->get()->getAabb(thing.body->getWorldTransform(), box[0], box[1]);
+      return box;
+    };
+    const Thing& self = things_[body.collider];
+    const auto [low, high] = bounds(self);
+    double fastest = 0;
+    for (const Thing& thing : things_) {
+      if (&thing == &self || (thing.meets && thing.meets != self.body.get())) continue;
+      const shapes::Collider& other = colliders[thing.collider];
+      double speed = 0;
+      for (const double when : {time, time + dt}) {  // one that rests may start within the step
+        const shapes::Pose pose = shapes::pose_at(other, when);
+        const Vec3d arm = body.before.centre - pose.point;
+        speed = std::max(speed, (pose.velocity + pose.angular_velocity.cross(arm)).norm() +
+                                    pose.angular_velocity.norm() * body.furthest);
+      }
+      if (thing.deforming)
+        speed += thing.deforming->fastest(shapes::shape_time(other, time),
+                                          shapes::shape_time(other, time + dt));
+      if (speed <= fastest) continue;
+      const double reach = (own + speed) * dt / unit_;
+      const btVector3 beyond(reach, reach, reach);
+      const auto [from, to] = bounds(thing);
+      if (TestAabbAgainstAabb2(low - beyond, high + beyond, from, to)) fastest = speed;
+    }
+    return fastest;
   }
 
  private:
@@ -113,6 +150,8 @@ class RigidBodies::World {
     const btRigidBody* meets = nullptr;  ///< the only body that it touches; null: all
     std::unique_ptr<btRigidBody> body;
     btVector3 pushed{0, 0, 0}, pushed_spin{0, 0, 0};  ///< velocities that pushes give in a step
+    btVector3 sprung{0, 0, 0}, sprung_spin{0, 0, 0};  ///< of these, what springs give
+    bool bounced = false;                             ///< in this step
     Mat3d axes = Mat3d::Identity();                   ///< of the form
     Mat3d principal = Mat3d::Identity();              ///< in the axes of the form
     std::unique_ptr<Held> held;
@@ -231,6 +270,7 @@ class RigidBodies::World {
     thing.body->updateInertiaTensor();
     thing.body->setLinearVelocity(in_units(body.before.velocity));
     thing.body->setAngularVelocity(to_bullet(body.before.spin));
+    thing.bounced = false;
     if (thing.held) thing.held->set_place(body.before.centre, form, body.joint_angle);
   }
 
@@ -238,17 +278,20 @@ class RigidBodies::World {
     const Mat3d form = body.before.rotation * thing.axes;
     const Mat3d inertia = form * body.mass.inertia * form.transpose();
     Vec3d impulse = push.impulse + body.mass.mass * dt * gravity, moment = push.moment;
+    Vec3d velocity = body.before.velocity + impulse / body.mass.mass;
+    Vec3d spin = body.before.spin + inertia.ldlt().solve(moment);
     if (thing.held) {
       // A spring knows what else pushes: it resists the velocity that the body will have.
-      const Vec3d velocity = body.before.velocity + impulse / body.mass.mass;
-      const Vec3d spin = body.before.spin + inertia.ldlt().solve(moment);
+      const Held::Speeds free{velocity, spin};
       const Held::Speeds later = thing.held->add_springs(
-          dt, {body.before.velocity, body.before.spin}, {velocity, spin}, inertia, impulse, moment);
+          dt, {body.before.velocity, body.before.spin}, free, inertia, impulse, moment);
       body.later_velocity = later.velocity;
       body.later_spin = later.spin;
+      velocity = body.before.velocity + impulse / body.mass.mass;
+      spin = body.before.spin + inertia.ldlt().solve(moment);
+      thing.sprung = in_units(velocity - free.velocity);
+      thing.sprung_spin = to_bullet(Vec3d(spin - free.spin));
     }
-    const Vec3d velocity = body.before.velocity + impulse / body.mass.mass;
-    const Vec3d spin = body.before.spin + inertia.ldlt().solve(moment);
     thing.body->setLinearVelocity(in_units(velocity));
     thing.body->setAngularVelocity(to_bullet(spin));
     thing.pushed = in_units(velocity - body.before.velocity);
@@ -263,6 +306,29 @@ class RigidBodies::World {
         from_bullet(at.getBasis()) * thing.principal.transpose() * thing.axes.transpose();
     body.after.velocity = in_metres(thing.body->getLinearVelocity());
     body.after.spin = from_bullet(thing.body->getAngularVelocity());
+  }
+
+  /// What holds the body takes what it does not allow of the later speeds, and what it lies against
+  /// takes of them what it took of those of the way, at most as much.
+  void settle(const Thing& thing, Body& body) const {
+    if (body.later_velocity.isZero(0) && body.later_spin.isZero(0)) return;
+    const Mat3d form = body.before.rotation * thing.axes;
+    const Mat3d inertia = form * body.mass.inertia * form.transpose();
+    Held::Speeds later = thing.held->allowed({body.later_velocity, body.later_spin}, inertia);
+    const Held::Speeds taken =
+        thing.held->allowed({body.after.velocity - body.before.velocity - in_metres(thing.pushed),
+                             body.after.spin - body.before.spin - from_bullet(thing.pushed_spin)},
+                            inertia);
+    const auto product = [&](const Held::Speeds& a, const Held::Speeds& b) {
+      return body.mass.mass * a.velocity.dot(b.velocity) + a.spin.dot(inertia * b.spin);
+    };
+    if (const double along = product(later, taken); along < 0 && !thing.bounced) {
+      const double share = std::min(-along / product(taken, taken), 1.0);
+      later.velocity += share * taken.velocity;
+      later.spin += share * taken.spin;
+    }
+    body.later_velocity = later.velocity;
+    body.later_spin = later.spin;
   }
 
   /// Everything that Bullet remembers is made anew: what it finds depends on the places alone.
@@ -314,24 +380,29 @@ class RigidBodies::World {
       const auto number = [](const btCollisionObject* object) {
         return static_cast<std::size_t>(object->getUserIndex());
       };
-      const Thing &a = things_[number(manifold.getBody0())],
-                  &b = things_[number(manifold.getBody1())];
+      Thing &a = things_[number(manifold.getBody0())], &b = things_[number(manifold.getBody1())];
       const auto speed = [&](const Thing& thing, const btVector3& place) {
         const btVector3 arm = place - thing.body->getWorldTransform().getOrigin();
         return thing.body->getVelocityInLocalPoint(arm).dot(point.m_normalWorldOnB);
       };
-      const auto pushed = [&](const Thing& thing, const btVector3& place) {
+      const auto given = [&](const Thing& thing, const btVector3& place, const btVector3& velocity,
+                             const btVector3& spin) {
         const btVector3 arm = place - thing.body->getWorldTransform().getOrigin();
-        return (thing.pushed + thing.pushed_spin.cross(arm)).dot(point.m_normalWorldOnB);
+        return (velocity + spin.cross(arm)).dot(point.m_normalWorldOnB);
       };
       const btVector3 &at_a = point.getPositionWorldOnA(), &at_b = point.getPositionWorldOnB();
       const double closing = speed(b, at_b) - speed(a, at_a),
-                   gained = pushed(b, at_b) - pushed(a, at_a);
-      const bool bounces = closing > slowest && gap < closing * dt;
+                   gained = given(b, at_b, b.pushed, b.pushed_spin) -
+                            given(a, at_a, a.pushed, a.pushed_spin),
+                   sprung = given(b, at_b, b.sprung, b.sprung_spin) -
+                            given(a, at_a, a.sprung, a.sprung_spin);
+      const bool bounces =
+          closing > slowest + resting_steps * std::max(0.0, sprung) && gap < closing * dt;
       const double restitution = std::max(a.restitution, b.restitution);
       point.m_combinedRestitution =
           bounces ? std::max(0.0, restitution * (closing - gained) / closing) : 0;
       const bool is_early = point.m_combinedRestitution > 0 && gap > 0;
+      if (point.m_combinedRestitution > 0) a.bounced = b.bounced = true;
       point.setDistance(is_early ? 0 : gap);
     });
   }
@@ -526,11 +597,13 @@ Mat3d RigidBodies::inertia(std::size_t body) const {
   return form * bodies_[body].mass.inertia * form.transpose();
 }
 
-int RigidBodies::parts_of_step(double dt, const Vec3d& gravity) const {
+int RigidBodies::parts_of_step(const std::vector<shapes::Collider>& colliders, double time,
+                               double dt, const Vec3d& gravity) const {
   double parts = 1;
   for (const Body& body : bodies_) {
-    const double speed =
+    const double own =
         body.before.velocity.norm() + dt * gravity.norm() + body.before.spin.norm() * body.furthest;
+    const double speed = own + world_->fastest_near(body, own, colliders, time, dt);
     parts = std::max(parts, std::ceil(4 * speed * dt / body.thickness));
   }
   // Beyond, a body is faster than anything that neve shows: a step ends in any case.

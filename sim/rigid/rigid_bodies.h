@@ -70,9 +70,11 @@ class RigidBodies {
   const Vec3d& point(std::size_t body) const { return bodies_[body].point; }
   /// kg m2, about the centre of mass in the axes of the world, before the step.
   Mat3d inertia(std::size_t body) const;
-  /// How many parts a step of dt takes so that no body moves by more than a quarter of its
-  /// thickness in one: none passes through another, or through a thin wall. Call it after begin().
-  int parts_of_step(double dt, const Vec3d& gravity) const;
+  /// How many parts a step of dt takes so that no body, nor what it may meet in the step, moves by
+  /// more than a quarter of the body's thickness in one: none passes through another, or through a
+  /// thin wall. Call it after begin(), with what that had.
+  int parts_of_step(const std::vector<shapes::Collider>& colliders, double time, double dt,
+                    const Vec3d& gravity) const;
   /// The collider moves on: over dt, as found by respond().
   void move(std::size_t body, double dt, double time, shapes::Collider& collider) const;
 

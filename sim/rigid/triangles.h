@@ -50,6 +50,8 @@ class Deforming final : public Triangles {
 
   /// @param time  s, of its shape
   void move_to(double time);
+  /// m/s, a bound for all of its places between times of its shape.
+  double fastest(double from, double to) const { return mesh_->fastest(from, to); }
   /// m/s, of a place of the surface, in its axes about its origin.
   Vec3d velocity(int triangle, const Vec3d& place) const;
 

@@ -178,7 +178,7 @@ void MovingColliders::move_bodies(double time, double dt, const Vec3d& gravity,
   if (bodies_.empty()) return;
   if (!has_begun_) bodies_.begin(list_, time);
   has_begun_ = false;
-  const int parts = bodies_.parts_of_step(dt, gravity);
+  const int parts = bodies_.parts_of_step(list_, time, dt, gravity);
   std::vector<rigid::Push> shares = pushes;
   for (std::size_t b = 0; b < shares.size(); ++b) {
     rigid::Push& push = shares[b];

@@ -763,6 +763,28 @@ TEST(RigidBodies, AConeIsNoLargerThanItIs) {
   EXPECT_NEAR(slope.pose(1).point.y(), -0.5 + 0.1 * std::hypot(1, 0.5), 1e-3);
 }
 
+/// In steps in which it goes further than a ball is thick.
+TEST(RigidBodies, AFastColliderTakesABodyAtRestAlong) {
+  SolverSettings settings;
+  settings.gravity.setZero();
+  for (const double start : {-1.0, -1.03, -0.97})
+    for (const bool is_keyframed : {false, true}) {
+      SCOPED_TRACE(testing::Message() << start << " " << is_keyframed);
+      shapes::Collider ram;
+      ram.name = "ram";
+      ram.shape.form = shapes::Box{{start, 0, 0}, {0.04, 0.5, 0.5}};
+      ram.velocity = {20, 0, 0};
+      if (is_keyframed) {
+        ram.velocity.setZero();
+        ram.keyframes = {{0, Vec3d(start, 0, 0), {}}, {0.1, Vec3d(start + 2, 0, 0), {}}};
+      }
+      Simulation simulation(settings, {Material{}}, {ball_of(500, {0, 0, 0}, 0.05), ram}, {});
+      for (int k = 0; k < 10; ++k) simulation.step(0.01);
+      EXPECT_GE(motion_of(simulation, 0).point.x(), motion_of(simulation, 1).point.x());
+      EXPECT_GE(motion_of(simulation, 0).velocity.x(), 19);
+    }
+}
+
 /// Posts from 0 to 2 m along both sides, 1 m apart, and more around them.
 /// @param height  height(column, row)
 template <class Height>
