@@ -225,8 +225,9 @@ Found cover_problem(const Scene& scene, const sim::shapes::Shape& shape,
           "a cover lies on a collider with shape = { terrain = { file = \"NAME.asc\" } } "
           "or { mesh = { file = \"NAME.obj\" } }"};
     if (!terrain) continue;
-    if (collider.shape.rotation.x() != 0 || collider.shape.rotation.z() != 0)
-      return Problem{"collider." + collider.name + ".shape.rotation",
+    if (cover->turned.x() != 0 || cover->turned.z() != 0)
+      return Problem{"collider." + collider.name +
+                         (collider.keyframes.empty() ? ".shape.rotation" : ".keyframes"),
                      "a terrain that is tilted carries no cover",
                      "turn it about y alone: rotation = [0, ANGLE, 0]"};
     require_room_for(*terrain);

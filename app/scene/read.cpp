@@ -139,7 +139,8 @@ void add_built_ins(toml::Table& root, const std::vector<Override>& overrides) {
 
 namespace {
 
-/// Gives covers the ground that they lie on; find_problem() says where there is none.
+/// Gives covers the ground that they lie on, where it is at the start; find_problem() says where
+/// there is none.
 void lay_covers(Scene& scene) {
   for (sim::seeding::Body& body : scene.bodies) {
     auto* cover = std::get_if<sim::shapes::Cover>(&body.shape.form);
@@ -151,6 +152,12 @@ void lay_covers(Scene& scene) {
         cover->ground = *terrain;
       if (const auto* mesh = std::get_if<sim::shapes::Mesh>(&shape.form)) cover->ground = *mesh;
       cover->turned = shape.rotation;
+      if (collider.keyframes.empty()) continue;
+      // No keyframe is before the start, and none moves a collider before the first.
+      const sim::shapes::PoseKeyframe& start = collider.keyframes.front();
+      cover->turned = start.rotation.value_or(shape.rotation);
+      if (start.position)
+        std::visit([&](auto& ground) { ground.center = *start.position; }, cover->ground);
     }
   }
 }

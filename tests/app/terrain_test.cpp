@@ -13,6 +13,7 @@
 #include "app/setup/plan.h"
 #include "sim/shapes/solid.h"
 #include "tests/support/height_files.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -56,6 +57,42 @@ TEST_F(TerrainScene, ACoverLiesWhereItsTerrainIs) {
   const sim::shapes::Surface ground = sim::shapes::surface_at(scene.colliders[0], 0, middle);
   // Half of the depth above the ground, and lifted by the y of its centre.
   EXPECT_NEAR(ground.distance, (0.1 + 0.1) * ground.normal.y(), 1e-12);
+}
+
+/// A collider with keyframes starts where the first of them says, and not where its shape is.
+TEST_F(TerrainScene, ACoverLiesWhereTheKeyframesOfItsGroundStart) {
+  folder_.write("plate.obj", test::box_obj({2, 0.2, 2}));
+  const auto read_with = [&](const std::string& ground, const std::string& first) {
+    return scene::read_scene_text(
+        "[[collider]]\nname = \"plate\"\nshape = { " + ground + " }\nkeyframes = [{ time = 0.5, " +
+            first +
+            " }, { time = 1, position = [0, 3, 0] }]\n[[body]]\nshape = { cover = { on = "
+            "\"plate\", depth = 0.2, radius = 0.4, center = [2, 0, 3] } }\n",
+        "s.toml", folder_.path().string());
+  };
+  for (const char* first : {"position = [2, 1, 3]", "position = [2, 1, 3], rotation = [0, 0, 20]",
+                            "position = [2, 1, 3], rotation = [0, 100, 0]"})
+    for (const char* ground : {"mesh = { file = \"plate.obj\" }",
+                               "terrain = { file = \"hills.asc\", center = [5, 5, 5] }"}) {
+      SCOPED_TRACE(std::string(first) + ground);
+      std::string place = first;
+      if (ground[0] == 't') {
+        if (place.find("rotation") != std::string::npos) continue;  // see below
+        place.replace(place.find("[2, 1, 3]"), 9, "[1, 1, 1.5]");
+      }
+      const scene::Scene scene = read_with(ground, place);
+      const sim::shapes::Solid cover(scene.bodies[0].shape);
+      const sim::Vec3d middle = cover.center() + cover.inner_point();
+      const sim::shapes::Surface below = sim::shapes::surface_at(scene.colliders[0], 0, middle);
+      EXPECT_NEAR(below.distance, 0.1 * below.normal.y(), 1e-12);
+    }
+  try {
+    read_with("terrain = { file = \"hills.asc\" }", "position = [1, 1, 4], rotation = [0, 0, 20]");
+    FAIL() << "it is tilted where the snow lies";
+  } catch (const scene::toml::SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("tilted carries no cover"), std::string::npos)
+        << error.what();
+  }
 }
 
 /// Snow on terrain and boxes ended ragged above them, by a spacing of particles.
