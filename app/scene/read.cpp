@@ -240,7 +240,9 @@ Scene read_with_undrawn(std::string_view text, std::string_view undrawn, const s
 }
 
 Scene apply(const Scene& scene, const std::vector<Override>& overrides, const std::string& name) {
-  return scene_of(scene_table(scene), name, {}, overrides);
+  Scene changed = scene_of(scene_table(scene), name, {}, overrides);
+  place_in_world(changed, name);
+  return changed;
 }
 
 Scene read_scene_file(const std::string& file, const std::vector<Override>& overrides) {

@@ -103,8 +103,9 @@ void read_picture(const Edits& edits, Origin& origin) {
   read_scene(
       edits,
       [&](const std::vector<scene::Override>& changes) {
-        scene::Scene again =
-            scene::read_scene_text(record.scene, origin.scene_file + " (its scene)", {}, changes);
+        const std::string name = origin.scene_file + " (its scene)";
+        scene::Scene again = scene::read_scene_text(record.scene, name, {}, changes);
+        scene::place_in_world(again, name);
         setup::reopen(again, changes);
         return again;
       },

@@ -117,6 +117,47 @@ TEST_F(Fork, ABranchEndsWhereTheRunEndsThatBecameLonger) {
       << swept.output;
 }
 
+/// Meshes of a map: the scene has the place of the first, and one that comes later stands beside
+/// it.
+TEST_F(Fork, AColliderOfAMapIsPlacedThere) {
+  for (const double east : {4310.0, 4311.0}) {
+    std::string vertices = box_obj({0.2, 0.2, 0.2});
+    vertices.replace(0, vertices.find("f "), "");
+    std::ostringstream mesh;
+    for (int k = 0; k < 8; ++k)
+      mesh << "v " << east + (k & 1 ? 0.1 : -0.1) << ' ' << 5255 + (k & 2 ? 0.1 : -0.1) << ' '
+           << 100 + (k & 4 ? 0.1 : -0.1) << '\n';
+    folder.write(east < 4311 ? "base.obj" : "hut.obj", mesh.str() + vertices);
+  }
+  const auto map_mesh = [&](const char* file) {
+    return "{ mesh = { file = \"" + (folder / file).string() +
+           "\", coordinates = \"world\", rotation = [-90, 0, 0] } }";
+  };
+  folder.write("map.toml", read_text(folder / "scene.toml") +
+                               "[[collider]]\nname = \"base\"\nshape = " + map_mesh("base.obj") +
+                               "\n");
+  const std::string hut = "collider.hut={ shape = " + map_mesh("hut.obj") + " }";
+  ASSERT_EQ(render({"map.toml", "--out", "a", "--frames", "0-2"}).exit_code, 0);
+  const auto whole = render({"map.toml", "--out", "w", "--frames", "0-2", "--set", hut});
+  ASSERT_EQ(whole.exit_code, 0) << whole.errors;
+  const auto branch = render({"a", "--from", "0.042s", "--out", "b", "--set", hut});
+  ASSERT_EQ(branch.exit_code, 0) << branch.errors;
+  const auto origin_of = [&](const std::string& run) {
+    const std::string text = json_of(run)["scene"];
+    const app::scene::Scene scene = app::scene::read_scene_text(text, "run");
+    return std::get<sim::shapes::Mesh>(scene.colliders.back().shape.form).origin;
+  };
+  const sim::Vec3d origin = origin_of("w/run.json");
+  EXPECT_EQ(origin, sim::Vec3d(4310, 5255, 100));
+  EXPECT_EQ(origin_of("b/run.json"), origin);
+  EXPECT_TRUE(contains(json_of("b/run.json")["changes"].dump(), "4310"));
+  ASSERT_EQ(render({"b/particles/0002.png", "--out", "again"}).exit_code, 0);
+  EXPECT_EQ(hashes("again")[2], hashes("b")[2]);
+  const auto picture = render({"a/particles/0000.png", "--out", "p", "--set", hut});
+  ASSERT_EQ(picture.exit_code, 0) << picture.errors;
+  EXPECT_EQ(origin_of("p/run.json"), origin);
+}
+
 TEST_F(Fork, APictureAndASceneAreForkedLikeTheRunThatMadeThem) {
   ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
   const auto fork = [&](const char* source, const char* out) {
