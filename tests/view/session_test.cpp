@@ -236,6 +236,45 @@ TEST(Session, SessionSaysWhyARunBrokeAndIsGoodForAnother) {
   EXPECT_FALSE(rest_at(session, 1)->divergence);
 }
 
+TEST(Session, ABrokenRunStaysBrokenWhateverFrameIsShown) {
+  using view::session::LiveFrame;
+  view::session::Session session(scene_of(exploding_scene), {}, {});
+  session.run();
+  const auto broken = wait_for(session, [](const LiveFrame& live) {
+    return live.divergence.has_value() && !live.is_running;
+  });
+  const auto next = [&](const std::function<void()>& ask) {
+    const std::uint64_t before = session.latest()->number;
+    ask();
+    return wait_for(
+        session, [&](const LiveFrame& live) { return live.number > before && !live.is_running; });
+  };
+  const auto expect_broken = [&](const LiveFrame& live) {
+    ASSERT_TRUE(live.divergence);
+    EXPECT_EQ(live.divergence->step, broken->divergence->step);
+    EXPECT_TRUE(live.diagnosis);
+    EXPECT_TRUE(live.is_head_broken);
+    EXPECT_EQ(live.steps, broken->steps);
+  };
+  for (int round = 0; round < 2; ++round) {
+    const auto older = next([&] { session.show_frame(0); });
+    EXPECT_TRUE(older->is_older);
+    EXPECT_FALSE(older->divergence || older->diagnosis);
+    EXPECT_TRUE(older->is_head_broken);
+    expect_broken(*next([&] { session.show_head(); }));
+    for (const auto go : {&view::session::Session::run, &view::session::Session::next_frame,
+                          &view::session::Session::next_step, &view::session::Session::next_stage})
+      expect_broken(*next([&] { (session.*go)(); }));
+  }
+  next([&] { session.show_frame(0); });
+  expect_broken(*next([&] { session.run(); }));
+  // A live change is refused, and a fork is a run that is not broken.
+  EXPECT_NE(next([&] { session.apply(scene_of(tiny_scene)); })->error, "");
+  next([&] { session.show_frame(0); });
+  const auto forked = next([&] { session.continue_from_here(); });
+  EXPECT_FALSE(forked->divergence || forked->diagnosis || forked->is_head_broken);
+}
+
 TEST(Session, SessionReportsRefusalsAndContinues) {
   view::session::Session session(scene_of(tiny_scene), {}, {});
   scene::Scene huge = *scene_of(tiny_scene);

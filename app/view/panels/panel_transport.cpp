@@ -114,7 +114,7 @@ std::string status_text(const session::LiveFrame& live, float room) {
 void draw_transport(ViewerState& state) {
   const session::LiveFrame& live = *state.live;
   session::Session& session = state.bench.session();
-  const bool is_broken = live.divergence.has_value();
+  const bool is_broken = live.is_head_broken;
   const float first_row = ImGui::GetCursorPosY();
   if (live.is_running) {
     if (button("Pause", "stop after this step (space)", true, true)) session.pause();
@@ -131,7 +131,7 @@ void draw_transport(ViewerState& state) {
   }
   if (button("Frame", "simulate to the end of the frame (.)", !is_broken)) session.next_frame();
   if (button("Step", "one step (,)", !is_broken)) session.next_step();
-  if (button("Stage", "the next stage of a step, on a copy (;)", !is_broken)) {
+  if (button("Stage", "the next stage of a step, on a copy (;)", !live.divergence)) {
     session.next_stage();
     state.go_to_tab = tab::inspect;
   }

@@ -80,7 +80,7 @@ void Session::next_frame() {
 void Session::next_stage() {
   mailbox_.ask([this] {
     set_goal(Goal::none);
-    if (simulation().divergence()) return;
+    if (divergence()) return;
     if (!inspector_.next_stage() && !head_) set_goal(Goal::step);
   });
 }
@@ -88,7 +88,7 @@ void Session::next_stage() {
 void Session::show_stage(sim::Stage stage) {
   mailbox_.ask([this, stage] {
     set_goal(Goal::none);
-    if (!simulation().divergence()) inspector_.stage = stage;
+    if (!divergence()) inspector_.stage = stage;
   });
 }
 
@@ -109,7 +109,7 @@ void Session::apply(std::shared_ptr<const scene::Scene> scene) {
   mailbox_.ask([this, scene = std::move(scene)] {
     leave_older();
     // A race: the run broke a rule after the change was asked for.
-    if (simulation().divergence())
+    if (divergence())
       throw std::runtime_error(
           "this run has diverged: the change takes effect at Reset, or after going back to an "
           "earlier frame");
@@ -128,7 +128,7 @@ void Session::show_frame(int frame) {
     const bool is_shown = !head_ && kept->steps == timeline_->here().steps;
     if (is_shown) return;
     if (!head_) {
-      head_is_broken_ = simulation().divergence().has_value();
+      broken_ = divergence();
       head_ = timeline_->moment();
     }
     load(*kept);
@@ -152,6 +152,8 @@ void Session::continue_from_here() {
 
 void Session::fork_here() {
   timeline_->fork();
+  broken_.reset();
+  told_.diagnosis.reset();
   samples_.forget_after(simulation().time());
   ++told_.forks;
   told_.forked_at = timeline_->here().frame;
@@ -161,7 +163,7 @@ void Session::fork_here() {
 void Session::continue_anyway(std::shared_ptr<const scene::Scene> scene) {
   mailbox_.ask([this, scene = std::move(scene)] {
     leave_older();
-    if (!simulation().divergence()) return;
+    if (!divergence()) return;
     const double frame = timeline_->here().frame / timeline_->fps();
     const auto kept = timeline_->moments().find(frame, timeline_->fps());
     if (!kept) return;

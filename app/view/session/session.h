@@ -108,6 +108,7 @@ class Session {
   bool waits_for_picture() const;
   void publish();
   std::shared_ptr<const scene::Scene> shown_scene() const;
+  std::optional<sim::Divergence> divergence() const;
   const sim::Simulation& simulation() const { return timeline_->simulation(); }
 
   std::function<void()> wake_;
@@ -115,7 +116,9 @@ class Session {
   std::unique_ptr<timeline::Timeline> timeline_;
   std::uint64_t memory_limit_ = 0;        ///< bytes of a simulation whose broken rules are ignored
   std::optional<timeline::Moment> head_;  ///< where the run is, while an older frame is shown
-  bool head_is_broken_ = false;           ///< it broke a rule there
+  /// The rule that the run broke where it is, once an older frame was shown: a simulation that goes
+  /// back to a saved state does not know it any more.
+  std::optional<sim::Divergence> broken_;
   Goal goal_ = Goal::none;
   std::vector<scene::View> views_;
   Inspector inspector_;

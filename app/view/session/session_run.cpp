@@ -44,6 +44,7 @@ void Session::start(const std::shared_ptr<const scene::Scene>& scene,
   timeline_ = std::move(next);
   memory_limit_ = plan.memory_limit;
   head_.reset();
+  broken_.reset();
   inspector_.stage.reset();
   samples_.begin(past ? past->frames : std::vector<record::FrameRecord>{});
   samples_.note(*timeline_);
@@ -56,7 +57,7 @@ void Session::set_goal(Goal goal) {
   if (goal != Goal::none) {
     leave_older();
     inspector_.stage.reset();
-    if (simulation().divergence()) return;
+    if (divergence()) return;
     if (goal == Goal::end && timeline_->here().frame >= scene::last_frame(*timeline_->here().scene))
       return;
     measured_at_ = Clock::now();
@@ -72,7 +73,13 @@ void Session::load(const timeline::Moment& moment) {
     if (head_ && &moment != &*head_) leave_older();
     throw;
   }
-  told_.diagnosis.reset();
+}
+
+/// The rule that the shown state breaks: a run that broke one goes no further before it is forked
+/// or begins again.
+std::optional<sim::Divergence> Session::divergence() const {
+  if (head_) return std::nullopt;
+  return simulation().divergence() ? simulation().divergence() : broken_;
 }
 
 void Session::leave_older() {
@@ -157,7 +164,9 @@ void Session::publish() {
   live->is_older = head_.has_value();
   live->head = head_ ? head_->frame : here.frame;
   live->is_head_frame_end = head_ ? head_->is_frame_end() : live->is_frame_end;
-  live->is_head_broken = head_ ? head_is_broken_ : simulation().divergence().has_value();
+  live->divergence = divergence();
+  live->is_head_broken = (head_ ? broken_ : live->divergence).has_value();
+  if (!live->divergence) live->diagnosis.reset();
   live->kept = timeline_->moments().frames();
   live->kept_bytes = timeline_->moments().bytes();
   live->kept_budget = timeline_->moments().budget();
@@ -167,7 +176,6 @@ void Session::publish() {
   live->memory = simulation().memory_bytes();
   live->threads = simulation().threads();
   live->simd = simulation().simd();
-  live->divergence = simulation().divergence();
   inspector_.inspect(*timeline_, live->is_running, *live);
   published_at_ = Clock::now();
   mailbox_.publish(live);
