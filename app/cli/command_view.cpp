@@ -112,7 +112,7 @@ int run_view(const view::ViewOptions& given) {
   std::optional<view::session::Opened> opened = view::session::open_document(
       options.run.scene, options.run.overrides, options.run.coarsening.value_or(1),
       options.run.is_agreed ? timeline::Agreement::given : timeline::Agreement::asked);
-  if (timeline::is_folder(file) && !opened->past)
+  if (timeline::is_folder(file) && !(opened->past && opened->past->newest))
     std::cerr
         << "neve: warning: " << file
         << " has no checkpoint that this program can continue: the view starts at its first frame"

@@ -124,6 +124,26 @@ TEST_F(PastRun, ChangesOfTheRunStayWhenAnotherIsMade) {
   EXPECT_EQ(again.simulation().state_hash(), live->state_hash);
 }
 
+TEST_F(PastRun, ARunWithoutAMomentIsSimulatedWithItsChanges) {
+  render({"scene.toml", "--out", "a", "--checkpoint-every", "1"});
+  render({"a", "--from", "0.05", "--set", "material.snow.hardening=4", "--out", "b"});
+  for (const char* kept : {"b/checkpoint", "b/states"}) std::filesystem::remove_all(folder / kept);
+  view::session::Workbench bench = open("b");
+  const auto start = bench.session().latest();
+  EXPECT_EQ(start->steps, 0u);
+  EXPECT_EQ(start->scene->materials[0].hardening, 10);
+  EXPECT_EQ(start->samples->size(), 1u) << "the rest is not simulated yet";
+  EXPECT_TRUE(bench.document().is_changed("material.snow.hardening"));
+  EXPECT_TRUE(bench.waiting_for_reset().empty());
+  ASSERT_TRUE(bench.save_scene(folder / "view" / "saved.toml"));
+  EXPECT_TRUE(contains(bench.messages().back().text, "hardening changed during the run"))
+      << bench.messages().back().text;
+  bench.session().run();
+  const auto live = rest_at(bench.session(), 4);
+  EXPECT_EQ(hash_of(*live), hashes("b")[4]);
+  EXPECT_NE(hash_of(*live), hashes("a")[4]);
+}
+
 TEST_F(PastRun, AStateThatIsDamagedIsAMessageAndTheRunStaysWhereItIs) {
   render({"scene.toml", "--out", "a", "--keep-states"});
   view::session::Workbench bench = open("a");

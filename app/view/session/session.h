@@ -19,9 +19,9 @@ namespace neve::app::view::session {
 /// A run that exists: the session continues it, and shows the moments that it kept.
 struct Past {
   std::filesystem::path run;                         ///< its folder
-  std::vector<scene::LiveChange> changes;            ///< until that moment
-  std::vector<record::FrameRecord> frames;           ///< that it lists
-  std::shared_ptr<const timeline::Moment> newest{};  ///< that is kept
+  std::vector<scene::LiveChange> changes;            ///< until that moment, or all of them
+  std::vector<record::FrameRecord> frames;           ///< that it lists, of a moment
+  std::shared_ptr<const timeline::Moment> newest{};  ///< null: none is kept, it starts again
 };
 
 struct SessionOptions {

@@ -39,7 +39,7 @@ void Session::start(const std::shared_ptr<const scene::Scene>& scene,
       timeline::Watch{[this](double) { return after_step(); }});
   reading.reset();
   next->keep();
-  if (past) next->restore(*past->newest);
+  if (past && past->newest) next->restore(*past->newest);
   // From here on nothing fails: the old run may go.
   timeline_ = std::move(next);
   memory_limit_ = plan.memory_limit;

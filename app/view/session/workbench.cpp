@@ -57,7 +57,8 @@ scene::Scene with_all_views(scene::Scene scene) {
   return scene;
 }
 
-/// A run at its newest moment, as a session has it in which its changes were made.
+/// A run at its newest moment, as a session has it in which its changes were made. Without one it
+/// starts again, and makes its changes at their steps.
 Opened open_run(const std::string& folder, const timeline::Edits& edits) {
   const timeline::Origin origin = timeline::Origin::of(folder, edits);
   const std::string beside =
@@ -68,8 +69,10 @@ Opened open_run(const std::string& folder, const timeline::Edits& edits) {
   timeline::Moments moments;
   moments.add_run(origin.run);
   Past past{origin.run, origin.changes, origin.run_frames, moments.find_newest(origin.scene.fps)};
-  if (!past.newest) return opened;
-  scene::forget_changes_after(past.changes, past.newest->steps);
+  if (past.newest)
+    scene::forget_changes_after(past.changes, past.newest->steps);
+  else
+    past.frames.clear();
   for (const scene::LiveChange& change : past.changes)
     opened.document.set(change.address, change.value);
   opened.past = std::move(past);
@@ -117,7 +120,10 @@ Workbench::Workbench(Document document, WorkbenchOptions options, std::function<
       starts_{{0, document_, {}, options_.session.past ? document_.edits() : Edits{}}},
       file_time_(time_of(document_.file())),
       study_(options_.program.empty() ? this_program() : options_.program),
-      session_(std::make_unique<Session>(document_.scene(), session_options(), std::move(wake))) {}
+      // A run starts without the changes that were made later, which are edits of its document.
+      session_(std::make_unique<Session>(
+          options_.session.past ? document_.scene_with({}) : document_.scene(), session_options(),
+          std::move(wake))) {}
 
 SessionOptions Workbench::session_options() const {
   SessionOptions options = options_.session;
@@ -509,7 +515,9 @@ std::vector<std::string> Workbench::changed_while_running() const {
   const Start& start = newest_start();
   std::vector<std::string> changed = Document::difference(start.at_start, start.running);
   const std::shared_ptr<const LiveFrame> live = session_->latest();
-  if (live->steps == 0 && live->head == 0 && !live->is_older) return {};  // there was none
+  const bool has_changes_to_come = options_.session.past && start.number == 0;
+  if (live->steps == 0 && live->head == 0 && !live->is_older && !has_changes_to_come)
+    return {};  // there was none
   const auto was_before_the_first_step = [&](const std::string& address) {
     bool is_told = false, is_later = false;
     for (const scene::LiveChange& change : live->snapshot.changes) {

@@ -169,7 +169,7 @@ class Workbench {
 struct Opened {
   Document document;                   ///< of a run, with its changes as edits
   std::vector<std::string> overrides;  ///< as they were given, now or to the run
-  std::optional<Past> past{};          ///< of a run with moments to start from
+  std::optional<Past> past{};          ///< of a run
 };
 
 /// @param file       a scene, a picture or the folder of a run; empty: the default scene
