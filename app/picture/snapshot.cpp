@@ -30,6 +30,19 @@ bool needs_dust(std::span<const scene::View> views) {
   });
 }
 
+bool has_all(const Snapshot& snapshot, const scene::View& view) {
+  const std::span only(&view, 1);
+  const FieldNeeds needs = field_needs(only);
+  const FieldSamples& fields = snapshot.fields;
+  return (!needs.is_needed || fields.lattice) &&
+         (!needs_stress(only) || snapshot.kirchhoff.size() >= snapshot.particles.x.size()) &&
+         (!needs_dust(only) || snapshot.dust) &&
+         std::all_of(needs.scalars.begin(), needs.scalars.end(),
+                     [&](scene::ScalarField field) { return fields.scalars.contains(field); }) &&
+         std::all_of(needs.vectors.begin(), needs.vectors.end(),
+                     [&](scene::VectorField field) { return fields.vectors.contains(field); });
+}
+
 Snapshot take_snapshot(const scene::Scene& scene, std::span<const scene::View> views,
                        const sim::Simulation& simulation, int frame) {
   Snapshot snapshot;

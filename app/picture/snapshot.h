@@ -50,6 +50,10 @@ bool needs_stress(std::span<const scene::View> views);
 /// True if one of the views shows dust.
 bool needs_dust(std::span<const scene::View> views);
 
+/// True if it has everything that the view shows: a view that was chosen since lacks what only it
+/// needs.
+bool has_all(const Snapshot& snapshot, const scene::View& view);
+
 /// @param views  that will be drawn, not only those of the scene
 Snapshot take_snapshot(const scene::Scene& scene, std::span<const scene::View> views,
                        const sim::Simulation& simulation, int frame);

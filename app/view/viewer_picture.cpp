@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "app/output/atomic_file.h"
@@ -22,21 +21,6 @@ namespace {
 /// encoding, and the simulation behind it: 30 pictures a second.
 constexpr double quick_enough = 1.0 / 60;
 constexpr double smallest_scale = 0.45;
-
-/// True if everything that the view shows was computed for this moment: a newly chosen view waits
-/// for the session.
-bool has_all(const picture::Snapshot& snapshot, const scene::View& view) {
-  const std::span only(&view, 1);
-  const picture::FieldNeeds needs = picture::field_needs(only);
-  const auto& fields = snapshot.fields;
-  return (!needs.is_needed || fields.lattice) &&
-         (!picture::needs_stress(only) || !snapshot.kirchhoff.empty()) &&
-         (!picture::needs_dust(only) || snapshot.dust) &&
-         std::all_of(needs.scalars.begin(), needs.scalars.end(),
-                     [&](scene::ScalarField field) { return fields.scalars.contains(field); }) &&
-         std::all_of(needs.vectors.begin(), needs.vectors.end(),
-                     [&](scene::VectorField field) { return fields.vectors.contains(field); });
-}
 
 }  // namespace
 
@@ -144,7 +128,7 @@ void Viewer::paint_new_picture() {
 }
 
 bool Viewer::has_what_is_shown() const {
-  return has_all(state_.live->snapshot, shown_view());
+  return picture::has_all(state_.live->snapshot, shown_view());
 }
 
 /// The current view; inside a step its arrows show the result of the stage.

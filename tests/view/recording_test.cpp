@@ -37,6 +37,25 @@ TEST_F(ViewByScript, AnotherViewIsShownWhileTheRunGoes) {
   EXPECT_GT(dark, 2000u);
 }
 
+/// A frame that may go back shows nothing new before its end, and this one is 5 s long: the stress
+/// that the second view shows is not computed yet.
+TEST_F(ViewByScript, ARangeIsNotFittedToWhatIsNotComputedYet) {
+  std::string text = tiny_scene;
+  text.replace(text.find("frames = 4"), 10, "frames = 4\nfps = 0.02");
+  text.replace(text.find("[solver]"), 8, "[solver]\non_divergence = \"retry\"");
+  folder.write("scene.toml", text + R"([[view]]
+name = "stress"
+layers = ["ground", "colliders", "particles"]
+particles = { color_by = "von_mises" }
+)");
+  const auto result = view(R"([{"click": "View"}, {"wait": 5}, {"click": "Run"},
+    {"wait_for": "simulation running"}, {"wait": 5}, {"key": "2"}, {"wait": 3},
+    {"click": "Fit the range"}, {"wait": 5}, {"key": "s", "ctrl": true}, {"wait": 3}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_FALSE(contains(read_text(folder / "out/scene.toml"), "range"));
+}
+
 TEST_F(ViewByScript, APictureOfAViewChosenAtAFrameHasAllOfIt) {
   folder.write("scene.toml", two_views(4));
   const auto result = view("[{\"wait\": 5}, " + std::string(record_on) + R"(,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/picture/attributes.h"
+#include "app/picture/snapshot.h"
 #include "app/scene/coarsen.h"
 #include "app/support/round_number.h"
 #include "app/support/text.h"
@@ -92,6 +93,13 @@ class WaitingBox {
 /// The range of colours that the selected body, or all snow, fills now.
 void fit_range(ViewerState& state, const scene::View& view) {
   const session::LiveFrame& live = *state.live;
+  if (!picture::has_all(live.snapshot, view)) {
+    state.bench.say(session::Message::Kind::note,
+                    "no range yet: what view " + view.name +
+                        " shows is computed at the next moment of the run that is shown; try "
+                        "again then");
+    return;
+  }
   const std::vector<double> values =
       picture::attribute_values(*live.scene, view.particles.color_by, live.snapshot);
   std::size_t first = 0, end = values.size();
