@@ -1,5 +1,6 @@
 /// Pictures that stay: of a moment, and a recording of every frame.
 
+#include <algorithm>
 #include <utility>
 
 #include "app/output/atomic_file.h"
@@ -12,6 +13,22 @@
 namespace neve::app::view {
 
 namespace {
+
+/// True for a file named as a frame is, or its data for compositing.
+bool is_frame(const std::filesystem::path& file) {
+  const std::string name = file.stem().string(), suffix = file.extension().string();
+  const std::string digits = name.starts_with('-') ? name.substr(1) : name;
+  return (suffix == ".png" || suffix == ".exr") && !digits.empty() &&
+         digits.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// Frames that an earlier session, or anything else, left in the folder of a view.
+bool has_frames(const std::filesystem::path& folder) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (is_frame(entry.path())) return true;
+  return false;
+}
 
 /// Its pictures would be replaced by those of another run.
 void require_no_run(const std::filesystem::path& folder) {
@@ -148,7 +165,7 @@ void Viewer::begin_take() {
   take_.has_others = false;
   bench_.say(session::Message::Kind::note, "the recording continues in " + take_.folder.string() +
                                                ", because " + before.string() +
-                                               " has frames of the run before");
+                                               " has frames of another run");
 }
 
 /// Before what is shown is another frame.
@@ -163,6 +180,10 @@ void Viewer::record_due() {
       require_no_run(bench_.folder());
       lock_.emplace(bench_.folder(), "neve view");
     }
+    const bool is_new_view =
+        std::none_of(take_.frames.begin(), take_.frames.end(),
+                     [&](const auto& file) { return file.first.parent_path() == view; });
+    if (is_new_view && has_frames(take_.folder / view)) take_.has_others = true;
     if (take_.has_others) begin_take();
     output::make_folder(take_.folder / view);
     if (take_.frames.empty()) output::remove_abandoned(take_.folder / view);

@@ -213,5 +213,25 @@ TEST_F(ViewByScript, ARecordingHasAFolderForEachRun) {
   expect_made_again("out/take_2/particles/0001.png");
 }
 
+/// Another session may be of another run: its frames would lie among those of the first.
+TEST_F(ViewByScript, ARecordingReplacesNoFramesOfAnEarlierSession) {
+  const auto record = [&](const std::string& next, const char* hardening) {
+    return view("[" + std::string(record_on) + next + "]",
+                {"--set", std::string("material.snow.hardening=") + hardening});
+  };
+  const std::string one = R"(, {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait": 5})";
+  const auto first =
+      record(one + R"(, {"key": "."}, {"wait_for": "simulation frame 2"}, {"wait": 5})", "10");
+  SKIP_WITHOUT_GL(first);
+  ASSERT_EQ(first.exit_code, 0) << first.errors;
+  const std::vector<std::uint8_t> before =
+      app::output::read_file(folder / "out/particles/0001.png");
+  ASSERT_EQ(record(one, "3").exit_code, 0);
+  EXPECT_EQ(app::output::read_file(folder / "out/particles/0001.png"), before);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/take/particles/0001.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/take/particles/0002.png"));
+  expect_made_again("out/take/particles/0001.png");
+}
+
 }  // namespace
 }  // namespace neve::test

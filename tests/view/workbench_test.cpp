@@ -287,6 +287,20 @@ TEST(Workbench, WorkbenchWritesASweepAroundAValue) {
   EXPECT_TRUE(contains(read_text(file), "material.snow.hardening"));
 }
 
+TEST(Workbench, ASweepReplacesNoFileButOneWithItsText) {
+  Working work;
+  const std::string address = "material.snow.hardening";
+  const std::filesystem::path mine =
+      work.folder.write("out/sweep_material_snow_hardening.toml", "# mine\n");
+  const std::filesystem::path file = work.bench.sweep_around(address);
+  EXPECT_EQ(read_text(mine), "# mine\n");
+  EXPECT_EQ(file.filename(), "sweep_material_snow_hardening_2.toml");
+  EXPECT_TRUE(contains(work.bench.messages().back().text, file.string()));
+  EXPECT_EQ(work.bench.sweep_around(address), file) << "the text is the same";
+  work.bench.set(address, "5");
+  EXPECT_EQ(work.bench.sweep_around(address).filename(), "sweep_material_snow_hardening_3.toml");
+}
+
 // The sweep's runs are as coarse as the run was that it comes from, and not twice as coarse.
 TEST(Workbench, ASweepOfACoarsenedRunSaysHowCoarse) {
   Working work(tiny_scene, 1.5);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/options/arguments.h"
-#include "app/output/atomic_file.h"
 #include "app/run/render_options.h"
 #include "app/scene/flat.h"
 #include "app/scene/leaf.h"
@@ -76,17 +75,15 @@ std::string render_command(const Document& document, const std::string& scene_fi
   return options::shell_line(options::words_of(options));
 }
 
-void write_sweep_around(const std::filesystem::path& file, const Document& document,
-                        const std::string& scene_file, const std::string& address,
-                        const std::vector<std::string>& set_later) {
+std::string sweep_text_around(const std::filesystem::path& file, const Document& document,
+                              const std::string& scene_file, const std::string& address,
+                              const std::vector<std::string>& set_later) {
   for (scene::FlatParam& param : with_presets(*document.scene())) {
     if (param.address != address) continue;
     take_finer_value(param, document);
-    output::make_folder(file.parent_path());
-    output::write_among_others(file, sweep::plan::sweep_around(scene_file, file.string(), param,
-                                                               set_in_all(document, address),
-                                                               document.coarsening(), set_later));
-    return;
+    return sweep::plan::sweep_around(scene_file, file.string(), param,
+                                     set_in_all(document, address), document.coarsening(),
+                                     set_later);
   }
   throw UsageError("", "nothing has the address " + address);
 }

@@ -427,9 +427,9 @@ std::string Workbench::saved_text(const std::filesystem::path& file) const {
   return scene::changed_scene_text(document_.text(), changes, document_.file(), file.string());
 }
 
-/// The name of a scene in the folder, "STEM.toml" or "STEM_2.toml" and so on. A file that was there
-/// before may be anyone's, and the scene itself. One with the same text has the name already: a
-/// script that is run again leaves no second copy.
+/// The name of a scene or a sweep in the folder, "STEM.toml" or "STEM_2.toml" and so on. A file
+/// that was there before may be anyone's, and the scene itself. One with the same text has the name
+/// already: a script that is run again leaves no second copy.
 std::filesystem::path Workbench::free_name(const std::string& stem, const TextIn& text_in) const {
   const auto has_the_text = [&](const std::filesystem::path& file) {
     try {
@@ -535,10 +535,15 @@ std::vector<std::string> Workbench::changed_while_running() const {
 
 std::filesystem::path Workbench::sweep_around(const std::string& address) {
   try {
-    const std::filesystem::path file =
-        options_.folder / ("sweep_" + plain_file_name(address) + ".toml");
     const std::vector<std::string> later = changed_while_running();
-    write_sweep_around(file, document_, file_of_scene(), address, later);
+    const std::string scene_file = file_of_scene();
+    const TextIn text_in = [&](const std::filesystem::path& file) {
+      return sweep_text_around(file, document_, scene_file, address, later);
+    };
+    const std::filesystem::path file = free_name("sweep_" + plain_file_name(address), text_in);
+    const std::string sweep = text_in(file);
+    output::make_folder(options_.folder);
+    output::write_among_others(file, sweep);
     std::string text = "wrote " + file.string() + "; " +
                        sweep::plan::sweep_command(file.string(), document_.coarsening()) +
                        " makes its runs";
