@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "app/options/languages.h"
 #include "app/output/atomic_file.h"
 #include "app/pick/page.h"
 #include "app/record/picture_files.h"
@@ -240,7 +241,7 @@ std::vector<std::string> Game::comment() const {
   for (const scene::Override& change : scene_.fixed)
     what += ", " + change.address + " = " + change.value;
   if (const auto& frames = options_.runs.frames)
-    what += fmt::format(", frames {}-{}", frames->first, frames->last);
+    what += ", frames " + options::frames().write(*frames);
   if (options_.runs.is_fast) what += ", fast";
   if (!options_.runs.view.empty()) what += ", view " + options_.runs.view;
   if (options_.runs.coarsening) what += fmt::format(", coarsened by {}", *options_.runs.coarsening);

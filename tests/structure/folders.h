@@ -125,7 +125,7 @@ inline constexpr Folder folders[] = {
     {"app/pick/search", "sim/base app/sweep/plan"},
     {"app/pick",
      "render/frame render/overlay app/support app/scene/toml app/scene app/output app/record "
-     "app/setup "
+     "app/setup app/options "
      "app/sweep app/sweep/read app/sweep/plan app/sweep/store app/sweep/jobs app/pick/search"},
     {"app/view/session",
      "sim/types sim app/support app/scene/toml app/scene app/output app/record app/setup "

@@ -87,6 +87,26 @@ TEST_F(PickByScript, AClosedScreenLosesNothing) {
   expect_same_pick("a", "b");
 }
 
+/// Whatever follows the click: the runs whose tiles were chosen from may not have ended yet.
+TEST_F(PickByScript, TheLastAnswerCountsThoughOneStopsAtOnce) {
+  const auto stopped = replay(R"([
+    {"wait_for": "label Round 1 of 2"}, {"click": "tile 3"}, {"key": "q"},
+    {"wait_for": "label The pick"}, {"wait": 3}])",
+                              "a", {"--rounds", "2"});
+  SKIP_PICK_WITHOUT_GL(stopped);
+  ASSERT_EQ(stopped.exit_code, 0) << stopped.errors;
+  EXPECT_EQ(answers("a"), "3\n");
+  EXPECT_TRUE(contains(stopped.output, "picked after 1 round:")) << stopped.output;
+  EXPECT_TRUE(contains(read_text(folder / "a/clicks.txt"), ", frames 2,"))
+      << read_text(folder / "a/clicks.txt");
+  const auto closed = replay(R"([
+    {"wait_for": "label Round 1 of 2"}, {"click": "tile 3"}, {"quit": true}])",
+                             "b", {"--rounds", "2"});
+  ASSERT_EQ(closed.exit_code, 0) << closed.errors;
+  EXPECT_EQ(answers("b"), "3\n");
+  EXPECT_TRUE(contains(closed.output, "picked after 1 round:")) << closed.output;
+}
+
 /// Everything can be tapped on a phone, and a tile is shown large by a finger that rests.
 TEST_F(PickByScript, APhoneHeldUprightHasEverything) {
   const auto result = replay(R"([

@@ -206,16 +206,25 @@ void Picker::choose(const pick::Click& click) {
   state_.note = pick::why_not(state_.runs, click);
   if (!state_.note.empty()) return;
   const bool is_last = game_.answered() + 1 >= game_.max_rounds();
-  const auto answer = [this, click] {
-    attempt([this, click] {
-      game_.answer(click);
+  answer_ = click;
+  const auto go_on = [this] {
+    attempt([this] {
+      take_answer();
       if (game_.is_over())
         finish();
       else
         begin_round();
     });
   };
-  after_runs(answer, is_last);
+  after_runs(go_on, is_last);
+}
+
+/// An answer counts whatever is done next: the person may stop before the runs have ended.
+/// @throws Error where it cannot be written; it is still to be taken then
+void Picker::take_answer() {
+  if (!answer_) return;
+  game_.answer(*answer_);
+  answer_.reset();
 }
 
 /// At once, or when the runs that are being made have ended.
@@ -249,6 +258,7 @@ void Picker::undo() {
 
 void Picker::finish() {
   attempt([this] {
+    take_answer();
     learn();
     state_.values = game_.write_pick().value_or(std::vector<scene::Override>{});
     state_.learned = game_.picked_lines();
@@ -272,6 +282,7 @@ void Picker::learn() {
 int Picker::end() {
   if (process_) process_->stop();
   while (process_ && !process_->poll()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  if (state_.phase != Phase::stuck) take_answer();
   if (is_interrupted()) return state_.phase == Phase::over ? exit_ok : exit_resumable;
   if (state_.phase != Phase::stuck) return exit_ok;
   throw Error(failure_code_, state_.failure, game_.folder().string(),

@@ -46,6 +46,7 @@ class Picker {
   void ask();
   void heed();
   void choose(const pick::Click& click);
+  void take_answer();
   void after_runs(const std::function<void()>& action, bool is_sheet_wanted = false);
   void undo();
   void download(const std::filesystem::path& file);
@@ -68,10 +69,11 @@ class Picker {
   PickerState state_;
   TileMovies movies_;
   std::optional<sweep::jobs::BackgroundSweep> process_;
-  std::function<void()> then_;       ///< when the process has ended
-  std::function<void()> retry_;      ///< of Phase::stuck
-  int failure_code_ = 0;             ///< of Phase::stuck
-  std::optional<std::string> line_;  ///< typed and not yet used
+  std::function<void()> then_;         ///< when the process has ended
+  std::optional<pick::Click> answer_;  ///< given, and not yet in clicks.txt: runs are being ended
+  std::function<void()> retry_;        ///< of Phase::stuck
+  int failure_code_ = 0;               ///< of Phase::stuck
+  std::optional<std::string> line_;    ///< typed and not yet used
   bool is_closed_ = false;
   double clock_ = 0;  ///< s of the movies
   int settle_ = 3;    ///< pictures that ImGui still needs to come to rest
