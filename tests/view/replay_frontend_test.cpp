@@ -293,6 +293,46 @@ TEST(Recording, RecordedInputDoesTheSameAgain) {
   EXPECT_NE(recorded.find("\"click\":\"Run\""), std::string::npos) << recorded;
 }
 
+/// A script looks for the handle before it drags: that it came along is the effect of the drag.
+TEST(Recording, ADragOfWhatMovesEndsWhereTheHandWas) {
+  app::view::panels::Labels& labels = app::view::panels::Labels::of_panels();
+  app::view::replay::InputRecorder recorder;
+  float y = 100;
+  int frame = 1'000'000;
+  const auto note = [&](const app::view::frontend::InputEvent& event) {
+    labels.note("handle y", {100, y - 5, 10, 10}, ++frame);
+    recorder.note({event}, frame / 60.0);
+  };
+  note(move_to(105, y));
+  note(button(true));
+  for (int k = 0; k < 4; ++k) {
+    y -= 10;
+    note(move_to(105, y));
+  }
+  note(button(false));
+  labels.clear();
+  const app::view::replay::ReplayStep& drag = recorder.steps().back();
+  ASSERT_EQ(drag.kind, app::view::replay::ReplayStep::Kind::drag);
+  EXPECT_EQ(drag.places.front().label, "handle y");
+  EXPECT_EQ(drag.places.back().label, "");
+  EXPECT_FLOAT_EQ(drag.places.back().x, 105);
+  EXPECT_FLOAT_EQ(drag.places.back().y, 60);
+}
+
+/// Whatever a device can do, it does while its input is recorded too.
+TEST(Recording, TellsTheDeviceWhereAFingerScrolls) {
+  struct Finger : ClipboardFrontend {
+    void set_scrolling(const std::vector<app::view::frontend::ScrollPlace>& list) override {
+      places = list;
+    }
+    std::vector<app::view::frontend::ScrollPlace> places;
+  } device;
+  const test::TemporaryFolder folder;
+  app::view::replay::RecordingFrontend recording(device, folder / "recorded.json");
+  recording.set_scrolling({{0, 0, 100, 200, 20}});
+  EXPECT_EQ(device.places.size(), 1u);
+}
+
 TEST(Recording, UnwritableFileIsAnErrorAtOnce) {
   ClipboardFrontend front;
   EXPECT_THROW(app::view::replay::RecordingFrontend(front, "/proc/no/such.json"), IoError);

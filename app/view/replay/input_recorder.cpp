@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/view/frontend/key_names.h"
-#include "app/view/panels/labels.h"
 
 namespace neve::app::view::replay {
 
@@ -31,9 +30,11 @@ float distance(const ReplayPlace& a, const ReplayPlace& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
+/// @param place  of the label
 /// @return a part of the widget, unless it is outside
-std::optional<ReplayPlace> on_widget(const std::string& label, float x, float y) {
-  const auto place = panels::Labels::of_panels().find(label);
+std::optional<ReplayPlace> on_widget(const std::string& label,
+                                     const std::optional<panels::LabelPlace>& place, float x,
+                                     float y) {
   if (!place || place->width <= 0 || place->height <= 0) return std::nullopt;
   const ReplayPlace on{label, (x - place->x) / place->width, (y - place->y) / place->height};
   if (on.x < 0 || on.x > 1 || on.y < 0 || on.y > 1) return std::nullopt;
@@ -42,7 +43,8 @@ std::optional<ReplayPlace> on_widget(const std::string& label, float x, float y)
 
 ReplayPlace place_at(float x, float y) {
   const std::string label = panels::Labels::of_panels().name_at(x, y);
-  return on_widget(label, x, y).value_or(ReplayPlace{{}, x, y});
+  return on_widget(label, panels::Labels::of_panels().find(label), x, y)
+      .value_or(ReplayPlace{{}, x, y});
 }
 
 bool prints(int key, const std::string& text) {
@@ -125,6 +127,7 @@ void InputRecorder::press(const frontend::InputEvent& event) {
   pressed_at_ = now_;
   pressed_held_ = event.held;
   pressed_on_ = place_at(x_, y_);
+  pressed_label_ = panels::Labels::of_panels().find(pressed_on_.label);
   path_ = {{{}, x_, y_}};
   path_end_ = now_;
 }
@@ -151,7 +154,8 @@ void InputRecorder::release() {
   step.steps = 1;
   step.places = {pressed_on_};
   for (std::size_t k = 1; k < path_.size(); ++k)
-    step.places.push_back(on_widget(pressed_on_.label, path_[k].x, path_[k].y).value_or(path_[k]));
+    step.places.push_back(
+        on_widget(pressed_on_.label, pressed_label_, path_[k].x, path_[k].y).value_or(path_[k]));
   add(std::move(step), pressed_at_);
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 /// Turns input into a script.
 
+#include <optional>
 #include <vector>
 
 #include "app/view/frontend/frontend.h"
+#include "app/view/panels/labels.h"
 #include "app/view/replay/replay_script.h"
 
 namespace neve::app::view::replay {
@@ -50,6 +52,9 @@ class InputRecorder {
   std::vector<ReplayPlace> path_;  ///< of the mouse since the press, px
   double path_end_ = 0;            ///< s
   ReplayPlace pressed_on_;
+  /// Where its label was then, px: what is dragged may take its label along, and a script looks for
+  /// the label once, before it drags. Absent: it is on none.
+  std::optional<panels::LabelPlace> pressed_label_;
 
   int simulation_frame_ = -1, awaited_frame_ = 0;
   bool is_running_ = false;

@@ -28,6 +28,9 @@ class RecordingFrontend : public frontend::Frontend {
   void show(render::Screen& screen) override { front_.show(screen); }
   void set_progress(int frame, bool is_running) override;
   void set_typing(bool is_wanted) override { front_.set_typing(is_wanted); }
+  void set_scrolling(const std::vector<frontend::ScrollPlace>& places) override {
+    front_.set_scrolling(places);
+  }
   bool takes_files() const override { return front_.takes_files(); }
   void offer(const std::filesystem::path& folder, const std::filesystem::path& file) override {
     front_.offer(folder, file);
