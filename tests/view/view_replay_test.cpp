@@ -420,6 +420,34 @@ TEST_F(ViewByScript, APhoneHeldUprightHasThePanelsBelow) {
   EXPECT_EQ(size_of("alone.png"), std::pair(390, 844));
 }
 
+/// Two drags are two changes, of one slider or of one arrow.
+TEST_F(ViewByScript, AnUndoTakesOneDragBack) {
+  folder.write("scene.toml", std::string(tiny_scene) + R"(
+[[collider]]
+name = "a"
+shape = { sphere = { center = [-0.3, 0.1, 0], radius = 0.1 } })");
+  const auto saved = [&](const std::string& script) {
+    std::filesystem::remove_all(folder / "out");
+    const auto result = view("[" + script + R"(, {"click": "Undo"}, {"wait": 5},
+      {"key": "s", "ctrl": true}, {"wait": 3}])");
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == app::exit_no_backend) << result.errors;
+    return result.exit_code == 0 ? read_text(folder / "out/scene.toml") : "";
+  };
+  const std::string slider = saved(R"({"click": "find a parameter"},
+    {"type": "material.snow.hardening"}, {"wait": 5},
+    {"drag": [{"label": "material.snow.hardening", "part": [0.3, 0.5]},
+              {"label": "material.snow.hardening", "part": [0.5, 0.5]}]}, {"wait": 5},
+    {"drag": [{"label": "material.snow.hardening", "part": [0.5, 0.5]},
+              {"label": "material.snow.hardening", "part": [0.8, 0.5]}]}, {"wait": 5})");
+  if (slider.empty()) SKIP_OR_FAIL("no way to draw");
+  EXPECT_TRUE(contains(slider, "hardening")) << slider;
+  const std::string handles = saved(R"({"click": "Objects"}, {"wait": 5},
+    {"click": "collider.a"}, {"wait": 5},
+    {"drag": ["handle x", {"label": "picture", "part": [0.3, 0.5]}]}, {"wait": 5},
+    {"drag": ["handle x", {"label": "picture", "part": [0.2, 0.5]}]}, {"wait": 5})");
+  EXPECT_FALSE(contains(handles, "center = [-0.3, 0.1, 0]")) << handles;
+}
+
 /// Also where three columns have just room beside each other.
 TEST_F(ViewByScript, ButtonsOfTheTimeLineAreWholeInWindowsOfAnyWidth) {
   const auto width = [&](const std::string& size) {

@@ -6,6 +6,7 @@
 #include "app/scene/toml/value.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/viewport.h"
+#include "app/view/panels/widgets.h"
 
 namespace neve::app::view::panels {
 
@@ -122,7 +123,8 @@ bool use_handles(ViewerState& state, bool is_over_picture) {
     const auto& [address, start] = drag.start.places[k];
     const Vec3d place = start + moved * unit;
     if (k < object->places.size() && (object->places[k].second - place).norm() > 1e-12)
-      state.bench.set(address, literal(place), 0x68616e64u + static_cast<unsigned>(drag.axis));
+      state.bench.set(address, literal(place),
+                      gesture_of(0x68616e64u + static_cast<unsigned>(drag.axis)));
   }
   return true;
 }

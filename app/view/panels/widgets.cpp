@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
@@ -376,8 +377,15 @@ void KnobPanel::end(const Knob& knob, const std::string& value) {
   ImGui::PopID();
 }
 
+std::uint64_t gesture_of(std::uint64_t held) {
+  constexpr std::uint64_t scatter = 0x9e3779b97f4a7c15;
+  return held == 0
+             ? 0
+             : held ^ scatter * std::bit_cast<std::uint64_t>(ImGui::GetIO().MouseClickedTime[0]);
+}
+
 std::uint64_t KnobPanel::gesture() const {
-  return ImGui::GetActiveID();
+  return gesture_of(ImGui::GetActiveID());
 }
 
 bool Knobs::open(const std::string& address, const std::string& title, const char* help) {

@@ -72,6 +72,10 @@ bool edit_value(const Knob& knob, std::vector<E>& value) {
   return true;
 }
 
+/// The number of a drag, for changes that are taken back together: another one for each press of
+/// the mouse. @param held  what the mouse holds; 0: nothing, each change is taken back alone
+std::uint64_t gesture_of(std::uint64_t held);
+
 /// Context of the widgets of one panel.
 class KnobPanel {
  public:

@@ -13,7 +13,7 @@ struct Edit {
   std::string address;
   /// TOML: the new value for set, the present one for sweep. For refused, the reason.
   std::string value;
-  std::uint64_t gesture = 0;  ///< the same while one widget is held
+  std::uint64_t gesture = 0;  ///< the same while one widget is held, another when it is held again
 };
 
 }  // namespace neve::app::view::session
