@@ -127,8 +127,13 @@ int run_view(const view::ViewOptions& given) {
   reading.reset();
   devices::Place place = devices::open_place(place_options(options));
   devices::announce(place, options.run.is_json, options.run.verbosity == Verbosity::quiet);
-  // Overrides belong to the first scene only; the coarsening applies to later scenes too.
-  while (opened) opened = look_at(*std::move(opened), options, place);
+  // Overrides, the view and the moment belong to the first scene only; the coarsening applies to
+  // later scenes too.
+  while (opened) {
+    opened = look_at(*std::move(opened), options, place);
+    options.run.views.clear();
+    options.at.reset();
+  }
   if (place.recording) place.recording->save();
   return exit_ok;
 }

@@ -79,10 +79,12 @@ void Viewer::take_events(std::vector<frontend::InputEvent> events) {
   input_.push(std::move(events));
 }
 
-/// The current run continues if the file is not a scene.
+/// The current run continues if the file is not a scene, or one that is too large.
 void Viewer::take_drop(const std::string& file) {
   try {
-    state_.dropped = session::open_document(file, {}, bench_.document().coarsening());
+    session::Opened opened = session::open_document(file, {}, bench_.document().coarsening());
+    bench_.document().require_room_for(opened.document);
+    state_.dropped = std::move(opened);
     is_closed_ = true;
   } catch (const std::exception& error) {
     bench_.say(session::Message::Kind::error, error.what());

@@ -124,6 +124,34 @@ TEST_F(ViewByScript, ADroppedSceneIsOpenedAndAnotherFileIsAMessage) {
   EXPECT_EQ(json["overrides"], app::Json{"solver.threshold_cell=0.04"}) << info.output;
 }
 
+TEST_F(ViewByScript, ADroppedSceneThatIsTooLargeIsAMessageAndTheRunGoesOn) {
+  std::string large = tiny_scene;
+  large.replace(large.find("name = \"ball\""), 13, "name = \"egg\" ");
+  folder.write("out/large.toml", large + "[limits]\nparticles = 10\n");
+  const auto result = view(R"([
+    {"key": "."}, {"wait_for": "simulation frame 1"}, {"wait_for": "simulation paused"},
+    {"drop": "large.toml"}, {"wait": 10}, {"wait_for": "label body.ball"},
+    {"wait_for": "simulation frame 1"}, {"key": "p"}, {"wait": 5}])");
+  SKIP_WITHOUT_GL(result);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(files("particles_0001_step", ".png").size(), 1u);
+}
+
+/// --view and --at are of the scene that they are given with.
+TEST_F(ViewByScript, ADroppedSceneBeginsWithAViewOfItsOwn) {
+  std::string other = tiny_scene;
+  other.replace(other.find("name = \"ball\""), 13, "name = \"egg\" ");
+  folder.write("out/other.toml", other);
+  folder.write("scene.toml", std::string(tiny_scene) + "[[view]]\nname = \"mine\"\n");
+  const auto result = view(R"([
+    {"wait_for": "label body.ball"}, {"drop": "other.toml"}, {"wait_for": "label body.egg"},
+    {"wait": 5}, {"key": "p"}, {"wait": 5}])",
+                           {"--view", "mine"});
+  SKIP_WITHOUT_GL(result);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(files("particles_0000_step", ".png").size(), 1u);
+}
+
 TEST_F(ViewByScript, ASmallWindowHasAllButtonsOfTheBar) {
   const auto result = view(R"([
     {"click": "find a parameter"}, {"type": "hardening"},

@@ -92,6 +92,18 @@ std::size_t particle_count(const scene::Scene& scene) {
   return static_cast<std::size_t>(std::clamp(setup::planned_particles(scene), 1.0, 1e9));
 }
 
+setup::Plan plan_of(const scene::Scene& scene) {
+  return setup::make_plan(scene, {0, scene::last_frame(scene)}, setup::Quality::preview, 0);
+}
+
+/// @param present  the plan of the run that ends first: it holds some of the memory that is not
+/// available any more
+void require_room(const scene::Scene& scene, setup::Plan plan, const setup::Plan& present,
+                  double coarsening) {
+  if (scene.limits.memory == 0 && !plan.is_memory_capped) plan.memory_limit += present.memory;
+  setup::check_limits(scene, plan, coarsening);
+}
+
 }  // namespace
 
 Effect effect_of(const std::string& address) {
@@ -151,17 +163,14 @@ void Document::become(std::vector<scene::Override> edits) {
 }
 
 void Document::require_within_limits(const scene::Scene& next) const {
-  const auto plan_of = [](const scene::Scene& scene) {
-    return setup::make_plan(scene, {0, scene::last_frame(scene)}, setup::Quality::preview, 0);
-  };
-  const setup::Plan before = plan_of(*scene_);
-  setup::Plan plan = plan_of(next);
+  const setup::Plan before = plan_of(*scene_), plan = plan_of(next);
   const bool needs_more = plan.memory > before.memory || plan.particles > before.particles ||
                           plan.largest_picture > before.largest_picture;
-  if (!needs_more) return;
-  // The present run holds some of the memory that is not available any more.
-  if (next.limits.memory == 0 && !plan.is_memory_capped) plan.memory_limit += before.memory;
-  setup::check_limits(next, plan, coarsening_);
+  if (needs_more) require_room(next, plan, before, coarsening_);
+}
+
+void Document::require_room_for(const Document& next) const {
+  require_room(*next.scene(), plan_of(*next.scene()), plan_of(*scene_), next.coarsening());
 }
 
 /// An object that only the edits added leaves no trace when it is removed.

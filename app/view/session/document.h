@@ -98,6 +98,10 @@ class Document {
     return read(text_, edits);
   }
 
+  /// A run of another document could begin in the place of the present one.
+  /// @throws LimitError where it would need more than its limits allow
+  void require_room_for(const Document& next) const;
+
   /// The same edits on another text: the file was changed meanwhile.
   /// @throws SceneError, UsageError when they do not fit, and then nothing has changed
   void reload(std::string text);
