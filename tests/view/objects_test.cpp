@@ -94,6 +94,43 @@ TEST(Objects, ACopyHasTheEditsOfItsOriginalAndAnotherPlace) {
   EXPECT_THROW(view::session::copy_of(unnamed, "body.2"), UsageError);
 }
 
+/// A door has its own hinge, and a spring pulls to where it was.
+TEST(Objects, ACopyOfAColliderTakesItsJointAndItsSpringAlong) {
+  Document document("scene.toml", std::string(two_things) + R"(
+[[collider]]
+name = "door"
+shape = { box = { center = [0, 0, 0.4], size = [0.2, 0.2, 0.05] } }
+density = 500
+joint = "hinge"
+joint_point = [-0.1, 0, 0.4]
+spring_stiffness = 100
+[[collider]]
+name = "cart"
+shape = { box = { center = [0, 0, 2], size = [0.2, 0.2, 0.05] } }
+density = 500
+joint = "slider"
+)",
+                    {}, 1);
+  for (const char* address : {"collider.door", "collider.cart"}) {
+    const view::session::AddedObject copy = view::session::copy_of(document, address);
+    document.set(copy.address, copy.value);
+  }
+  const std::vector<scene::Collider>& colliders = document.scene()->colliders;
+  ASSERT_EQ(colliders.size(), 6u);
+  const auto way = [&](std::size_t copy, std::size_t original) {
+    return sim::Vec3d(sim::shapes::center(colliders[copy].shape) -
+                      sim::shapes::center(colliders[original].shape));
+  };
+  const sim::shapes::RigidBody& door = colliders[4].body;
+  EXPECT_GT(way(4, 2).norm(), 0.2);
+  EXPECT_LT((door.joint_point - sim::Vec3d(-0.1, 0, 0.4) - way(4, 2)).norm(), 1e-12);
+  EXPECT_LT((door.spring_place - way(4, 2)).norm(), 1e-12);
+  // A slider has no point, and no spring pulls the cart.
+  EXPECT_GT(way(5, 3).norm(), 0.2);
+  EXPECT_EQ(colliders[5].body.joint_point, sim::Vec3d(0, 0, 0));
+  EXPECT_EQ(colliders[5].body.spring_place, sim::Vec3d(0, 0, 0));
+}
+
 TEST(Objects, ARemovedObjectTakesItsEditsAlongAndUndoBringsBoth) {
   Document document("scene.toml", two_things, {}, 1);
   document.set("collider.post.friction", "0.9");
@@ -260,6 +297,27 @@ TEST_F(ObjectsByScript, TheyAreAddedCopiedAndRemovedByHand) {
   ASSERT_EQ(saved.colliders.size(), 2u);
   EXPECT_EQ(saved.colliders[1].name, "sphere");
   EXPECT_EQ(neve({"check", "out/scene.toml"}).exit_code, 0);
+}
+
+TEST_F(ObjectsByScript, TheArrowsMoveAHingeWithItsDoor) {
+  folder.write("scene.toml", std::string(tiny_scene) + R"([[collider]]
+name = "door"
+shape = { box = { center = [0, 0.1, 0.2], size = [0.2, 0.2, 0.05] } }
+density = 500
+joint = "hinge"
+joint_point = [-0.1, 0.1, 0.2]
+)");
+  folder.write("clicks.json", R"([
+    {"click": "Objects"}, {"wait": 5}, {"click": "collider.door"}, {"wait": 5},
+    {"drag": ["handle x", {"label": "picture", "part": [0.9, 0.5]}]}, {"wait": 5},
+    {"key": "s", "ctrl": true}, {"wait": 5}])");
+  const auto result = neve({"view", "scene.toml", "--replay", "clicks.json", "--out", "out"});
+  if (result.exit_code == app::exit_no_backend) SKIP_OR_FAIL(result.errors);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const scene::Scene saved = scene::read_scene_file((folder / "out" / "scene.toml").string());
+  const sim::Vec3d way = sim::shapes::center(saved.colliders[1].shape) - sim::Vec3d(0, 0.1, 0.2);
+  EXPECT_GT(way.x(), 0.01);
+  EXPECT_LT((saved.colliders[1].body.joint_point - sim::Vec3d(-0.1, 0.1, 0.2) - way).norm(), 1e-9);
 }
 
 }  // namespace

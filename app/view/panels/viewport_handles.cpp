@@ -17,7 +17,7 @@ using sim::Vec3d;
 constexpr ImU32 axis_colors[] = {IM_COL32(240, 90, 90, 255), IM_COL32(110, 215, 110, 255),
                                  IM_COL32(95, 150, 255, 255)};
 
-/// Parameters that the arrows of a handle move: addresses of the places of a shape, with their
+/// Parameters that the arrows of a handle move: addresses of the places of an object, with their
 /// values.
 struct Movable {
   Vec3d center;
@@ -46,7 +46,11 @@ std::optional<Movable> selected_object(const ViewerState& state) {
     // Keyframes say where it is: arrows that move nothing would only mislead.
     if (state.selected == "collider." + collider.name && collider.keyframes.empty()) {
       std::optional<Movable> object = movable(collider.shape, state.selected);
-      if (object) object->moves_by_itself = collider.body.moves();
+      if (!object) return object;
+      object->places.clear();
+      for (const auto& [place, value] : session::places_of(collider))
+        object->places.emplace_back(state.selected + "." + place, value);
+      object->moves_by_itself = collider.body.moves();
       return object;
     }
   return std::nullopt;

@@ -208,6 +208,19 @@ std::vector<std::pair<std::string, Vec3d>> places_of(const Shape& shape) {
       shape.form);
 }
 
+std::vector<std::pair<std::string, Vec3d>> places_of(const scene::Collider& collider) {
+  std::vector<std::pair<std::string, Vec3d>> places;
+  for (const auto& [place, value] : places_of(collider.shape))
+    places.emplace_back("shape." + place, value);
+  using sim::shapes::Joint;
+  const sim::shapes::RigidBody& body = collider.body;
+  if (body.joint == Joint::ball || body.joint == Joint::hinge)
+    places.emplace_back("joint_point", body.joint_point);
+  if (body.spring_stiffness > 0 || body.spring_damping > 0)
+    places.emplace_back("spring_place", body.spring_place);
+  return places;
+}
+
 AddedObject new_object(const scene::Scene& scene, NewObject object, const Vec3d& near,
                        double size) {
   const Kind kind = kind_of(object);
@@ -272,8 +285,10 @@ AddedObject copy_of(const Document& document, const std::string& address) {
   for (const auto& [place, value] : places_of(*shape))
     move_place(*table, "shape." + place, value + way);
   for (const scene::Collider& collider : scene.colliders)
-    if (list == "collider" && collider.name == name)
+    if (list == "collider" && collider.name == name) {
+      for (const auto& [place, value] : places_of(collider)) move_place(*table, place, value + way);
       move_keyframes(*table, collider.keyframes, way);
+    }
   std::erase_if(table->entries,
                 [](const scene::toml::Entry& entry) { return entry.key == "name"; });
   return {list + "." + free_name(scene, list, name), scene::toml::toml_literal({*table})};
