@@ -289,6 +289,22 @@ TEST(Session, SessionReportsRefusalsAndContinues) {
   EXPECT_EQ(rest_at(session, 1)->frame, 1);
 }
 
+TEST(Session, ARunWhoseLastFrameIsLoweredBehindItStops) {
+  std::string text = tiny_scene;
+  text.replace(text.find("frames = 4"), 10, "frames = 1000");
+  const auto scene = scene_of(text);
+  view::session::Session session(scene, {}, {});
+  session.run();
+  wait_for(session, [](const view::session::LiveFrame& live) { return live.frame >= 3; });
+  scene::Scene shorter = *scene;
+  shorter.frames = 2;
+  session.apply(std::make_shared<const scene::Scene>(shorter));
+  const auto live =
+      wait_for(session, [](const view::session::LiveFrame& frame) { return !frame.is_running; });
+  EXPECT_TRUE(live->is_frame_end);
+  EXPECT_LT(live->frame, 1000);
+}
+
 TEST(Session, SessionRecordsEveryFrameOnce) {
   view::session::Session session(scene_of(tiny_scene), {}, {});
   session.set_recording(true);

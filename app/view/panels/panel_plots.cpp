@@ -100,7 +100,11 @@ void draw_over_time(const ViewerState& state, const char* label, const std::stri
                     std::vector<render::PlotSeries> list, bool has_zero) {
   render::Plot plot;
   const scene::Scene& scene = *state.live->scene;
-  plot.x_end = static_cast<float>(scene::duration(scene));
+  // Single frames and steps go on after the last frame.
+  const double newest =
+      std::max(state.live->snapshot.time,
+               state.live->samples->empty() ? 0.0 : state.live->samples->back().time);
+  plot.x_end = static_cast<float>(std::max(scene::duration(scene), newest));
   plot.now = static_cast<float>(state.live->snapshot.time);
   plot.min = has_zero ? 0 : HUGE_VALF;
   plot.max = has_zero ? 0 : -HUGE_VALF;

@@ -133,7 +133,8 @@ void Session::reach_frame() {
   timeline_->keep();
   require_room();
   const timeline::Moment& here = timeline_->here();
-  if (goal_ == Goal::frame || here.frame == scene::last_frame(*here.scene)) goal_ = Goal::none;
+  // Beyond the last one too: `frames` may be lowered while the run goes.
+  if (goal_ == Goal::frame || here.frame >= scene::last_frame(*here.scene)) goal_ = Goal::none;
   if (is_recording_) publish();
 }
 
