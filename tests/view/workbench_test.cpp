@@ -98,7 +98,8 @@ TEST(Document, DocumentKeepsTheCameraWhileKnobsAreTurned) {
 // One list of concerns decides the time of a change and its entry in a picture.
 TEST(Document, DocumentKnowsTheScopeOfEveryParameter) {
   for (const scene::ParamInfo& info : scene::params()) {
-    const bool is_drawn = scene::concern_of(info.address) == scene::Concern::pictures;
+    const bool is_drawn = scene::concern_of(info.address) == scene::Concern::pictures &&
+                          info.address != "first_frame";
     EXPECT_EQ(view::session::effect_of(info.address) == view::session::Effect::display, is_drawn)
         << info.address;
     if (!is_drawn && info.address.find('[') == std::string::npos) {
@@ -266,6 +267,23 @@ TEST(Workbench, ChangesThatNeedARestartWaitForItUnlessNothingIsLost) {
   EXPECT_DOUBLE_EQ(restarted->scene->materials[0].density, 200);
   EXPECT_TRUE(work.bench.waiting_for_reset().empty());
   EXPECT_TRUE(restarted->snapshot.changes.empty());
+}
+
+/// A picture has one number, in its name, in its caption and in its record.
+TEST(Workbench, FramesKeepTheirNumbersUntilReset) {
+  Working work;
+  work.go_to(1);
+  work.bench.set("first_frame", "1001");
+  EXPECT_EQ(work.bench.waiting_for_reset(), std::vector<std::string>{"first_frame"});
+  const auto live = work.session().latest();
+  EXPECT_EQ(scene::number_of(*live->scene, live->frame), 1);
+  EXPECT_EQ(work.picture(*live).frame, 1);
+  EXPECT_EQ(scene::number_of(work.bench.display_scene(*live), live->frame), 1);
+  work.bench.reset();
+  const auto again = wait_for(
+      work.session(), [](const view::session::LiveFrame& frame) { return frame.steps == 0; });
+  EXPECT_EQ(scene::number_of(*again->scene, again->frame), 1001);
+  EXPECT_EQ(work.picture(*again).frame, 1001);
 }
 
 TEST(Workbench, WorkbenchSavesTheSceneWithItsComments) {

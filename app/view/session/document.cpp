@@ -107,6 +107,8 @@ void require_room(const scene::Scene& scene, setup::Plan plan, const setup::Plan
 }  // namespace
 
 Effect effect_of(const std::string& address) {
+  // It numbers the frames of a run in names, records and panels, which all say the same of a frame.
+  if (address == "first_frame") return Effect::restart;
   if (scene::concern_of(address) == scene::Concern::pictures) return Effect::display;
   return scene::is_live(address) ? Effect::live : Effect::restart;
 }
