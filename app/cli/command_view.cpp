@@ -38,6 +38,7 @@ std::optional<view::session::Opened> look_at(view::session::Opened opened,
   bench_options.session.kept_budget = options.kept_memory;
   bench_options.session.past = std::move(opened.past);
   bench_options.overrides = std::move(opened.overrides);
+  bench_options.backend = options.run.backend;
   bench_options.is_remote = place.web != nullptr;
   bench_options.folder = options.run.out.empty()
                              ? out_folder() / (scene::name_of_scene(file) + "-view")

@@ -53,6 +53,9 @@ bool Viewer::has_picture_to_save() {
       !(goes_on_ && live.is_running))
     return true;
   if (live.divergence) return true;  // there is no next one
+  // The user has paused it on its way there: the next frame that they ask for is the picture's, and
+  // no more than that.
+  if (is_going_to_frame_ && !live.is_frame_end && !live.is_running) goes_on_ = false;
   if (!is_going_to_frame_ && !live.is_frame_end) {
     is_going_to_frame_ = true;
     goes_on_ = live.is_running;

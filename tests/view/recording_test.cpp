@@ -233,5 +233,20 @@ TEST_F(ViewByScript, ARecordingReplacesNoFramesOfAnEarlierSession) {
   expect_made_again("out/take/particles/0001.png");
 }
 
+/// A picture that is asked for between two frames waits for the next; who pauses before it comes
+/// has paused the run for good.
+TEST_F(ViewByScript, ARunThatIsPausedBeforeItsPictureStaysPaused) {
+  std::string text = tiny_scene;
+  text.replace(text.find("frames = 4"), 10, "frames = 6\nfps = 0.2");
+  folder.write("scene.toml", text);
+  const auto result = view(R"([{"click": "Run"}, {"wait_for": "simulation running"}, {"wait": 3},
+    {"key": "p"}, {"wait": 3}, {"click": "Pause"}, {"wait_for": "simulation paused"}, {"wait": 3},
+    {"click": "Frame"}, {"wait_for": "simulation frame 1", "within": 60}, {"wait": 20},
+    {"wait_for": "simulation paused", "within": 1}, {"wait_for": "simulation frame 1"}])");
+  SKIP_WITHOUT_GL(result);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(files("particles_0001_step", ".png").size(), 1u);
+}
+
 }  // namespace
 }  // namespace neve::test

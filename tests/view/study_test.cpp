@@ -123,5 +123,22 @@ TEST_F(Study, ASecondSweepOfAFrameHasItsOwnFolderAndASweepCanBeStopped) {
   EXPECT_EQ(wait_for_study().state, session::StudyProgress::State::stopped);
 }
 
+TEST_F(Study, ItsRunsTakeTheCoresAndTheRendererOfTheView) {
+  session::WorkbenchOptions options;
+  options.folder = folder / "out";
+  options.program = NEVE_BINARY;
+  options.session.threads = 1;
+  options.backend = "osmesa";
+  bench = std::make_unique<session::Workbench>(
+      session::open_document((folder / "scene.toml").string(), {}, 1).document, options,
+      std::function<void()>());
+  go_to(1);
+  ASSERT_EQ(vary({{"material.snow.hardening", "4"}}, 2), "");
+  bench->study().stop();
+  const std::string command = wait_for_study().command;
+  EXPECT_TRUE(contains(command, "--threads 1")) << command;
+  EXPECT_TRUE(contains(command, "--backend osmesa")) << command;
+}
+
 }  // namespace
 }  // namespace neve::test

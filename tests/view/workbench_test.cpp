@@ -572,6 +572,19 @@ TEST(Workbench, FromElsewhereNoFileIsNamedAndNoneIsWrittenOutside) {
   EXPECT_TRUE(contains(read_text(folder / "out/scene.toml"), "velocity = [0, -1, 0]"));
 }
 
+/// A folder may be named with a slash at its end.
+TEST(Workbench, FromElsewhereFilesAreWrittenIntoAFolderHoweverItIsNamed) {
+  const TemporaryFolder folder;
+  view::session::WorkbenchOptions options;
+  options.is_remote = true;
+  options.folder = folder.path() / "out" / "";
+  view::session::Workbench bench(
+      view::session::open_document(folder.write("scene.toml", tiny_scene), {}, 1).document, options,
+      {});
+  EXPECT_EQ(bench.save_copy(), folder / "out" / "scene.toml") << bench.not_saved();
+  EXPECT_EQ(bench.folder(), folder / "out");
+}
+
 TEST(Workbench, AChangeAfterADivergenceWaitsAndIsNoError) {
   Working work(exploding_scene);
   work.session().run();

@@ -35,7 +35,7 @@ std::size_t values_of(const StudyAxis& axis) {
 
 }  // namespace
 
-void Study::start(const fs::path& folder, record::RunRecord run, timeline::Moment moment,
+void Study::start(const StudyPlace& place, record::RunRecord run, timeline::Moment moment,
                   double fps, const StudyRequest& request,
                   const std::vector<std::string>& longer_steps) {
   if (is_running()) throw UsageError("", "a sweep is in progress", "wait for it, or stop it");
@@ -43,11 +43,13 @@ void Study::start(const fs::path& folder, record::RunRecord run, timeline::Momen
   const int start = moment.scene ? scene::number_of(*moment.scene, 0) : 0;
   // DIR/vary_0012, or with a number where there is one already.
   const fs::path here =
-      output::free_path(folder, fmt::format("vary_{:04}", start + moment.frame), "");
+      output::free_path(place.folder, fmt::format("vary_{:04}", start + moment.frame), "");
   sweep::plan::SweepOptions options;
   options.file = (here / "start").string();
   options.from = moment.frame / fps;
   options.axes = axes_of(request);
+  options.threads = place.threads;
+  options.backend = place.backend;
   if (request.has_longer_steps) options.overrides = longer_steps;
   options.frames = setup::FrameRange{setup::FrameRange::from_start, start + request.last_frame};
   options.out = (here / "study.cdb").string();

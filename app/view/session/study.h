@@ -23,6 +23,13 @@ struct StudyRequest {
   bool has_longer_steps = false;  ///< of forecast::longer_steps, for a quick look
 };
 
+/// What the view was started with, and its sweeps are.
+struct StudyPlace {
+  std::filesystem::path folder;  ///< of the view
+  int threads = 0;               ///< cores in all; 0: as many as there are
+  std::string backend = "auto";  ///< that draws
+};
+
 /// State of a sweep, and its files.
 struct StudyProgress {
   enum class State { none, running, done, stopped, failed };
@@ -43,11 +50,11 @@ class Study {
   explicit Study(std::filesystem::path program) : program_(std::move(program)) {}
 
   /// Writes the moment and starts the sweep beside it, in a new folder.
-  /// @param folder  of the view @param run  of the moment, with its scene and changes
+  /// @param run  of the moment, with its scene and changes
   /// @throws UsageError for parameters or values that cannot be varied there, with those that can;
   ///         IoError
-  void start(const std::filesystem::path& folder, record::RunRecord run, timeline::Moment moment,
-             double fps, const StudyRequest& request, const std::vector<std::string>& longer_steps);
+  void start(const StudyPlace& place, record::RunRecord run, timeline::Moment moment, double fps,
+             const StudyRequest& request, const std::vector<std::string>& longer_steps);
 
   /// Looks how far it is, a few times a second. @return whether something is new
   bool poll();

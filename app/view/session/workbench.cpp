@@ -50,6 +50,11 @@ std::filesystem::file_time_type time_of(const std::string& file) {
   return error ? std::filesystem::file_time_type{} : time;
 }
 
+/// "DIR" of "DIR/", as the folder of a file in it is called.
+std::filesystem::path without_slash(const std::filesystem::path& folder) {
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
 scene::Scene with_all_views(scene::Scene scene) {
   scene.views.insert(scene.views.end(), scene.undrawn_views.begin(), scene.undrawn_views.end());
   scene.mosaics.insert(scene.mosaics.end(), scene.undrawn_mosaics.begin(),
@@ -123,7 +128,9 @@ Workbench::Workbench(Document document, WorkbenchOptions options, std::function<
       // A run starts without the changes that were made later, which are edits of its document.
       session_(std::make_unique<Session>(
           options_.session.past ? document_.scene_with({}) : document_.scene(), session_options(),
-          std::move(wake))) {}
+          std::move(wake))) {
+  options_.folder = without_slash(options_.folder);
+}
 
 SessionOptions Workbench::session_options() const {
   SessionOptions options = options_.session;
@@ -591,7 +598,8 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
     run.simd = live->simd;
     std::vector<std::string> chosen;
     for (const StudyAxis& axis : request.axes) chosen.push_back(axis.address);
-    study_.start(options_.folder, std::move(run), std::move(moment), live->scene->fps, request,
+    study_.start({options_.folder, options_.session.threads, options_.backend}, std::move(run),
+                 std::move(moment), live->scene->fps, request,
                  forecast::longer_steps(*live->scene, chosen));
     say(Message::Kind::note, "a sweep from frame " +
                                  std::to_string(scene::number_of(*live->scene, frame)) +

@@ -26,6 +26,7 @@ struct WorkbenchOptions {
   std::vector<std::string> overrides;  ///< of the command line, as they were given
   setup::Quality quality = setup::Quality::preview;
   std::filesystem::path folder;     ///< for pictures, sequences, scenes and sweeps
+  std::string backend = "auto";     ///< that sweeps draw with
   std::filesystem::path program{};  ///< whose `sweep` makes sweeps; empty: this one
   /// Edits come from elsewhere: no file is read that the scene does not name, none is written
   /// outside of the folder, and limits stay.
