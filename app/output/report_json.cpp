@@ -33,6 +33,7 @@ Json to_json(const sim::AdvanceReport& advance) {
   if (advance.solve)
     json["solve"] = {{"iterations", advance.solve->iterations},
                      {"residual", number_or_null(advance.solve->residual)},
+                     {"solves", advance.solve->solves},
                      {"cut_short", advance.solve->cut_short},
                      {"given_up", advance.solve->given_up},
                      {"all_iterations", advance.solve->all_iterations}};
@@ -53,6 +54,7 @@ sim::AdvanceReport advance_report(const Json& json) {
   if (json.contains("solve"))
     advance.solve = {whole_number<int>(json.at("solve").at("iterations")),
                      number_or_nan(json.at("solve").at("residual")),
+                     whole_number_or(json.at("solve"), "solves", std::size_t(1)),
                      whole_number_or(json.at("solve"), "cut_short", std::size_t(0)),
                      whole_number_or(json.at("solve"), "given_up", std::size_t(0)),
                      whole_number_or(json.at("solve"), "all_iterations", std::uint64_t(0))};

@@ -213,7 +213,7 @@ FrameRecord frame_record(const Json& json) {
   // Runs of earlier versions have none, explicit steps neither.
   if (json.contains("solve_iterations") && !json.at("solve_iterations").is_null())
     frame.advance.solve = {whole_number<int>(json.at("solve_iterations")),
-                           output::number_or_nan(json.at("solve_residual")),
+                           output::number_or_nan(json.at("solve_residual")), 1,
                            whole_number_or(json, "solves_cut_short", std::size_t(0)),
                            whole_number_or(json, "solves_given_up", std::size_t(0))};
   frame.seconds_sim = output::number_or_nan(json.at("seconds_sim"));

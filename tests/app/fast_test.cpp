@@ -212,8 +212,6 @@ TEST(Fast, AJobRecordsTheSettingsLikeThoseOfTheUserWhichWin) {
   EXPECT_EQ(job.scene.solver.acoustic_cfl, 0.85);
   EXPECT_EQ(job.scene.materials[0].max_hardening, 7);
   // So do those in a table.
-  options.overrides = {"material.snow={ max_hardening = 7 }"};
-  EXPECT_EQ(run::make_job(options).scene.materials[0].max_hardening, 7);
   options.overrides = {"solver={ cell_size = 0.03, acoustic_cfl = 0.3 }"};
   EXPECT_EQ(run::make_job(options).scene.solver.acoustic_cfl, 0.3);
 }

@@ -115,7 +115,7 @@ TEST(RunJson, FramesComeBackAsTheyWereWritten) {
   frame.advance.dt_min = 1.0 / 3e4;
   frame.advance.dt_max = 2.0 / 3e4;
   frame.advance.ruled[static_cast<std::size_t>(sim::DtLimit::strain)] = 12;
-  frame.advance.solve = {50, 0.01, 3, 2};
+  frame.advance.solve = {50, 0.01, 4, 3, 2};
   frame.seconds_sim = 0.123456789;
   frame.summary.particles = 99;
   frame.summary.kinetic_energy = std::numeric_limits<double>::quiet_NaN();

@@ -76,9 +76,9 @@ TEST(Set, SettingTakesWholeTables) {
 }
 
 TEST(Set, ATableSetsAllThatIsInIt) {
-  EXPECT_EQ(addresses_of(
-                parse_overrides({"fps=12", "solver={ cfl = 0.3, period = [0, 0, 0] }",
-                                 "material.snow={ variation = { size = 0.1 } }", "camera=none"})),
+  EXPECT_EQ(scene::addresses_of(scene::parse_overrides(
+                {"fps=12", "solver={ cfl = 0.3, period = [0, 0, 0] }",
+                 "material.snow={ variation = { size = 0.1 } }", "camera=none"})),
             (std::vector<std::string>{"fps", "solver", "solver.cfl", "solver.period",
                                       "material.snow", "material.snow.variation",
                                       "material.snow.variation.size", "camera"}));

@@ -167,14 +167,16 @@ TEST(LightVolume, MeshNearTheSnowThrowsAShadow) {
 /// at: this took minutes, where each face had half a million samples.
 TEST(LightVolume, FacesFarLargerThanTheSnowThrowAWholeShadow) {
   const render::light::LightGrid grid{{-0.5f, -0.5f, -0.5f}, 1.0f / 64, {64, 64, 64}};
-  TriangleMesh floor;
-  floor.position = {
+  std::vector<Vec3f> places{
       {-1e4f, 0.001f, -1e4f}, {1e4f, 0.001f, -1e4f}, {-1e4f, 0.001f, 1e4f}, {1e4f, 0.001f, 1e4f}};
-  floor.index = {0, 1, 2, 2, 1, 3};
-  for (int strip = 0; strip < 30'000; ++strip)
-    for (const unsigned corner : {0u, 1u, 2u, 2u, 1u, 3u}) floor.index.push_back(4 + corner);
-  for (int corner = 0; corner < 4; ++corner)
-    floor.position.push_back(floor.position[static_cast<std::size_t>(corner)] + Vec3f{0, 3, 0});
+  std::vector<std::uint32_t> corners{0, 1, 2, 2, 1, 3};
+  for (std::size_t corner = 0; corner < 4; ++corner)
+    places.push_back(places[corner] + Vec3f{0, 3, 0});
+  for (int pair = 0; pair < 30'000; ++pair)
+    for (const std::uint32_t corner : {4u, 5u, 6u, 6u, 5u, 7u}) corners.push_back(corner);
+  TriangleMesh floor;
+  floor.position = places;
+  floor.index = corners;
   const std::vector<float> solid = render::light::voxelize({floor}, grid);
   std::size_t marked = 0;
   for (std::size_t cell = 0; cell < solid.size(); ++cell) {

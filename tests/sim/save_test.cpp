@@ -138,7 +138,7 @@ TEST(SavedState, AnInterruptedFrameContinuesBitForBit) {
 class ForgedState : public testing::Test {
  protected:
   using Record = kernels::Particle<float>;
-  static constexpr std::size_t progress_at = 56,
+  static constexpr std::size_t progress_at = 64,
                                records_at = progress_at + sizeof(engine::Progress);
 
   ForgedState() {
@@ -189,6 +189,18 @@ class ForgedState : public testing::Test {
 
 TEST_F(ForgedState, TheStateAsItWasIsTaken) {
   EXPECT_EQ(refusal(good), "");
+}
+
+TEST_F(ForgedState, AShockPressureIsNotNegative) {
+  // A change of a material finds it; behind it is the length of the dust alone.
+  Material softer, stiff;
+  softer.youngs_modulus /= 2;
+  stiff.model = laws::model::corotated;
+  simulation.apply({}, {softer, stiff}, {});
+  good = simulation.save();
+  EXPECT_EQ(refusal(good), "");
+  expect_refused(with(good.size() - sizeof(std::uint64_t) - sizeof(float), -1.0f),
+                 "a shock pressure");
 }
 
 TEST_F(ForgedState, PlacesInMemoryAreRefused) {
