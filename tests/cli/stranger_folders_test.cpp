@@ -171,8 +171,14 @@ TEST_F(StrangerFolders, FilesThatAreNoRunAreAnsweredWithTheirName) {
   app::Json list = json_of("run/exports/export.json");
   list["exports"][1]["files"] = app::Json::array({7});
   folder.write("run/exports/export.json", app::to_text(list));
-  EXPECT_EQ(neve({"export", "run", "--format", "csv", "--frames", "0", "--quiet"}).exit_code, 0);
-  EXPECT_EQ(neve({"export", "run", "--format", "csv", "--frames", "0", "--quiet"}).exit_code, 0);
+  const std::vector<std::string> words{"export", "run", "--format", "csv", "--frames", "0", "-q"};
+  const auto refused = neve(words);
+  EXPECT_EQ(refused.exit_code, 2) << refused.errors;
+  EXPECT_TRUE(contains(refused.errors, "export.json")) << refused.errors;
+  std::vector<std::string> replacing = words;
+  replacing.emplace_back("--replace");
+  EXPECT_EQ(neve(replacing).exit_code, 0);
+  EXPECT_EQ(neve(words).exit_code, 0);
 }
 
 TEST_F(StrangerFolders, SweepsOfStrangersAreCollectedOrRefusedAtOnce) {

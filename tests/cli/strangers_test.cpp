@@ -147,7 +147,7 @@ TEST_F(ForgedCheckpoint, NumbersThatNoRunHasWrittenAreRefusedByName) {
   expect_refused(replace("/frames/2/steps", 1e18), "frames steps");
   expect_refused(replace("/frames", "none"), "cannot resume");
   expect_refused(replace("/exports", Json::array({1})), "cannot resume");
-  const std::size_t progress = 56, records = progress + sizeof(sim::engine::Progress);
+  const std::size_t progress = 64, records = progress + sizeof(sim::engine::Progress);
   expect_state_refused(progress, -1e308, "time = -1e+308");
   expect_state_refused(progress, 1e9, "another moment");
   expect_state_refused(progress + 16, ~std::uint64_t{0}, "steps = ");
