@@ -10,6 +10,10 @@ function(neve_embed_files target namespace function)
             -P ${PROJECT_SOURCE_DIR}/cmake/WriteEmbeddedSource.cmake
     DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/WriteEmbeddedSource.cmake
     VERBATIM)
+  # A command of TARGET alone, and with it all objects of TARGET, would wait for the libraries that
+  # TARGET is linked with.
+  add_custom_target(${function} DEPENDS ${output})
+  add_dependencies(${target} ${function})
   target_sources(${target} PRIVATE ${output})
   # A font is longer than the literals that a compiler must accept; ours accept it.
   set_source_files_properties(${output} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
