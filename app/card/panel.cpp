@@ -82,10 +82,12 @@ render::Image draw_stage(const Experiment& e, render::Renderer& renderer) {
 
 Axes axes_of(const std::vector<const Experiment*>& experiments) {
   const KindInfo& info = info_of(experiments.front()->kind);
-  double x = 0, y = 0;
+  double x = 0, y = 0, low = 0;
   for (const Experiment* e : experiments) {
     x = std::max(x, largest(e->x));
     y = std::max(y, largest(e->y));
+    for (const double value : e->y)
+      if (std::isfinite(value)) low = std::min(low, value);
   }
   Axes axes;
   axes.y_scale = info.y_scale;
@@ -96,6 +98,9 @@ Axes axes_of(const std::vector<const Experiment*>& experiments) {
   }
   axes.x_end = x > 0 ? info.x_scale * x : 1;
   axes.high = y > 0 ? round_up(1.05 * axes.y_scale * y) : 1;
+  // Plates swing back on what tears, and push.
+  const double below = -axes.y_scale * low;
+  if (below > 0.02 * axes.high) axes.low = -round_up(1.05 * below);
   return axes;
 }
 

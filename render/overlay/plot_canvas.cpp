@@ -212,12 +212,12 @@ class PlotDrawing {
     const std::vector<Tick> ticks = x_ticks();
     for (std::size_t k = 0; k < ticks.size(); ++k) {
       const bool has_unit = k + 1 == ticks.size() && !plot_.x_unit.empty();
-      const float number = canvas_.text_width(ticks[k].label);
-      float left = x(ticks[k].value) - 0.5f * number;
+      const std::string label = has_unit ? ticks[k].label + " " + plot_.x_unit : ticks[k].label;
+      float left = x(ticks[k].value) - 0.5f * canvas_.text_width(ticks[k].label);
       // Given ones may be long, and end where the picture does.
-      if (!plot_.x_ticks.empty()) left = std::min(left, panel_.right + 0.5f * size_ - number);
-      canvas_.text({left, y}, Note::Anchor::left, soft_text,
-                   has_unit ? ticks[k].label + " " + plot_.x_unit : ticks[k].label);
+      if (!plot_.x_ticks.empty())
+        left = std::min(left, panel_.right + 0.5f * size_ - canvas_.text_width(label));
+      canvas_.text({left, y}, Note::Anchor::left, soft_text, label);
     }
     if (!plot_.x_title.empty())
       canvas_.text({0.5f * (panel_.left + panel_.right), y + 1.2f * size_}, Note::Anchor::middle,
