@@ -53,8 +53,7 @@ std::string advice_on_file(const fs::path& file, const std::string& command) {
 }  // namespace
 
 FolderAdvice advice_on_folder(const fs::path& typed) {
-  // Of "a/particles/" too.
-  const fs::path folder = typed.has_filename() ? typed : typed.parent_path();
+  const fs::path folder = without_slash(typed);
   const fs::path around = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
   if (is_sweep_folder(folder))
     return {"is the folder of a sweep, not of a run",

@@ -10,6 +10,7 @@
 #include "app/record/earlier.h"
 #include "app/scene/burn_in.h"
 #include "app/support/errors.h"
+#include "app/support/out_folder.h"
 #include "app/support/version.h"
 
 namespace neve::app::compare {
@@ -69,10 +70,8 @@ std::vector<Mode> modes_for(const PairOptions& options, TargetKind kind) {
   return options.modes.empty() ? std::vector<Mode>{Mode::beside} : options.modes;
 }
 
-/// Without the slash that completion in a shell writes.
 std::string run_name(const std::string& run) {
-  const fs::path path = fs::path(run).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).generic_string();
+  return without_slash(fs::path(run).lexically_normal()).generic_string();
 }
 
 bool is_same_run(const Json& before, const std::string& now) {

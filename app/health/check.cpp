@@ -39,9 +39,7 @@ sim::DtChoice first_emission(const scene::Scene& scene, sim::StepLimits& start) 
     const sim::Material& m = *piece.material;
     const double stiffest = sim::shapes::max_factor(m.variation.youngs_modulus);
     limits.max_sound_speed =
-        std::max(limits.max_sound_speed,
-                 std::sqrt(stiffest) *
-                     sim::health::wave_speed(m, sim::Mat3d::Identity(), piece.J_P, m.density));
+        std::max(limits.max_sound_speed, std::sqrt(stiffest) * setup::sound_speed(piece));
     sim::laws::include_hardening(m, limits, stiffest);
   }
   start = {sim::limits_on_dt(scene.solver, limits), limits.max_speed, limits.max_sound_speed, 0};

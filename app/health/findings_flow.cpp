@@ -23,11 +23,9 @@ namespace {
 /// kg/s, of sim::seeding, at the moment when gravity, which may follow a curve, carries away most.
 double largest_natural_rate(const scene::Scene& scene, const sim::seeding::Emitter& emitter) {
   const sim::Material& material = scene.materials[setup::material_index(scene, emitter.material)];
-  double largest = 0;
-  for (const int frame : setup::telling_frames(scene))
-    largest = std::max(
-        largest, natural_rate(emitter, material, setup::with_curves(scene, frame).solver.gravity));
-  return largest;
+  return setup::largest_at_moments(scene, [&](const scene::Scene& then) {
+    return natural_rate(emitter, material, then.solver.gravity);
+  });
 }
 
 /// What withholds snow however much room there is; nothing where the rate is not too large.

@@ -115,10 +115,8 @@ void check_snow_in_views(const scene::Scene& scene, std::vector<Finding>& findin
   for (const sim::seeding::Body& body : scene.bodies) all.add(sim::shapes::bounds(body.shape));
   // Snow that falls or flies across a plane may come to it.
   const auto stays = [&](const sim::Vec3d& normal) {
-    double across = 0;
-    for (const int frame : setup::telling_frames(scene))
-      across =
-          std::max(across, std::abs(setup::with_curves(scene, frame).solver.gravity.dot(normal)));
+    double across = setup::largest_at_moments(
+        scene, [&](const scene::Scene& then) { return std::abs(then.solver.gravity.dot(normal)); });
     for (const sim::seeding::Body& body : scene.bodies)
       across += std::abs(body.velocity.dot(normal));
     return across < 1e-9;

@@ -32,7 +32,7 @@ constexpr char magic[8] = {'N', 'E', 'V', 'E', 'C', 'K', 'P', '1'};
 constexpr std::size_t number_bytes = 8;
 constexpr std::size_t kept = 2;
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 40;
-/// Of memory for each byte of the JSON: a frame has about a kilobyte, and takes some ten.
+/// Each byte of the JSON takes so much memory: a frame has about a kilobyte, and takes some ten.
 constexpr double bytes_of_json = 10;
 constexpr const char* no_memory = "needs more memory than may be used";
 constexpr const char* no_checkpoint = "is not a checkpoint of this version";

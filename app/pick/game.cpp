@@ -232,8 +232,7 @@ std::vector<std::string> Game::comment() const {
   // Clicks are of what the tiles showed: the snow of the scene with the files that it names, and
   // how it was seen.
   const scene::Scene scene = scene::read_scene_file(scene_.file);
-  std::string shown = scene::write_scene(scene);
-  for (const auto& [file, hash] : record::hash_files(scene)) shown += "\n" + file + " " + hash;
+  const std::string shown = scene::write_scene(scene) + record::file_lines(scene);
   std::string what = fmt::format("{} ({})", scene_.file, record::hash_of(shown));
   for (const PickAxis& axis : scene_.axes)
     what += fmt::format(", {} {} to {}{}", axis.address, axis.text(0), axis.text(1),

@@ -261,6 +261,12 @@ std::map<std::string, std::string> hash_files(const scene::Scene& scene,
   return files;
 }
 
+std::string file_lines(const scene::Scene& scene, const std::vector<scene::LiveChange>& changes) {
+  std::string text;
+  for (const auto& [file, hash] : hash_files(scene, changes)) text += "\n" + file + " " + hash;
+  return text;
+}
+
 void find_files(const fs::path& picture, PictureRecord& record,
                 const std::function<void(const std::vector<std::string>&)>& allow) {
   std::map<std::string, std::string> files;

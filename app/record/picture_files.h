@@ -17,6 +17,10 @@ namespace neve::app::record {
 std::map<std::string, std::string> hash_files(const scene::Scene& scene,
                                               const std::vector<scene::LiveChange>& changes = {});
 
+/// A line for each of these files, for hashes of what depends on them. @throws IoError
+std::string file_lines(const scene::Scene& scene,
+                       const std::vector<scene::LiveChange>& changes = {});
+
 /// Looks for the files of a picture. Those that are no longer where they were are found in the
 /// folder of the picture and those above, by the end of their path and their content: a project
 /// that was moved draws its pictures again. The record then has their places of today.

@@ -20,6 +20,7 @@
 #include "app/scene/coarsen.h"
 #include "app/setup/resolve.h"
 #include "app/support/errors.h"
+#include "app/support/out_folder.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "app/timeline/times.h"
@@ -80,10 +81,8 @@ void keep_export(const Json& one, const record::FileHashes& files, Kept& kept) {
 /// Names all that the scene says of its simulation, and its files; another build may have other
 /// bits.
 std::string simulation_of(const RenderJob& run) {
-  std::string text = simulation_text(run.scene) + to_text(scene::to_json(run.changes));
-  for (const auto& [file, hash] : record::hash_files(run.scene, run.changes))
-    text += "\n" + file + " " + hash;
-  return record::hash_of(text);
+  return record::hash_of(simulation_text(run.scene) + to_text(scene::to_json(run.changes)) +
+                         record::file_lines(run.scene, run.changes));
 }
 
 /// @throws std::exception for a list that neve has not written
@@ -298,7 +297,7 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
   }
   json["files"] = kept.files;
   for (const auto& [file, hash] : files) json["files"][file] = hash;
-  // Of one that is killed, the next one knows which files were to be its own.
+  // If this one is killed, the next one knows which files were to be its own.
   if (result.moments == 0) json["begun"] = files_to_write(job);
   output::write_file(output::export_list_path(job.run.folder), record::with_own_hash(json));
 }
@@ -306,8 +305,7 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
 /// The run that has its exports in a folder, which is written to in its name.
 std::optional<fs::path> run_with_exports_in(const fs::path& folder) {
   std::error_code error;
-  fs::path place = fs::weakly_canonical(folder, error);
-  if (!place.has_filename()) place = place.parent_path();  // "out/exports/"
+  const fs::path place = without_slash(fs::weakly_canonical(folder, error));
   const fs::path run = place.parent_path();
   if (error || place.filename() != output::exports_folder ||
       !fs::exists(output::run_json_path(run), error))

@@ -75,10 +75,8 @@ std::string simulation_text(const scene::Scene& scene) {
 
 std::string surroundings_of(const scene::Scene& scene,
                             const std::vector<scene::LiveChange>& changes) {
-  std::string text = std::string("\nversion ") + version + "\nsources " + build().sources;
-  for (const auto& [file, hash] : record::hash_files(scene, changes))
-    text += "\n" + file + " " + hash;
-  return text;
+  return std::string("\nversion ") + version + "\nsources " + build().sources +
+         record::file_lines(scene, changes);
 }
 
 std::string identity_of_states(const RenderJob& job, const std::string& simd) {

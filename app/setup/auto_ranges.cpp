@@ -102,25 +102,6 @@ double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   return std::sqrt(start * start + 2 * g * fall);
 }
 
-/// act(the scene at each moment that shows how far its curves go, without them)
-template <class Act>
-void at_each_moment(const scene::Scene& scene, const Act& act) {
-  if (scene.curves.empty()) return act(scene);
-  for (const int frame : telling_frames(scene)) {
-    scene::Scene then = with_curves(scene, frame);
-    then.curves.clear();
-    act(std::as_const(then));
-  }
-}
-
-/// The largest value at any of them.
-template <class Of>
-double largest_at_moments(const scene::Scene& scene, const Of& of) {
-  double value = 0;
-  at_each_moment(scene, [&](const scene::Scene& then) { value = std::max(value, of(then)); });
-  return value;
-}
-
 /// Over the materials of its snow, as they are in the cells of the scene, at all moments.
 double largest(const scene::Scene& given, double (*of)(const sim::Material&)) {
   return largest_at_moments(given, [&](const scene::Scene& scene) {
@@ -166,8 +147,8 @@ struct BodyHeights {
   double low = 1e300, high = -1e300;
 };
 
-/// What is left of a vector along the ways that a body may go; about a ball joint or a hinge it may
-/// swing to all sides.
+/// Keeps of a vector what is along the ways that a body may go; about a ball joint or a hinge it
+/// may swing to all sides.
 Vec3d along_free_ways(const sim::shapes::RigidBody& body, Vec3d v) {
   using sim::shapes::HeldAxis;
   if (body.joint == sim::shapes::Joint::slider) {
@@ -201,13 +182,14 @@ Spring spring_of(const sim::shapes::Collider& collider) {
 struct Fall {
   Vec3d gravity{0, 0, 0};  ///< m/s2, what of it the body may follow
   double way = 0;          ///< m, along it
+  Spring spring{};
 };
 
 /// To what is below, or the turn of the spring; until the end of the scene where nothing is. Ball
 /// joints and hinges hold.
 Fall fall_of(const scene::Scene& scene, const sim::shapes::Collider& body) {
   using sim::shapes::Joint;
-  Fall fall{along_free_ways(body.body, scene.solver.gravity), 0};
+  Fall fall{along_free_ways(body.body, scene.solver.gravity), 0, spring_of(body)};
   const double g = fall.gravity.norm();
   if (g == 0 || body.body.joint == Joint::ball || body.body.joint == Joint::hinge) return fall;
   const Vec3d down = fall.gravity / g;
@@ -218,7 +200,7 @@ Fall fall_of(const scene::Scene& scene, const sim::shapes::Collider& body) {
     const double distance = distance_to(collider, sim::shapes::center(body.shape), down);
     if (distance >= 0) fall.way = std::min(fall.way, distance);
   }
-  if (const Spring spring = spring_of(body); spring.rate > 0) {
+  if (const Spring& spring = fall.spring; spring.rate > 0) {
     // It swings about the place where the spring carries it, as far as it starts from there.
     const double to_rest = spring.away.dot(down) + g / spring.rate,
                  speed = body.velocity.dot(down) / std::sqrt(spring.rate);
@@ -260,10 +242,9 @@ scene::Range rounded_range(double low, double high) {
 double body_speed(const scene::Scene& scene, const sim::shapes::Collider& body) {
   const double size = radius_around(sim::shapes::bounds_at(body, 0));
   const Fall fall = fall_of(scene, body);
-  const Spring spring = spring_of(body);
   const double falling =
       std::sqrt(body.velocity.squaredNorm() + 2 * fall.gravity.norm() * std::max(fall.way, size) +
-                spring.rate * spring.away.squaredNorm());
+                fall.spring.rate * fall.spring.away.squaredNorm());
   return std::max(setup::impact_speed(scene), falling);
 }
 
@@ -324,15 +305,11 @@ double impact_speed(const scene::Scene& given) {
 }
 
 Impact hardest_impact(const scene::Scene& given) {
-  const auto sound_in = [](const SnowPiece& piece) {
-    return sim::health::wave_speed(*piece.material, sim::Mat3d::Identity(), piece.J_P,
-                                   piece.material->density);
-  };
   Impact hardest;
   double worst = 0;
   at_each_moment(given, [&](const scene::Scene& scene) {
     for (const SnowPiece& piece : snow_places(scene)) {
-      const double speed = impact_speed(scene, piece), sound = sound_in(piece);
+      const double speed = impact_speed(scene, piece), sound = sound_speed(piece);
       if (speed <= worst * sound) continue;
       worst = speed / sound;
       hardest = {piece.address, speed, sound};
@@ -342,7 +319,7 @@ Impact hardest_impact(const scene::Scene& given) {
   const scene::Scene start = with_curves(given, 0);
   double fastest_at_start = 0;
   for (const SnowPiece& piece : snow_places(start))
-    fastest_at_start = std::max(fastest_at_start, sound_in(piece));
+    fastest_at_start = std::max(fastest_at_start, sound_speed(piece));
   if (fastest_at_start > 0) hardest.share_of_sound /= fastest_at_start;
   return hardest;
 }

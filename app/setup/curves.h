@@ -1,6 +1,8 @@
 #pragma once
 /// Keyframes of parameters: the values that curves give in a frame.
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "app/scene/override.h"
@@ -35,5 +37,24 @@ std::vector<scene::Override> without_followers(const scene::Scene& scene,
 
 /// "wetness 0.31, gravity 0 -9.81 0": the values of a frame, for captions; "" without curves.
 std::string curves_text(const scene::Scene& scene, int frame);
+
+/// act(the scene at each moment that shows how far its curves go, without them)
+template <class Act>
+void at_each_moment(const scene::Scene& scene, const Act& act) {
+  if (scene.curves.empty()) return act(scene);
+  for (const int frame : telling_frames(scene)) {
+    scene::Scene then = with_curves(scene, frame);
+    then.curves.clear();
+    act(std::as_const(then));
+  }
+}
+
+/// The largest value at any of them.
+template <class Of>
+double largest_at_moments(const scene::Scene& scene, const Of& of) {
+  double value = 0;
+  at_each_moment(scene, [&](const scene::Scene& then) { value = std::max(value, of(then)); });
+  return value;
+}
 
 }  // namespace neve::app::setup

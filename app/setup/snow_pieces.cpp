@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/setup/seed_scene.h"
+#include "sim/health/diagnostics.h"
 #include "sim/health/limits.h"
 #include "sim/shapes/solid.h"
 
@@ -70,6 +71,11 @@ bool is_too_large(const scene::Scene& scene) {
   };
   return !std::ranges::any_of(scene.colliders, is_terrain) &&
          largest_extent(scene) > sim::health::limits_of(sim::health::Law::extent).check_warning;
+}
+
+double sound_speed(const SnowPiece& piece) {
+  const sim::Material& m = *piece.material;
+  return sim::health::wave_speed(m, sim::Mat3d::Identity(), piece.J_P, m.density);
 }
 
 double speed_of_spin(const SnowPiece& piece) {

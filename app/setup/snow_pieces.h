@@ -26,6 +26,9 @@ std::vector<SnowPiece> snow_pieces(const scene::Scene& scene);
 /// The same without the values that need a file to be read: volume, particles and mass stay 0.
 std::vector<SnowPiece> snow_places(const scene::Scene& scene);
 
+/// m/s, of sound in the snow of a piece as it is packed at the start.
+double sound_speed(const SnowPiece& piece);
+
 /// m/s, of the point that the spin of a piece moves fastest, about the middle of its box.
 double speed_of_spin(const SnowPiece& piece);
 

@@ -14,6 +14,11 @@ inline std::filesystem::path out_folder() {
   return chosen && *chosen ? std::filesystem::path(chosen) : std::filesystem::path("out");
 }
 
+/// "DIR" of "DIR/", as completion in a shell writes it.
+inline std::filesystem::path without_slash(const std::filesystem::path& folder) {
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
 /// It holds a sweep, with its manifest.
 inline bool is_sweep_folder(const std::filesystem::path& folder) {
   std::error_code error;

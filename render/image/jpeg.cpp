@@ -96,7 +96,7 @@ int orientation_of(std::span<const std::uint8_t> bytes) {
 }
 
 /// The picture as the camera saw it.
-Image upright(const Image& stored, int orientation) {
+Image upright(Image stored, int orientation) {
   if (orientation == 1) return stored;
   const auto is_one_of = [&](std::initializer_list<int> list) {
     return std::ranges::find(list, orientation) != list.end();
@@ -150,7 +150,7 @@ Image decode_jpeg(std::span<const std::uint8_t> bytes, double room) {
       (tjGetErrorCode(decoder.get()) == TJERR_FATAL ||
        std::string(tjGetErrorStr2(decoder.get())).find("extraneous bytes") == std::string::npos))
     fail();
-  return upright(image, orientation_of(bytes));
+  return upright(std::move(image), orientation_of(bytes));
 }
 
 #else

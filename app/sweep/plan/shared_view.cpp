@@ -180,7 +180,7 @@ scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
   return shared;
 }
 
-/// What a forked run is told beside its settings, so that it is seen as it was planned: its scene
+/// A forked run is told this beside its settings, so that it is seen as it was planned: its scene
 /// is that of the beginning, from which alone it would find cameras and ranges anew.
 std::vector<scene::Override> look_of(const scene::Scene& beginning, const PlannedRun& item) {
   const auto is_look = [](const std::string& address) {

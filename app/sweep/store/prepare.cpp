@@ -130,10 +130,8 @@ void write_run(const fs::path& folder, const RunFiles& files) {
 /// Changes before the fork, of the run that is forked, with the files that they name.
 std::string changes_of_source(const plan::SweepPlan& plan) {
   if (!plan.source) return "";
-  std::string text = to_text(scene::to_json(plan.source->changes));
-  for (const auto& [file, hash] : record::hash_files({}, plan.source->changes))
-    text += "\n" + file + " " + hash;
-  return text;
+  const std::vector<scene::LiveChange>& changes = plan.source->changes;
+  return to_text(scene::to_json(changes)) + record::file_lines({}, changes);
 }
 
 }  // namespace

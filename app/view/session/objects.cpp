@@ -282,13 +282,14 @@ AddedObject copy_of(const Document& document, const std::string& address) {
   });
   if (!table || !shape) throw UsageError("", "there is no " + address, "select one of the list");
   const Vec3d way = way_of_copy(scene, list, *shape);
-  for (const auto& [place, value] : places_of(*shape))
-    move_place(*table, "shape." + place, value + way);
-  for (const scene::Collider& collider : scene.colliders)
-    if (list == "collider" && collider.name == name) {
-      for (const auto& [place, value] : places_of(collider)) move_place(*table, place, value + way);
-      move_keyframes(*table, collider.keyframes, way);
-    }
+  const auto collider = std::ranges::find(scene.colliders, name, &scene::Collider::name);
+  if (list != "collider") {
+    for (const auto& [place, value] : places_of(*shape))
+      move_place(*table, "shape." + place, value + way);
+  } else {
+    for (const auto& [place, value] : places_of(*collider)) move_place(*table, place, value + way);
+    move_keyframes(*table, collider->keyframes, way);
+  }
   std::erase_if(table->entries,
                 [](const scene::toml::Entry& entry) { return entry.key == "name"; });
   return {list + "." + free_name(scene, list, name), scene::toml::toml_literal({*table})};

@@ -17,6 +17,7 @@
 #include "app/setup/curves.h"
 #include "app/support/errors.h"
 #include "app/support/machine.h"
+#include "app/support/out_folder.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "app/sweep/plan/around.h"
@@ -48,11 +49,6 @@ std::filesystem::file_time_type time_of(const std::string& file) {
   std::error_code error;
   const auto time = std::filesystem::last_write_time(file, error);
   return error ? std::filesystem::file_time_type{} : time;
-}
-
-/// "DIR" of "DIR/", as the folder of a file in it is called.
-std::filesystem::path without_slash(const std::filesystem::path& folder) {
-  return folder.has_filename() ? folder : folder.parent_path();
 }
 
 scene::Scene with_all_views(scene::Scene scene) {
