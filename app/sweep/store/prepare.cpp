@@ -10,6 +10,7 @@
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
 #include "app/output/temporary.h"
+#include "app/record/picture_files.h"
 #include "app/record/picture_record.h"
 #include "app/record/run_json.h"
 #include "app/run/identity.h"
