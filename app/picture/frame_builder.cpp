@@ -230,6 +230,8 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
       take(p, points);
     }
   }
+  // Beyond the plane it only shapes what is before it.
+  if (points.position.empty()) points.cut.reset();
 }
 
 void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <numbers>
 #include <utility>
+#include <vector>
+
+#include "sim/laws/law.h"
 
 namespace neve::sim::checks {
 
@@ -83,6 +86,7 @@ double believed_volume(const ParticleArrays& p, const std::vector<Material>& mat
   const std::size_t stride = 1 + V.size() / max_looks;
   for (std::size_t q = 0; q < V.size(); q += stride) {
     if (p.id_of(q) >= first_born) break;
+    if (!laws::counts_volume(p.material_of(q, materials))) continue;
     const double length = smoothing * std::cbrt(V[q]);
     double packing = 0;
     Vec3d centre = Vec3d::Zero();

@@ -64,7 +64,13 @@ void Engine<Real>::take_step(double dt) {
   const Method<Real>& method = state_.method;
   solve_ = {};
   took_explicit_ = false;
-  if (state_.particles.size() == 0) return state_.advance_time(dt);
+  if (state_.particles.size() == 0) {
+    state_.advance_time(dt);
+    // Snow that has left limits no further step, as snow that has not come yet does not.
+    StateLimits& limits = state_.progress.limits;
+    limits.max_speed = limits.max_sound_speed = limits.max_strain_rate = 0;
+    return;
+  }
   if (method.takes_stages()) return take_stages(dt);
   if (method.settings.is_implicit())
     take_implicit(dt, max_halvings);
@@ -85,15 +91,19 @@ void Engine<Real>::take_implicit(double dt, int halvings) {
     return;
   }
   took_explicit_ = true;
-  const int parts = explicit_parts(state_.method.settings, state_.progress.limits, dt);
-  for (int part = 0; part < parts && !divergence(); ++part) take_fused(dt / parts, false);
+  // Snow that is crushed hardens from each of them to the next.
+  for (double left = dt; left > 0 && !divergence();) {
+    const double part = explicit_part(state_.method.settings, state_.progress.limits, left);
+    take_fused(part, false);
+    left -= part;
+  }
 }
 
 /// @return false: the solve failed, nothing was changed
 template <class Real>
 bool Engine<Real>::take_fused(double dt, bool is_implicit) {
   if (!FusedDriver<Real>(state_, parts_, dt).step(is_implicit)) return false;
-  timed(parts_.seconds.checks, [&] { check_step(dt); });
+  timed(parts_.seconds.checks, [&] { check_step(dt, is_implicit); });
   return true;
 }
 
@@ -105,17 +115,20 @@ void Engine<Real>::take_stages(double dt) {
   solve_ = parts_.solver.last_solve();
   StateLimits& limits = state_.progress.limits;
   const double sound_speed = limits.max_sound_speed;
-  check_step(dt);
+  check_step(dt, state_.method.settings.is_implicit());
   // Nothing has updated the stress; it is as it was.
   if (state_.method.settings.skips(Stage::deformation)) limits.max_sound_speed = sound_speed;
 }
 
 template <class Real>
-void Engine<Real>::check_step(double dt) {
+void Engine<Real>::check_step(double dt, bool is_implicit) {
   Progress& progress = state_.progress;
   state_.grid.add_loads(state_.method.load_unit, loads_);
   const double speed_before = progress.limits.max_speed;
-  diverge_if(watch_.check_step(state_.method.settings, dt, state_.grid.step_report(), progress));
+  const SolverSettings& settings = state_.method.settings;
+  // How much less of the speed of sound the step feels than an explicit one.
+  const double stretch = is_implicit ? acoustic_stretch(settings) : 1;
+  diverge_if(watch_.check_step(settings, dt, stretch, state_.grid.step_report(), progress));
   ++progress.steps_since_sink_check;
   progress.distance_since_sink_check += dt * std::max(speed_before, progress.limits.max_speed);
   if (progress.steps % HealthWatch::steps_between_sums == 0) check_sums();

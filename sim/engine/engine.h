@@ -76,7 +76,7 @@ class Engine final : public Stepper {
   void take_implicit(double dt, int halvings);
   bool take_fused(double dt, bool is_implicit);
   void take_stages(double dt);
-  void check_step(double dt);
+  void check_step(double dt, bool is_implicit);
   void check_sums();
   void diverge_if(const std::optional<BrokenRule>& broken);
   void advance_frame(const DtChoice& choice, AdvanceReport& report);

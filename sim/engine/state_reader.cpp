@@ -203,9 +203,9 @@ typename StateReader<Real>::Sums StateReader<Real>::sum_of(std::size_t begin,
     const Material& material = method.materials[static_cast<std::size_t>(p.material())];
     if (laws::of(material).is_snow) {
       s.snow_mass += m;
+      if (!laws::counts_volume(material)) continue;  // a hardening, and no packing
       if (J_P <= health::packed_J_P) s.packed += m;
-      const bool is_packing = laws::counts_volume(material);
-      if (is_packing && m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
+      if (m > ice_density * J_P * static_cast<double>(p.V0)) s.denser_than_ice += m;
     }
   }
   return s;

@@ -210,7 +210,10 @@ Held::Speeds Held::allowed(const Speeds& given, const Mat3d& inertia) const {
   Eigen::Matrix<double, 6, 1> speeds;
   speeds << given.velocity, given.spin;
   const Eigen::MatrixXd response = row * given_by;
-  speeds -= given_by * response.completeOrthogonalDecomposition().solve(row * speeds);
+  // Values, not expressions: each one that holds the decomposition would be compiled anew.
+  const Eigen::VectorXd missing = row * speeds;
+  const Eigen::VectorXd impulses = response.completeOrthogonalDecomposition().solve(missing);
+  speeds -= given_by * impulses;
   return {speeds.head<3>(), speeds.tail<3>()};
 }
 

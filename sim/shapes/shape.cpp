@@ -146,12 +146,28 @@ class TorusForm final : public Analytic {
 
 // ---- shapes -------------------------------------------------------------------------------------
 
+/// The rotation by the smallest angle that turns the direction of FROM into that of TO. Eigen's
+/// Quaternion::FromTwoVectors gives the same, and takes seconds to compile: for opposite
+/// directions, where any axis across them will do, it decomposes a matrix.
+Mat3d turn_between(const Vec3d& from, const Vec3d& to) {
+  const Vec3d a = from.normalized(), b = to.normalized();
+  const double cosine = b.dot(a);
+  if (cosine < -1 + 1e-12) {
+    const Vec3d across = Vec3d::UnitZ() - a.z() * a;
+    const Vec3d axis = across.squaredNorm() > 1e-6 ? across.normalized() : Vec3d(-1, 0, 0);
+    return 2 * axis * axis.transpose() - Mat3d::Identity();
+  }
+  const double s = std::sqrt(2 * (1 + cosine)), inverse = 1 / s;
+  const Vec3d axis = a.cross(b) * inverse;
+  return Eigen::Quaterniond(s / 2, axis.x(), axis.y(), axis.z()).toRotationMatrix();
+}
+
 /// Turns y into the direction of the capsule's axis, by the smallest angle; the axis of a ball, as
 /// a capsule may be, stays.
 Mat3d capsule_axes(const Capsule& capsule) {
   const Vec3d axis = capsule.b - capsule.a;
   if (axis.squaredNorm() == 0) return Mat3d::Identity();
-  return Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitY(), axis).toRotationMatrix();
+  return turn_between(Vec3d::UnitY(), axis);
 }
 
 struct MakeForm {
@@ -205,8 +221,7 @@ Solid::Solid(const Shape& shape)
 }
 
 double Solid::extent(const Vec3d& direction) const {
-  const Mat3d to_x =
-      Eigen::Quaterniond::FromTwoVectors(direction, Vec3d::UnitX()).toRotationMatrix();
+  const Mat3d to_x = turn_between(direction, Vec3d::UnitX());
   const Bounds b = form_->bounds_after(to_x * rotation_);
   return b.max.x() - b.min.x();
 }

@@ -20,13 +20,13 @@ constexpr double hopeless_cells = 100;
 
 /// The first rule of a healthy step that its own report says is broken.
 /// @param before  limits that the dt of the step was chosen by
-std::optional<BrokenRule> broken_rule(const SolverSettings& settings, double dt,
+std::optional<BrokenRule> broken_rule(const SolverSettings& settings, double dt, double stretch,
                                       const StateLimits& before, const StepReport& report,
                                       Progress& progress) {
   const double h = settings.cell_size;
   const double speed_cfl = progress.limits.max_speed * dt / h;
   // As an explicit step would feel it.
-  const double acoustic_cfl = progress.limits.max_sound_speed * dt / h / acoustic_stretch(settings);
+  const double acoustic_cfl = progress.limits.max_sound_speed * dt / h / stretch;
   double& worst_cfl = progress.warnings.worst_acoustic_cfl;
   worst_cfl = std::max(worst_cfl, acoustic_cfl);
   const bool is_adaptive = settings.time_step == TimeStep::adaptive;
@@ -57,7 +57,8 @@ std::optional<BrokenRule> broken_rule(const SolverSettings& settings, double dt,
 }  // namespace
 
 std::optional<BrokenRule> HealthWatch::check_step(const SolverSettings& settings, double dt,
-                                                  const StepReport& report, Progress& progress) {
+                                                  double stretch, const StepReport& report,
+                                                  Progress& progress) {
   const StateLimits before = progress.limits;
   progress.limits.max_speed = report.max_speed;
   progress.limits.max_sound_speed = report.max_sound_speed;
@@ -69,7 +70,7 @@ std::optional<BrokenRule> HealthWatch::check_step(const SolverSettings& settings
   progress.last_dt = dt;
   record_step(dt, report, progress);
   if (divergence_) return std::nullopt;
-  return broken_rule(settings, dt, before, report, progress);
+  return broken_rule(settings, dt, stretch, before, report, progress);
 }
 
 void HealthWatch::record_step(double dt, const StepReport& report, const Progress& progress) {

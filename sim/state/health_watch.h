@@ -41,8 +41,9 @@ class HealthWatch {
   void set_limit(DtLimit limit) { limit_ = limit; }
 
   /// Updates the limits of the next dt, warnings and the record of last steps.
+  /// @param stretch  acoustic_stretch of the step, which may be an explicit one in place of another
   /// @return the rule that the step of dt broke, the first one of a run
-  std::optional<BrokenRule> check_step(const SolverSettings& settings, double dt,
+  std::optional<BrokenRule> check_step(const SolverSettings& settings, double dt, double stretch,
                                        const StepReport& report, Progress& progress);
 
   /// Kinetic plus elastic energy may exceed the energy at the start plus the work of gravity and

@@ -77,12 +77,10 @@ double stable_dt(const SolverSettings& s, const StateLimits& limits) {
   return std::min(ratio(s.cfl * s.cell_size, speed), acoustic_dt(s, limits));
 }
 
-int explicit_parts(const SolverSettings& s, const StateLimits& limits, double dt) {
-  constexpr double max_parts = 1000;
+double explicit_part(const SolverSettings& s, const StateLimits& limits, double dt) {
   SolverSettings settings = s;
   settings.beta = 0;
-  const double parts = std::ceil(dt / stable_dt(settings, limits));
-  return static_cast<int>(std::clamp(parts, 1.0, max_parts));
+  return dt / std::max(1.0, std::ceil(dt / stable_dt(settings, limits)));
 }
 
 DtLimit explicit_limit(const SolverSettings& s, const StateLimits& limits) {

@@ -35,8 +35,8 @@ std::array<double, dt_limit_count> limits_on_dt(const SolverSettings& settings,
 /// The largest dt that speed and sound allow now, whatever the settings say about fixed steps.
 double stable_dt(const SolverSettings& settings, const StateLimits& limits);
 
-/// Explicit steps that take the place of one semi-implicit step of dt, at most 1000.
-int explicit_parts(const SolverSettings& settings, const StateLimits& limits, double dt);
+/// The next of the explicit steps that take the place of a semi-implicit one, of which dt is left.
+double explicit_part(const SolverSettings& settings, const StateLimits& limits, double dt);
 
 /// The limit that rules those.
 DtLimit explicit_limit(const SolverSettings& settings, const StateLimits& limits);

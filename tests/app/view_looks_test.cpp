@@ -121,6 +121,9 @@ TEST(Clip, ASurfaceKnowsTheSnowBeyondItsCut) {
   EXPECT_EQ(frame.points.cut->normal, (Vec3f{0, 0, 1}));
   EXPECT_EQ(frame.points.cut->id, std::vector<std::uint32_t>{2}) << "9 m away shapes nothing";
   EXPECT_EQ(frame.points.cut->volume.size(), 1u);
+  const render::Frame beyond = build(scene, {{0, 0, 0.1001}, {0, 0, 0.11}});
+  EXPECT_TRUE(beyond.points.position.empty());
+  EXPECT_FALSE(beyond.points.cut.has_value()) << "nothing is left for it to shape";
 }
 
 TEST(Turn, IsTheRotationOfSnowAlsoWhereItIsStrained) {

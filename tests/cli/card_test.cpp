@@ -38,6 +38,23 @@ TEST_F(CardCommand, WritesAPictureAndNumbers) {
   const auto info = neve({"info", "made/snow.png", "--json"});
   ASSERT_EQ(info.exit_code, 0) << info.errors;
   EXPECT_NE(info.output.find("model = \\\"cam_clay\\\""), std::string::npos) << info.output;
+  // It is no picture of a run.
+  const auto told = neve({"info", "made/snow.png"});
+  EXPECT_TRUE(contains(told.output, "card        of ")) << told.output;
+  EXPECT_TRUE(contains(told.output, "; neve card made/snow.png makes it again\n")) << told.output;
+  EXPECT_FALSE(contains(told.output, "state hash")) << told.output;
+  const auto drawn = neve({"render", "made/snow.png", "--out", "x"});
+  EXPECT_EQ(drawn.exit_code, 2);
+  EXPECT_TRUE(
+      contains(drawn.errors, ", not a picture of a run; neve card made/snow.png makes it again"))
+      << drawn.errors;
+  EXPECT_FALSE(exists("x"));
+  // Another card does not replace it unless asked to.
+  const auto other = neve({"card", "--preset", "quick", "--out", "made/snow.png"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(contains(other.errors, "there is a card of other scenes or settings"))
+      << other.errors;
+  EXPECT_EQ(app::output::read_file(folder.path() / "made/snow.png"), bytes);
 }
 
 TEST_F(CardCommand, AnotherCardIsReplacedOnlyWhenAskedFor) {

@@ -126,18 +126,5 @@ TEST_F(Origins, APictureWhoseStateIsNotReachedAgainIsWarnedOf) {
   EXPECT_FALSE(contains(changed.errors, "has another state")) << changed.errors;
 }
 
-TEST_F(Origins, ACardIsNoPictureOfARun) {
-  ASSERT_EQ(neve({"card", "--preset", "quick", "--out", "card.png", "--quiet"}).exit_code, 0);
-  const auto info = neve({"info", "card.png"});
-  EXPECT_TRUE(contains(info.output, "card        of ")) << info.output;
-  EXPECT_TRUE(contains(info.output, "; neve card card.png makes it again\n")) << info.output;
-  EXPECT_FALSE(contains(info.output, "state hash")) << info.output;
-  const auto drawn = neve({"render", "card.png", "--out", "x"});
-  EXPECT_EQ(drawn.exit_code, 2);
-  EXPECT_TRUE(contains(drawn.errors, ", not a picture of a run; neve card card.png makes it again"))
-      << drawn.errors;
-  EXPECT_FALSE(exists("x"));
-}
-
 }  // namespace
 }  // namespace neve::test

@@ -438,6 +438,7 @@ TEST(Flow, FastSnowDoesNotFlyThroughASink) {
   simulation.advance_to(0.05);
   ASSERT_FALSE(simulation.divergence());
   EXPECT_EQ(simulation.particle_count(), 0u);
+  EXPECT_EQ(simulation.choose_dt(1).limit, sim::DtLimit::max_dt) << "what has left limits nothing";
 }
 
 /// Also after steps in which a sink took snow, and in a run that was restored.

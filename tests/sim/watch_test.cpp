@@ -9,6 +9,7 @@
 
 #include "sim/checks/places.h"
 #include "sim/laws/list.h"
+#include "tests/support/clay_sample.h"
 #include "tests/support/elastic.h"
 #include "tests/support/snow.h"
 
@@ -218,6 +219,9 @@ TEST(Places, BelievedVolumeIsOneWhereSnowIsWhereFSays) {
     for (double& J_P : p.J_P) J_P *= 1.5;
     EXPECT_NEAR(checks::believed_volume(p, {Material{}}, 1u << 30), 1.5, 0.03) << stretch;
     EXPECT_EQ(checks::believed_volume(p, {Material{}}, 0), 1) << "all were born";
+    Material isochoric = clay();
+    isochoric.own[laws::cam_clay::flow] = laws::cam_clay::isochoric;
+    EXPECT_EQ(checks::believed_volume(p, {isochoric}, 1u << 30), 1) << "its J_P is no volume";
   }
   const ParticleArrays few = lattice({0, 0, 0}, Vec3d::Constant(0.02), {2, 2, 2}, 400);
   const Simulation simulation(SolverSettings{}, {Material{}}, {}, few, 1);

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -67,6 +68,7 @@ Child::Child(Child&& other) noexcept
       start_(other.start_),
       asked_at_(other.asked_at_),
       checked_at_(other.checked_at_),
+      seen_memory_(other.seen_memory_),
       why_(other.why_),
       is_killed_(other.is_killed_) {
   other.pid_ = -1;
@@ -105,7 +107,8 @@ std::optional<ChildResult> Child::poll() {
     ChildResult result;
     result.seconds = seconds();
     result.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-    result.peak_memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+    // The kernel counts in batches: its peak may be below what was seen.
+    result.peak_memory = std::max(seen_memory_, static_cast<std::uint64_t>(usage.ru_maxrss) * 1024);
     result.ending = why_ ? *why_ : WIFSIGNALED(status) ? Ending::signaled : Ending::exited;
     result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
     result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
@@ -118,7 +121,8 @@ std::optional<ChildResult> Child::poll() {
   if (!why_ && limits_.memory > 0 && now - checked_at_ >= memory_interval) {
     checked_at_ = now;
     // Not asked: asking costs memory too.
-    if (resident_bytes(pid_) > limits_.memory) {
+    seen_memory_ = std::max(seen_memory_, resident_bytes(pid_));
+    if (seen_memory_ > limits_.memory) {
       why_ = Ending::out_of_memory;
       is_killed_ = true;
       ::kill(-pid_, SIGKILL);

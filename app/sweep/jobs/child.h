@@ -64,7 +64,8 @@ class Child {
   pid_t pid_ = -1;
   ChildLimits limits_;
   Clock::time_point start_, asked_at_, checked_at_;
-  std::optional<Ending> why_;  ///< it was asked to end
+  std::uint64_t seen_memory_ = 0;  ///< bytes, the most that looking at its limit found
+  std::optional<Ending> why_;      ///< it was asked to end
   bool is_killed_ = false;
 };
 
