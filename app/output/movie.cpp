@@ -139,16 +139,12 @@ std::string telling_line(const std::string& text) {
   return last_line(text);
 }
 
-/// Removes the movie of an earlier run. @throws IoError where something else has the name
-void remove_movie(const fs::path& file) {
+/// @throws IoError where something else than a movie has the name
+void require_regular(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(file, error);
-  if (!fs::exists(status)) return;
-  if (!fs::is_regular_file(status))
+  if (fs::exists(status) && !fs::is_regular_file(status))
     throw IoError(file.string() + ": cannot write the movie here: this is not a regular file",
-                  file.string());
-  if (!fs::remove(file, error))
-    throw IoError(file.string() + ": cannot remove the earlier movie: " + error.message(),
                   file.string());
 }
 
@@ -195,7 +191,7 @@ namespace {
 MovieResult write_counted(const fs::path& ffmpeg, const MovieRequest& request) {
   const fs::path temporary = temporary_name(request.file);
   try {
-    remove_movie(request.file);
+    require_regular(request.file);
     // Whether the folder takes a file at all: ffmpeg would not say why in a way that can be told.
     replace_file(temporary, {}, Durability::cached);
   } catch (const IoError& error) {

@@ -78,7 +78,8 @@ void PictureWriter::work() {
 }
 
 void PictureWriter::rethrow_failure() {
-  if (failure_) std::rethrow_exception(failure_);
+  // Told once: whoever goes on afterwards, on a disk with room again, is not told of it anew.
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 }  // namespace neve::app::output

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 #include "app/output/file_hash.h"
@@ -12,6 +13,7 @@
 #include "app/record/verify.h"
 #include "app/run/fork.h"
 #include "app/run/passes.h"
+#include "app/scene/flat.h"
 #include "app/scene/read.h"
 #include "app/setup/curves.h"
 #include "app/setup/resolve.h"
@@ -198,7 +200,13 @@ RenderJob make_job(const RenderOptions& options) {
   RenderJob job{timeline::Origin::of(options.scene, edits), options};
   job.folder = job.run.empty() ? out_folder() / job.name() : job.run;
   if (job.picture) take_picture(*job.picture, job);
-  // A fork is another future than the one that was predicted.
+  // A fork is another future than the one that was predicted, and so is other snow.
+  const bool is_other_snow =
+      options.coarsening || options.from ||
+      std::ranges::any_of(options.overrides, [](std::string_view change) {
+        return scene::concerns_simulation(change.substr(0, change.find('=')));
+      });
+  if (is_other_snow) job.prediction_lines.clear();
   if (options.from) job.prediction = Json();
   if (job.prediction.is_object())
     job.prediction_lines = job.prediction.value("text", std::vector<std::string>());

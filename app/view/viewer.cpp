@@ -65,9 +65,8 @@ void Viewer::run() {
     settle_ = is_more ? 3 : std::max(0, settle_ - 1);
     if (options_.max_pictures > 0 && ++pictures_ >= options_.max_pictures) break;
   }
-  record_due();
   if (state_.is_recording) bench_.session().set_recording(false);
-  writer_.finish();
+  stop_recording();
 }
 
 void Viewer::take_events(std::vector<frontend::InputEvent> events) {
@@ -176,6 +175,8 @@ void Viewer::draw() {
   if (!show_sheet()) {
     paint_picture();
     screen_.end(renderer_, state_.viewport);
+  } else {
+    bench_.session().taken(state_.live->number);  // the run goes on behind it
   }
   keep_recording();
   if (state_.wants_picture && has_picture_to_save()) save_picture();

@@ -102,6 +102,7 @@ class Viewer {
   output::Picture picture_to_keep(const std::filesystem::path& file);
   void save_picture();
   void download(const std::filesystem::path& file);
+  void stop_recording();
   void keep_recording();
   void record_due();
   void follow_run();

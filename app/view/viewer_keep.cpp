@@ -1,6 +1,7 @@
 /// Pictures that stay: of a moment, and a recording of every frame.
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "app/output/atomic_file.h"
@@ -121,17 +122,26 @@ RecordedKey Viewer::recorded_key() const {
   return key;
 }
 
+/// What waits is written, or said to be missing: what failed is no failure of the next recording.
+void Viewer::stop_recording() {
+  record_due();
+  if (!lock_) return;
+  try {
+    writer_.finish();
+  } catch (const std::exception& error) {
+    bench_.say_not_saved(std::string("recorded pictures are missing: ") + error.what());
+  }
+  lock_.reset();
+  recorded_.reset();
+}
+
 /// Every frame once, and again where something else of it is shown before the next.
 void Viewer::keep_recording() {
-  if (!state_.is_recording) {
-    record_due();
-    lock_.reset();
-    recorded_.reset();
-    return;
-  }
+  if (!state_.is_recording) return stop_recording();
   const session::LiveFrame& live = *state_.live;
   const bool is_painted = painted_ && painted_number_ == live.number && has_what_is_shown();
-  if (!is_painted || !live.is_frame_end || live.stage) return;
+  // An older frame is looked at, not recorded anew with the camera of now.
+  if (!is_painted || !live.is_frame_end || live.is_older || live.stage) return;
   const RecordedKey key = recorded_key();
   is_record_due_ = recorded_ != key;
   if (!is_record_due_) return;
@@ -160,11 +170,15 @@ void Viewer::follow_run() {
 void Viewer::begin_take() {
   const std::filesystem::path before = take_.folder;
   writer_.finish();
-  take_.folder = output::free_path(bench_.folder(), "take", "");
+  // One that could not be written is in no take.
+  std::erase_if(take_.frames,
+                [&](const auto& file) { return !std::filesystem::exists(before / file.first); });
+  const std::filesystem::path folder = output::free_path(bench_.folder(), "take", "");
   for (const auto& [file, frame] : take_.frames) {
-    output::make_folder((take_.folder / file).parent_path());
-    output::write_file(take_.folder / file, output::read_file(before / file));
+    output::make_folder((folder / file).parent_path());
+    output::write_file(folder / file, output::read_file(before / file));
   }
+  take_.folder = folder;
   take_.has_others = false;
   bench_.say(session::Message::Kind::note, "the recording continues in " + take_.folder.string() +
                                                ", because " + before.string() +

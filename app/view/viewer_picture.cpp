@@ -49,6 +49,8 @@ void Viewer::paint_picture() {
 /// The sheet of the study in the place of the picture, whole. @return false where none is to be
 /// shown, or it cannot be read, which is a message
 bool Viewer::show_sheet() {
+  // Pictures that are to be kept have to be painted.
+  if (state_.is_recording || state_.wants_picture) state_.study.shows_sheet = false;
   if (!state_.study.shows_sheet) {
     sheet_file_.clear();
     return false;

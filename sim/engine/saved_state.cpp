@@ -256,7 +256,8 @@ void restore(std::span<const std::uint8_t> bytes, State<Real>& state, SnowFlow<R
   state.particles.contacts.replace(saved.contacts, saved.records.size());
   state.particles.shock_pressure = std::move(saved.shock_pressure);
   state.particles.shock_step = saved.progress.steps;
-  if (saved.has_new_affine) state.particles.affine_step = saved.progress.steps;
+  state.particles.affine_step =
+      saved.has_new_affine ? saved.progress.steps : ParticleStorage<Real>::no_step;
   if (saved.records.empty()) return;
   // Keys come from a sweep that also computes the stress, perhaps with another last bit: the
   // records go back as they were.

@@ -327,7 +327,12 @@ void draw_view_panel(ViewerState& state) {
   bool is_cut = view.clip.has_value();
   if (ImGui::Checkbox("cut by a plane", &is_cut)) {
     const std::string clip = "view." + view.name + ".clip";
-    if (is_cut)
+    const bool is_cut_in_file = state.bench.document().in_file(clip + ".normal").has_value();
+    // What the file has is switched off by a word; what it has not, by taking the edit back.
+    if (is_cut_in_file)
+      panel.note({is_cut ? session::Edit::Kind::as_in_file : session::Edit::Kind::set, clip,
+                  is_cut ? "" : "none", 0});
+    else if (is_cut)
       panel.note({session::Edit::Kind::set, clip + ".normal", "[0, 0, 1]", 0});
     else
       panel.note({session::Edit::Kind::as_in_file, clip + ".", "", 0});

@@ -196,7 +196,7 @@ void draw_study(ViewerState& state) {
     using State = session::StudyProgress::State;
     if (state.study.waits_for_sheet && progress.state != State::running) {
       state.study.waits_for_sheet = false;
-      state.study.shows_sheet = progress.state == State::done;
+      state.study.shows_sheet = progress.state == State::done && !state.live->is_running;
     }
     if (state.bench.study().is_running()) {
       draw_running(state, progress);

@@ -31,7 +31,9 @@ void Session::start(const std::shared_ptr<const scene::Scene>& scene,
   timeline::Moments moments(options_.kept_budget > 0 ? options_.kept_budget
                                                      : available_memory() / 4);
   if (past) moments.add_run(past->run);
-  std::optional<NothingToKeep> reading(std::in_place);
+  // A later start has a run before it, and perhaps pictures of that which are being written.
+  std::optional<NothingToKeep> reading;
+  if (!timeline_) reading.emplace();
   auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(*scene));
   auto next = std::make_unique<timeline::Timeline>(
       *scene, past ? past->changes : std::vector<scene::LiveChange>{}, std::move(seeded),

@@ -479,6 +479,10 @@ bool Workbench::save_scene(const std::filesystem::path& file) {
     if (options_.is_remote && file.parent_path() != options_.folder)
       throw UsageError(
           "", "over the web, files are written into " + options_.folder.string() + " alone");
+    if (is_file_of_scene(file) && has_file_changed())
+      throw UsageError("", file.filename().string() +
+                               " was changed on disk since it was read; reload it, keep the "
+                               "current scene, or save a copy");
     const std::string text = saved_text(file);
     output::make_folder(file.parent_path());
     output::write_named_file(file, text);
