@@ -11,7 +11,7 @@ if(NEVE_TIDY)
   # clang-tidy's other stream the numbers of warnings in headers of others.
   set(NEVE_TIDY_READS
     "<CMAKE_CXX_COMPILER> <DEFINES> <INCLUDES> <FLAGS> -E <SOURCE> >/dev/null"
-    "${NEVE_CLANG_TIDY} --quiet --config-file=${PROJECT_SOURCE_DIR}/.clang-tidy <SOURCE> -- <CMAKE_CXX_COMPILER> <DEFINES> <INCLUDES> <FLAGS> 2>/dev/null"
+    "${NEVE_CLANG_TIDY} --quiet --config-file=\"${PROJECT_SOURCE_DIR}/.clang-tidy\" <SOURCE> -- <CMAKE_CXX_COMPILER> <DEFINES> <INCLUDES> <FLAGS> 2>/dev/null"
     "${made}")
 else()
   set(NEVE_TIDY_READS ${NEVE_COMPILER_READS})

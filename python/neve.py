@@ -524,7 +524,7 @@ class Run:
         return _png_html(self._repr_png_()) + _table_html(rows)
 
     def state(self, frame, attributes=("id", "x", "v", "m", "V0", "J_P", "density", "radius")):
-        """The particles at a frame: simulated again, from a checkpoint where one is early enough."""
+        """The particles at a frame: as the run kept them, or simulated from the nearest state before it."""
         first = self.json.get("first_number", 0)
         last = int(self.frames[-1]) if len(self.frames) else first
         if not isinstance(frame, (int, np.integer)):

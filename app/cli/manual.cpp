@@ -45,7 +45,10 @@ std::string option_entry(const options::Option& option) {
   for (const std::string& name : option.names)
     text += (text.empty() ? "" : ", ") +
             ((option.is_argument() ? "\\fI" : "\\fB") + troff(name) + "\\fR");
-  if (!option.type.empty()) text += " \\fI" + troff(option.type) + "\\fR";
+  if (!option.alone.empty())
+    text += "[=\\fI" + troff(option.type) + "\\fR]";
+  else if (!option.type.empty())
+    text += " \\fI" + troff(option.type) + "\\fR";
   return ".TP\n" + text + "\n" + troff(options::sentence_of(option)) + "\n";
 }
 

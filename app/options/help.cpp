@@ -74,6 +74,7 @@ Json to_json(const Command& command) {
               {"is_required", option.is_required}};
     for (const std::string& name : option.names)
       if (name.size() == 2 && !option.is_argument()) json["letter"] = name;
+    if (!option.alone.empty()) json["alone"] = option.alone;  // a value comes after "=" alone
     if (option.shows_default) json["default"] = option.default_text();
     list.push_back(std::move(json));
   }

@@ -116,8 +116,8 @@ void describe_scene(options::Command& visit, RenderOptions& o, const char* help)
         "Change a parameter, as in material.snow.hardening=5 (repeatable; neve params lists "
         "addresses)");
   visit("--coarsen", o.coarsening, options::coarsening(),
-        "Make cells N times as large, for previews: 1/N^3 of the particles and longer steps, about "
-        "N^4 times cheaper");
+        "Make cells N times as large, for previews: 1/N^3 of the particles and longer steps, so "
+        "that the simulation gets up to N^4 times cheaper");
   visit("--fast", o.is_fast,
         "Take longer steps for a quick look, by settings that are recorded like those of --set; "
         "neve check says what they gain");

@@ -57,6 +57,8 @@ TEST_F(Install, HelpManPagesAndCompletionsHaveEveryOption) {
       EXPECT_TRUE(contains(help, flag)) << place;
       EXPECT_TRUE(contains(help, option["help"].get<std::string>())) << place;
       EXPECT_TRUE(contains(page, flag + "\\fR")) << place;
+      // A value after "=" alone is written so.
+      EXPECT_EQ(contains(page, flag + "\\fR[="), contains(help, flag + "[=")) << place;
       if (option["is_argument"] == true || words.size() != 2) continue;
       EXPECT_TRUE(contains(bash, flag)) << place;
       EXPECT_TRUE(contains(zsh, flag + "[")) << place;

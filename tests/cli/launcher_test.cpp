@@ -132,5 +132,42 @@ TEST_F(Launcher, PackagesAreInstalledOnlyWhereSomeAreMissing) {
   EXPECT_TRUE(contains(calls(), "apt-get install -y --no-install-recommends libfmt-dev\n"));
 }
 
+TEST_F(Launcher, ABuildThatCannotStartOrIsOfElsewhereIsMadeAnew) {
+  if (::geteuid() == 0 && !fs::exists("/usr/bin/setpriv")) SKIP_OR_FAIL("no setpriv (util-linux)");
+  let_others_write(true);
+  EXPECT_EQ(launch({"version"}).output, "built version\n");
+  calls();
+  const auto is_made_anew = [&](const char* why) {
+    const auto again = launch({"doctor"}, "libfmt-dev");
+    const std::string called = calls();
+    EXPECT_EQ(again.output, "built doctor\n") << why << again.errors;
+    EXPECT_TRUE(contains(called, "--fresh --preset release")) << why << called;
+    EXPECT_TRUE(contains(called, "apt-get install")) << why << called;
+    EXPECT_EQ(launch({"doctor"}).output, "built doctor\n");
+    EXPECT_EQ(calls(), "") << why;
+  };
+  // Of another machine's instruction set, or a library has gone.
+  for (const char* code : {"2", "127"}) {
+    folder.write("checkout/build/release/neve", std::string("#!/bin/bash\nexit ") + code + "\n");
+    fs::last_write_time(folder / "checkout/build/release/.up-to-date",
+                        fs::file_time_type::clock::now());
+    is_made_anew(code);
+  }
+  folder.write("checkout/build/release/CMakeCache.txt", "CMAKE_HOME_DIRECTORY:INTERNAL=/old\n");
+  fs::remove(folder / "checkout/build/release/.up-to-date");
+  is_made_anew("moved");
+}
+
+TEST_F(Launcher, NewPresetsConfigureAgain) {
+  if (::geteuid() == 0 && !fs::exists("/usr/bin/setpriv")) SKIP_OR_FAIL("no setpriv (util-linux)");
+  let_others_write(true);
+  EXPECT_EQ(launch({"version"}).output, "built version\n");
+  calls();
+  fs::last_write_time(folder / "checkout/CMakePresets.json",
+                      fs::file_time_type::clock::now() + std::chrono::hours(1));
+  EXPECT_EQ(launch({"version"}).output, "built version\n");
+  EXPECT_TRUE(contains(calls(), "--fresh --preset release"));
+}
+
 }  // namespace
 }  // namespace neve::test

@@ -73,7 +73,7 @@ std::string shortened(std::string command) {
     command = std::regex_replace(command, std::regex("--size [^ ]+"), "");
   // The run of a page is that of another scene here.
   command = std::regex_replace(
-      command, std::regex("^([a-z]+) out/(snowball|castle_hit|my_scene|preview)(?= |$)"),
+      command, std::regex("^([a-z]+) out/(snowball|castle_hit|mesh_body|my_scene|preview)(?= |$)"),
       "$1 out/a");
   // A page of another host cannot be replayed.
   if (command.find("--public-url") != std::string::npos) return "";
@@ -109,7 +109,9 @@ std::string shortened(std::string command) {
   const bool is_picture = std::regex_search(command, std::regex("^render [^ ]+\\.(png|exr)"));
   if (!is_picture) add("--frames", "0");
   if (!is_tiny && !has_cells) add("--coarsen", "3");
-  if (!is_picture && command.find("--out ") == std::string::npos) command += " " + own;
+  const bool is_resumed = has_cells && command.find(" --resume") != std::string::npos;
+  if (!is_picture && !is_resumed && command.find("--out ") == std::string::npos)
+    command += " " + own;
   add("--size", "64x36");
   if (command.find("--movie ") == std::string::npos) add("--no-movie");
   return command;
