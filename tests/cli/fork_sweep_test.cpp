@@ -112,8 +112,8 @@ TEST_F(ForkSweep, BranchesAreToldTheValuesThatWerePlanned) {
   coarse.insert(coarse.end(), more.begin(), more.end());
   const auto made = neve(coarse);
   ASSERT_EQ(made.exit_code, 0) << made.errors;
-  EXPECT_EQ(changes("c.cdb"), app::parse_json(R"([[["solver.max_dt", "0.0002"]],
-                                                   [["solver.max_dt", "0.0004"]]])"));
+  EXPECT_EQ(changes("c.cdb"), app::parse_json(R"([[["solver.max_dt", "2e-4"]],
+                                                   [["solver.max_dt", "4e-4"]]])"));
   folder.write("p.toml", R"([sweep]
 scene = "scene.toml"
 [set]
