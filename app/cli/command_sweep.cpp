@@ -35,6 +35,7 @@
 #include "app/sweep/sheet/collect.h"
 #include "app/sweep/store/prepare.h"
 #include "app/sweep/store/refine.h"
+#include "app/sweep/store/results.h"
 #include "app/sweep/store/store.h"
 
 namespace neve::app::cli {
@@ -80,6 +81,22 @@ void note_left_out(const std::filesystem::path& folder, const sweep::store::Mani
         left, left == 1 ? "run" : "runs", left == 1 ? "has" : "have", (folder / "runs").string()));
 }
 
+/// The wanted runs that are to be made, in the order in which they start.
+std::vector<const sweep::Run*> runs_to_make(const sweep::plan::SweepOptions& options,
+                                            const std::filesystem::path& folder,
+                                            const sweep::store::Manifest& manifest,
+                                            bool is_longest_first) {
+  const sweep::store::Retry retry = retry_of(options.retry_failed);
+  std::vector<const sweep::Run*> runs =
+      sweep::jobs::start_order(manifest, wanted_runs(options, manifest), is_longest_first);
+  std::erase_if(runs, [&](const sweep::Run* run) {
+    return !sweep::store::why_to_make(
+        folder, *run, sweep::store::read_status(sweep::store::runs_folder(folder) / run->folder),
+        retry);
+  });
+  return runs;
+}
+
 /// One command a line, each makes one run that is not finished.
 void emit_commands(const sweep::plan::SweepOptions& options, const std::filesystem::path& folder,
                    const sweep::store::Manifest& manifest, Progress& progress) {
@@ -93,12 +110,7 @@ void emit_commands(const sweep::plan::SweepOptions& options, const std::filesyst
   one.caps = setup::cap_texts();
   std::string text;
   int count = 0;
-  const sweep::store::Retry retry = retry_of(options.retry_failed);
-  for (const sweep::Run* run :
-       sweep::jobs::start_order(manifest, wanted_runs(options, manifest), true)) {
-    const sweep::store::RunState state =
-        sweep::store::read_status(sweep::store::runs_folder(folder) / run->folder).state;
-    if (sweep::store::is_finished(state) && !retry.contains(state)) continue;
+  for (const sweep::Run* run : runs_to_make(options, folder, manifest, true)) {
     one.index = run->index;
     text += options::shell_line(options::words_of(one), this_program()) + "\n";
     ++count;
@@ -309,14 +321,9 @@ void choose_runs(const sweep::plan::SweepOptions& options, sweep::plan::SweepPla
 std::vector<int> unfinished_runs(const sweep::plan::SweepOptions& options,
                                  const std::filesystem::path& folder,
                                  const sweep::store::Manifest& manifest) {
-  const sweep::store::Retry retry = retry_of(options.retry_failed);
   std::vector<int> indices;
-  for (const sweep::Run* run :
-       sweep::jobs::start_order(manifest, wanted_runs(options, manifest), false)) {
-    const sweep::store::RunState state =
-        sweep::store::read_status(sweep::store::runs_folder(folder) / run->folder).state;
-    if (!sweep::store::is_finished(state) || retry.contains(state)) indices.push_back(run->index);
-  }
+  for (const sweep::Run* run : runs_to_make(options, folder, manifest, false))
+    indices.push_back(run->index);
   std::sort(indices.begin(), indices.end());
   return indices;
 }

@@ -68,8 +68,14 @@ void Game::resume() {
                      fmt::format("has another search: {}; this one is: {}",
                                  text.substr(2, text.find('\n') - 2), comment().front()),
                      another_folder);
-  for (const Click& click : parse_clicks(text, own_clicks_.string())) {
-    if (is_over()) return;
+  const std::vector<Click> clicks = parse_clicks(text, own_clicks_.string());
+  // The pick of fewer would replace that of all, and the next answer would drop the others.
+  if (static_cast<int>(clicks.size()) > options_.rounds)
+    throw UsageError("--rounds",
+                     fmt::format("{} has the answers of {} rounds, more than {}", folder_.string(),
+                                 clicks.size(), options_.rounds),
+                     fmt::format("give --rounds {} or more, or {}", clicks.size(), another_folder));
+  for (const Click& click : clicks) {
     take(click);
     check_tiles(answered(), rounds_.back().tiles);
   }

@@ -15,8 +15,8 @@ struct Run {
   int index = 0;
   std::string label;                      ///< of a [[run]] or a labelled value
   std::vector<scene::Override> settings;  ///< without the fixed ones
-  /// Of a run that forks: cameras and ranges that it does not have from its beginning.
-  std::vector<scene::Override> look{};
+  /// Of a run that forks: all in which its planned scene differs from its beginning there.
+  std::vector<scene::Override> changes{};
   std::vector<int> coordinates;  ///< place on each axis of a grid; empty: on none
 
   setup::FrameRange frames;

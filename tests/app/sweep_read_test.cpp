@@ -130,6 +130,22 @@ TEST_F(SweepFileTest, KeysNeedNoQuotes) {
   ASSERT_EQ(list.size(), 6u);
   EXPECT_EQ(list[0].settings[1].address, "body.ball.velocity");
   EXPECT_EQ(list[5].settings[1].value, "[0, -3, 0]");
+  // Parameters and things with the name of a rule.
+  const auto slices =
+      read(head +
+           "[set]\nview.cut.particles.range = [0, 2]\nmaterial.normal.hardening = 7\n"
+           "[axis]\nview.cut.slice.normal = [[1, 0, 0], [0, 1, 0]]\n"
+           "material.label.hardening = { linspace = [1, 2], num = 3 }\n"
+           "[[run]]\nview.cut.slice.normal = [0, 0, 1]\n");
+  ASSERT_EQ(slices.fixed.size(), 2u);
+  EXPECT_EQ(slices.fixed[0].address, "view.cut.particles.range");
+  EXPECT_EQ(slices.fixed[1].address, "material.normal.hardening");
+  ASSERT_EQ(slices.axes.size(), 2u);
+  EXPECT_EQ(slices.axes[0].parameters[0].address, "view.cut.slice.normal");
+  EXPECT_EQ(slices.axes[0].size(), 2u);
+  EXPECT_EQ(slices.axes[1].parameters[0].address, "material.label.hardening");
+  EXPECT_EQ(slices.axes[1].size(), 3u);
+  EXPECT_EQ(slices.rows[0].settings[0].address, "view.cut.slice.normal");
 }
 
 TEST_F(SweepFileTest, LatinHypercubesMeetEveryPartOfEveryAxisOnce) {
@@ -231,6 +247,10 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
        "\"asflip\"; did you mean \"apic\"?"},
       {"[axis]\n\"seed\" = { linspce = [1, 2], num = 2 }\n",
        "4:12 unknown key \"linspce\" in [seed]; did you mean \"linspace\"?"},
+      {"method = \"zip\"\n[axis]\n\"fps\" = [24, 25]\n[sheet]\ncolumns = \"fps\"\n",
+       "7:11 sheet.columns is not for method \"zip\", whose runs lie along no axis; remove it; "
+       "only "
+       "a grid has columns and rows"},
       {"[axis]\n\"fps\" = { linspace = [1, 2] }\n",
        "4:9 num is missing; linspace and logspace need the number of values, as num = 4"},
       {"[axis]\n\"seed\" = 3\n",

@@ -245,6 +245,32 @@ TEST(SheetLayout, ASheetOfAnyNumberOfRunsEndsAsPages) {
   }
 }
 
+/// A tile of a screening names what its run changes of the run before it, which the tiles of a page
+/// know by its place in the whole sweep.
+TEST(SheetLayout, PagesOfAScreeningNameWhatTheWholeOneDoes) {
+  app::sweep::store::Manifest m = manifest_of({});
+  const app::sweep::Run first = m.runs[0];
+  m.runs.clear();
+  m.parameters = {{"a.b", "a parameter", "Pa", "number"}};
+  m.screened = {{"b", {}, {"a.b"}, {}}};
+  for (int k = 0; k < 400; ++k) {
+    app::sweep::Run& run = m.runs.emplace_back(first);
+    run.index = k;
+    run.coordinates = {k % 2};
+    run.settings = {{"a.b", std::string(k % 2 ? "1" : "0")}};
+  }
+  m.runs.back().settings = {{"a.b", "a text that needs a line of its own"}};
+  const auto pages = app::sweep::sheet::layout_pages(m, true, 1024);
+  ASSERT_GT(pages.size(), 2u);
+  const auto& last = pages.back();
+  std::size_t lines = 0;
+  for (std::size_t k = last.first; k < m.runs.size(); ++k)
+    lines = std::max(lines,
+                     app::sweep::sheet::tile_words(m, m.runs[k], false, last.layout.words).size());
+  EXPECT_EQ(last.layout.label_height > 0, lines > 1);
+  EXPECT_EQ(last.layout.label_height, pages.front().layout.label_height);
+}
+
 TEST(SheetLayout, LastAxisGoesAcrossUnlessAskedOtherwise) {
   app::sweep::store::Manifest m = manifest_of({2, 3});
   const auto is_across = [&](std::size_t a, std::size_t b) {
@@ -442,6 +468,10 @@ TEST(RunResults, FramesOfKilledRunsHaveTheirPictures) {
   app::sweep::store::write_status(folder.path() / "runs/0000", status);
   EXPECT_EQ(app::sweep::store::read_result(folder.path(), m.runs[0], m.view).frames,
             (std::vector<int>{0, 1}));
+  // Once it is to be drawn otherwise, they are pictures of the drawing before.
+  status.state = app::sweep::store::RunState::pending;
+  app::sweep::store::write_status(folder.path() / "runs/0000", status);
+  EXPECT_TRUE(app::sweep::store::read_result(folder.path(), m.runs[0], m.view).frames.empty());
 }
 
 TEST(RunText, ARunIsNamedWithItsFolderIfTheNumbersDiffer) {

@@ -96,6 +96,41 @@ TEST_F(ForkSweep, EveryBranchEqualsTheWholeRunWithItsChange) {
   EXPECT_EQ(hashes("plain").at(8), branches[1].at(8));
 }
 
+/// Settings are those of the full run, and of a scene in which [set] holds for all runs: branches
+/// are told what was planned.
+TEST_F(ForkSweep, BranchesAreToldTheValuesThatWerePlanned) {
+  const auto changes = [&](const std::string& out) {
+    const app::Json manifest = json_of(out + "/manifest.json");
+    app::Json told = app::Json::array();
+    for (const app::Json& run : manifest["runs"]) told.push_back(run["changes"]);
+    return told;
+  };
+  const std::vector<std::string> more{"--fork", "0.125s", "--frames", "5",
+                                      "--size", "64x36",  "--emit",   "commands.txt"};
+  std::vector<std::string> coarse{
+      "sweep", "scene.toml", "--coarsen", "2", "-p", "solver.max_dt=1e-4,2e-4", "--out", "c.cdb"};
+  coarse.insert(coarse.end(), more.begin(), more.end());
+  const auto made = neve(coarse);
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_EQ(changes("c.cdb"), app::parse_json(R"([[["solver.max_dt", "2e-4"]],
+                                                   [["solver.max_dt", "4e-4"]]])"));
+  folder.write("p.toml", R"([sweep]
+scene = "scene.toml"
+[set]
+"material.snow.hardening" = 7
+[axis]
+"material.snow.preset" = ["paper", "lower_youngs_modulus"]
+)");
+  std::vector<std::string> preset{"sweep", "p.toml", "--out", "p.cdb"};
+  preset.insert(preset.end(), more.begin(), more.end());
+  const auto emitted = neve(preset);
+  ASSERT_EQ(emitted.exit_code, 0) << emitted.errors;
+  const app::Json told = changes("p.cdb");
+  EXPECT_TRUE(told[0].empty()) << told;
+  EXPECT_TRUE(contains(told[1].dump(), "material.snow.youngs_modulus")) << told;
+  EXPECT_FALSE(contains(told[1].dump(), "material.snow.hardening")) << told;
+}
+
 TEST_F(ForkSweep, TheReportHasTheCommandThatMakesABranchAgain) {
   ASSERT_EQ(sweep({}).exit_code, 0);
   const std::string page = read_text(folder / "f.cdb/report.html");
@@ -143,7 +178,7 @@ TEST_F(ForkSweep, TheBeginningIsComputedOnce) {
   EXPECT_EQ(status["attempts"], 1);
   for (const char* run : {"0000", "0001", "0002"})
     EXPECT_TRUE(contains(read_text(folder / "f.cdb/runs" / run / "scene.toml"),
-                         "# neve render ../../beginning --set"));
+                         "# neve render ../../beginning --"));
   EXPECT_EQ(json_in(sweep({}))["started"], 0);
   // One more value: the beginning is that of before.
   const auto more =

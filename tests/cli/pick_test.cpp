@@ -151,6 +151,11 @@ TEST_F(PickCli, ItContinuesWithTheExistingRuns) {
   const auto seeded = pick("4\n", "a", {"--seed", "2"});
   EXPECT_EQ(seeded.exit_code, 2);
   EXPECT_TRUE(contains(seeded.output + seeded.errors, "has another search"));
+  const auto fewer = pick("4\n", "a", {"--rounds", "1"});
+  EXPECT_EQ(fewer.exit_code, 2);
+  EXPECT_TRUE(contains(fewer.output + fewer.errors,
+                       "has the answers of 2 rounds, more than 1; give --rounds 2"))
+      << fewer.errors;
 }
 
 TEST_F(PickCli, ClicksOnOtherSnowAreNotTakenOver) {

@@ -374,6 +374,14 @@ TEST_F(ReportPage, StarsAndNotesAreOnTilesInTheTableAndOfferedToTheFolder) {
             std::string::npos);
   value("setMark(rows[4], {note: 'as agreed'})");
   settle();
+  // A star that is taken away takes its note along, as the command that is offered does.
+  value("toggleStar(rows[4])");
+  settle();
+  EXPECT_NE(text_of("#unsaved code").find("sweep star 'out/a b.cdb' 4 --remove"),
+            std::string::npos);
+  EXPECT_EQ(value("isSame(rows[4].mark, noMark)"), true);
+  value("setMark(rows[4], {star: true, note: 'as agreed'})");
+  settle();
   click("#only-stars input");
   EXPECT_EQ(text_of("#count"), "3 of 9 runs");
   click("#only-stars input");

@@ -628,6 +628,10 @@ TEST_F(SweepCli, EmittedCommandsMakeTheSweepAnywhere) {
   EXPECT_TRUE(exists("out/sweep.cdb/report.html"));
   ASSERT_EQ(neve({"sweep", "sweep.toml", "--emit", "commands.txt"}).exit_code, 0);
   EXPECT_EQ(read_text(folder / "commands.txt"), "") << "nothing is left to do";
+  // What is damaged is to be made again, here as by Slurm.
+  std::filesystem::resize_file(folder / "out/sweep.cdb/runs/0001/run.json", 100);
+  ASSERT_EQ(neve({"sweep", "sweep.toml", "--emit", "commands.txt"}).exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder / "commands.txt"), "--index 1"));
 }
 
 TEST_F(SweepCli, EmittedCommandsDrawAsTheSweepWasAskedTo) {

@@ -37,7 +37,9 @@ RunProgress progress_of_run(const fs::path& folder, const store::Manifest& manif
   if (status.key != run.key) return progress;
   progress.state = status.state;
   progress.reason = status.short_reason.empty() ? status.reason : status.short_reason;
-  progress.made = store::frames_made(run_folder, manifest.view, run.frames);
+  // Pictures of a run that has not begun are of an earlier drawing.
+  if (status.state != store::RunState::pending)
+    progress.made = store::frames_made(run_folder, manifest.view, run.frames);
   return progress;
 }
 

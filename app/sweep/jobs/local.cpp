@@ -282,18 +282,14 @@ class LocalJobs {
   void skip_finished() {
     std::erase_if(queue_, [&](const Run* run) {
       const store::RunStatus status = store::read_status(folder_of(*run));
-      if (!is_ended(status)) return false;
-      if (const std::string flaws = store::flaws_of_run(folder_, *run, status); !flaws.empty()) {
-        progress_.warning(fmt::format("{}: {}; it is made again", store::run_text(*run), flaws));
+      if (const auto why = store::why_to_make(folder_, *run, status, options_.retry_failed)) {
+        if (!why->empty())
+          progress_.warning(fmt::format("{}: {}; it is made again", store::run_text(*run), *why));
         return false;
       }
       count(status);
       return true;
     });
-  }
-
-  bool is_ended(const store::RunStatus& status) const {
-    return store::is_finished(status.state) && !options_.retry_failed.contains(status.state);
   }
 
   /// One that fails for ever must not keep others from being made.
@@ -396,7 +392,7 @@ class LocalJobs {
     if (!lock) return;
     store::RunStatus status = store::read_status(folder);
     // Another process may have made it while it waited here.
-    if (is_ended(status) && store::flaws_of_run(folder_, run, status).empty()) {
+    if (!store::why_to_make(folder_, run, status, options_.retry_failed)) {
       count(status);
       work_left_ -= run.work;
       return;

@@ -25,6 +25,7 @@
 #include "app/sweep/jobs/slurm_jobs.h"
 #include "app/sweep/plan/selection.h"
 #include "app/sweep/plan/sweep_options.h"
+#include "app/sweep/store/results.h"
 #include "app/sweep/store/store.h"
 
 namespace neve::app::sweep::jobs {
@@ -302,9 +303,9 @@ std::vector<int> missing_runs(const fs::path& folder, const store::Manifest& man
   std::set<std::string> keys;
   for (const int index : indices) {
     const Run& run = *manifest.run_of(index);
-    const store::RunState state = store::read_status(store::runs_folder(folder) / run.folder).state;
-    const bool is_wanted = !store::is_finished(state) || retry.contains(state);
-    if (is_wanted && keys.insert(run.key).second) missing.push_back(index);
+    const store::RunStatus status = store::read_status(store::runs_folder(folder) / run.folder);
+    if (store::why_to_make(folder, run, status, retry) && keys.insert(run.key).second)
+      missing.push_back(index);
   }
   return missing;
 }

@@ -6,6 +6,7 @@
 
 #include "app/output/atomic_file.h"
 #include "app/picture/legends.h"
+#include "app/record/picture_files.h"
 #include "app/record/run_json.h"
 #include "app/scene/flat.h"
 #include "app/scene/names.h"
@@ -13,6 +14,7 @@
 #include "app/scene/scene_file.h"
 #include "app/setup/camera_path.h"
 #include "app/setup/coarse_run.h"
+#include "app/setup/curves.h"
 #include "app/setup/resolve.h"
 #include "app/support/interrupt.h"
 #include "app/sweep/plan/order.h"
@@ -180,27 +182,31 @@ scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
   return shared;
 }
 
-/// A forked run is told this beside its settings, so that it is seen as it was planned: its scene
-/// is that of the beginning, from which alone it would find cameras and ranges anew.
-std::vector<scene::Override> look_of(const scene::Scene& beginning, const PlannedRun& item) {
+/// What a forked run is told, so that it does and shows what was planned: --coarsen and [set] have
+/// had their say in its scene, and from that of the beginning alone it would find cameras and
+/// ranges anew.
+/// @param before  the scene at the fork
+std::vector<scene::Override> changes_of(const scene::Scene& before, const PlannedRun& item) {
   const auto is_look = [](const std::string& address) {
-    return (address.starts_with("camera.") || address.starts_with("view.")) &&
-           !address.ends_with(".found");
+    return address.starts_with("camera.") || address.starts_with("view.");
   };
-  std::vector<scene::Override> look;
-  for (const scene::Difference& d : scene::differences(beginning, item.scene))
-    if (is_look(d.address) && item.run.setting(d.address).empty())
-      look.push_back({d.address, d.after ? scene::toml::toml_literal(*d.after) : "none"});
-  if (look.empty() && std::ranges::none_of(item.run.settings, [&](const scene::Override& setting) {
-        return is_look(setting.address);
-      }))
-    return {};
+  std::vector<scene::Override> changes;
+  bool is_seen_otherwise = false;
+  for (const scene::Difference& d : scene::differences(before, item.scene)) {
+    // The seed is that of its beginning, whose particles it has drawn; curves stay what they are.
+    if (d.address == "seed" || (is_look(d.address) && d.address.ends_with(".found")) ||
+        setup::curve_of(before, d.address))
+      continue;
+    changes.push_back({d.address, d.after ? scene::toml::toml_literal(*d.after) : "none"});
+    is_seen_otherwise |= is_look(d.address);
+  }
+  if (!is_seen_otherwise) return changes;
   // A camera that is given is not found anew for the settings beside it.
   for (const scene::FlatParam& param : scene::flatten(item.scene))
     for (const char* place : {"camera.eye", "camera.target", "camera.push_in", "camera.keyframes"})
       if (param.value && is_look(param.address) && param.address.ends_with(place))
-        look.push_back({param.address, param.text()});
-  return look;
+        changes.push_back({param.address, param.text()});
+  return changes;
 }
 
 /// Runs that colour other values, or by another scale, cannot share the legend of the sheet: then
@@ -230,7 +236,8 @@ std::string mark_of(const SweepPlan& plan) {
   if (plan.sweep.sheet.framing == read::Framing::sheet && !plan.runs.empty())
     held = ", at frame " + std::to_string(plan.runs.front().run.frames.last);
   return "# Camera and colour ranges of all runs. Of scene " +
-         record::hash_of(scene::write_scene(plan.base)) + held + "\n";
+         record::hash_of(scene::write_scene(plan.base) + record::file_lines(plan.base)) + held +
+         "\n";
 }
 
 }  // namespace
@@ -272,8 +279,12 @@ void share_camera_and_ranges(SweepPlan& plan, int cores) {
   for (PlannedRun& item : plan.beginnings) complete(item);
   put_legends_on_tiles(*shared, plan);
   if (plan.beginnings.empty()) return;
-  for (PlannedRun& item : plan.runs)
-    item.run.look = look_of(plan.beginning_of(item.run).scene, item);
+  PlannedRun before = plan.beginnings.front();
+  if (plan.source) {  // which may have changed on its way to the fork
+    before.scene = plan.base;
+    complete(before);
+  }
+  for (PlannedRun& item : plan.runs) item.run.changes = changes_of(before.scene, item);
 }
 
 }  // namespace neve::app::sweep::plan

@@ -253,6 +253,11 @@ read::Sweep sweep_of(const SweepOptions& options, const std::optional<run::Rende
 /// Which axis an address or label means; -1: none is named.
 int axis_called(const read::Sweep& sweep, const char* key, const std::string& wanted) {
   if (wanted.empty()) return -1;
+  if (sweep.settings.method != read::Method::grid)
+    sweep.fail(key,
+               fmt::format("{} is not for method \"{}\", whose runs lie along no axis", key,
+                           scene::name(sweep.settings.method)),
+               "remove it; only a grid has columns and rows");
   std::vector<std::string> known;
   for (std::size_t a = 0; a < sweep.axes.size(); ++a)
     for (const read::Axis::Parameter& parameter : sweep.axes[a].parameters) {
@@ -308,10 +313,7 @@ PlannedRun beginning_for(const PlannedRun& item, int number, const SweepPlan& pl
   beginning.index = static_cast<int>(plan.beginnings.size());
   beginning.label = "the common beginning";
   beginning.frames = {number, number};
-  if (plan.source) {
-    beginning.settings = plan.sweep.fixed;
-    return planned(std::move(beginning), plan.source->scene, plan.quality);
-  }
+  if (plan.source) return planned(std::move(beginning), plan.source->scene, plan.quality);
   scene::Scene scene = plan.base;
   if (plan.sweep.settings.seeds > 0) {
     scene.seed = item.scene.seed;

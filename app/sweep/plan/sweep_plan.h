@@ -48,8 +48,7 @@ struct SweepPlan {
   std::vector<PlannedVariant> variants{};
   double coarsening = 1;  ///< of the runs
   /// Common starts of forked runs, one for each seed, up to the last frame before the fork; none
-  /// without a fork. The frames and the work of the runs begin after them. Their settings are the
-  /// changes that all runs make at the fork.
+  /// without a fork. The frames and the work of the runs begin after them.
   std::vector<PlannedRun> beginnings{};
   const PlannedRun& beginning_of(const Run& run) const {
     return beginnings[static_cast<std::size_t>(run.index) % beginnings.size()];

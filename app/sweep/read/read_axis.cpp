@@ -30,22 +30,26 @@ std::vector<std::string> rule_names() {
   return keys.keys;
 }
 
-bool is_rule(const scene::toml::Table& table) {
+/// Things of a scene may have the name of a word of rules, and so may parameters: a slice has a
+/// normal.
+bool is_rule(const scene::toml::Table& table, const std::string& address) {
   const std::vector<std::string> names = rule_names();
   return std::any_of(table.entries.begin(), table.entries.end(),
                      [&](const scene::toml::Entry& entry) {
-                       return std::find(names.begin(), names.end(), entry.key) != names.end();
+                       return std::find(names.begin(), names.end(), entry.key) != names.end() &&
+                              !std::holds_alternative<scene::toml::Table>(entry.value.data) &&
+                              !scene::param_at(address + "." + entry.key);
                      });
 }
 
-void collect_addresses(const scene::toml::Table& table, const std::string& prefix,
+void collect_addresses(const scene::toml::Table& table, const std::string& prefix, bool has_rules,
                        std::vector<scene::toml::Entry>& found) {
   for (const scene::toml::Entry& entry : table.entries) {
     const std::string address = prefix.empty() ? entry.key : prefix + "." + entry.key;
     const scene::toml::Table* inner = std::get_if<scene::toml::Table>(&entry.value.data);
     const bool is_quoted = entry.key.find('.') != std::string::npos;
-    if (inner && !is_quoted && !is_rule(*inner))
-      collect_addresses(*inner, address, found);
+    if (inner && !is_quoted && !(has_rules && is_rule(*inner, address)))
+      collect_addresses(*inner, address, has_rules, found);
     else
       found.push_back({address, entry.where, entry.value});
   }
@@ -274,9 +278,9 @@ void refuse_component(const std::string& address, const std::string& what) {
 
 }  // namespace
 
-std::vector<scene::toml::Entry> addresses_in(const scene::toml::Table& table) {
+std::vector<scene::toml::Entry> addresses_in(const scene::toml::Table& table, bool has_rules) {
   std::vector<scene::toml::Entry> found;
-  collect_addresses(table, "", found);
+  collect_addresses(table, "", has_rules, found);
   return found;
 }
 

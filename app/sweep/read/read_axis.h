@@ -10,7 +10,8 @@
 namespace neve::app::sweep::read {
 
 /// Entries whose keys are addresses; tables of `a.b = 1`, written without quotes, become "a.b".
-std::vector<scene::toml::Entry> addresses_in(const scene::toml::Table& table);
+/// @param has_rules  the table has axes: values may be given by rules, which are tables themselves
+std::vector<scene::toml::Entry> addresses_in(const scene::toml::Table& table, bool has_rules);
 
 /// @param source the sweep file
 /// @throws SceneError

@@ -48,9 +48,9 @@ class SweepReader {
     sweep.limits = file.limits;
     sweep.sheet = file.sheet;
     sweep.scene_file = scene_file(file.sweep.scene);
-    for (const scene::toml::Entry& entry : addresses_in(file.set))
+    for (const scene::toml::Entry& entry : addresses_in(file.set, false))
       sweep.fixed.push_back(setting_of(source(), entry));
-    for (const scene::toml::Entry& entry : addresses_in(file.axis))
+    for (const scene::toml::Entry& entry : addresses_in(file.axis, true))
       sweep.axes.push_back({{counted_axis(entry)}, {}});
     for (const scene::toml::Table& table : file.links) sweep.axes.push_back(link(table));
     for (const scene::toml::Table& table : file.runs) sweep.rows.push_back(run(table));
@@ -119,7 +119,7 @@ class SweepReader {
       const scene::Valid any;
       scene::read_leaf(scene::Leaf{source(), *labels, "link.labels", "", any}, axis.value_labels);
     }
-    for (const scene::toml::Entry& entry : addresses_in(table)) {
+    for (const scene::toml::Entry& entry : addresses_in(table, true)) {
       axis.parameters.push_back(counted_axis(entry));
       const Axis::Parameter &first = axis.parameters.front(), &last = axis.parameters.back();
       if (last.drawn)
@@ -144,7 +144,7 @@ class SweepReader {
     Run row;
     if (const std::optional<scene::toml::Value> label = take(table, "label"))
       row.label = label_of(*label, "run.label");
-    for (const scene::toml::Entry& entry : addresses_in(table))
+    for (const scene::toml::Entry& entry : addresses_in(table, false))
       row.settings.push_back(setting_of(source(), entry));
     return row;
   }

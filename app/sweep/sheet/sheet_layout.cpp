@@ -110,8 +110,10 @@ int wrap_count(const store::Manifest& m, std::size_t count, double tile_aspect) 
 
 class Layouter {
  public:
-  Layouter(const store::Manifest& m, bool has_legend, int tile_width, const SheetWords& words)
-      : m_(m), words_(words), has_legend_(has_legend) {
+  /// @param whole  the sweep that the runs are a part of
+  Layouter(const store::Manifest& m, const store::Manifest& whole, bool has_legend, int tile_width,
+           const SheetWords& words)
+      : m_(m), whole_(whole), words_(words), has_legend_(has_legend) {
     out_.tile_width = tile_width;
     out_.tile_height =
         std::max(1, static_cast<int>(std::lround(1.0 * tile_width * m.tile_height / m.tile_width)));
@@ -166,7 +168,7 @@ class Layouter {
   int label_height() const {
     std::size_t lines = 0;
     for (const Run& run : m_.runs)
-      lines = std::max(lines, tile_words(m_, run, out_.has_edges, out_.words).size());
+      lines = std::max(lines, tile_words(whole_, run, out_.has_edges, out_.words).size());
     return lines < 2 ? 0
                      : static_cast<int>(
                            std::lround((1.25 * static_cast<double>(lines) + 0.5) * out_.font_size));
@@ -319,6 +321,7 @@ class Layouter {
   }
 
   const store::Manifest& m_;
+  const store::Manifest& whole_;  ///< a tile names what its run changes of the one before it
   const SheetWords& words_;
   bool has_legend_;
   Sides sides_;
@@ -327,6 +330,18 @@ class Layouter {
   int columns_ = 1, left_ = 0, top_ = 0, bottom_ = 0, gap_ = 4;
   SheetLayout out_;
 };
+
+/// @param whole  see Layouter
+SheetLayout layout_part(const store::Manifest& part, const store::Manifest& whole, bool has_legend,
+                        int largest, const SheetWords& words) {
+  constexpr int smallest_tile = 64;
+  int tile = part.tile_width;
+  while (true) {
+    SheetLayout layout = Layouter(part, whole, has_legend, tile, words).make();
+    if (fits(layout, largest) || tile <= smallest_tile) return layout;
+    tile = std::max(smallest_tile, tile * 9 / 10);
+  }
+}
 
 }  // namespace
 
@@ -348,13 +363,7 @@ bool fits(const SheetLayout& layout, int largest) {
 
 SheetLayout layout_sheet(const store::Manifest& manifest, bool has_legend, int largest,
                          const SheetWords& words) {
-  constexpr int smallest_tile = 64;
-  int tile = manifest.tile_width;
-  while (true) {
-    SheetLayout layout = Layouter(manifest, has_legend, tile, words).make();
-    if (fits(layout, largest) || tile <= smallest_tile) return layout;
-    tile = std::max(smallest_tile, tile * 9 / 10);
-  }
+  return layout_part(manifest, manifest, has_legend, largest, words);
 }
 
 std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest,
@@ -369,7 +378,7 @@ std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_le
   const auto layout_of = [&](std::size_t first, std::size_t count) {
     const auto begin = manifest.runs.begin() + static_cast<std::ptrdiff_t>(first);
     part.runs.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
-    return layout_sheet(part, has_legend, largest, words);
+    return layout_part(part, manifest, has_legend, largest, words);
   };
   const auto is_readable = [&](const SheetLayout& layout) {
     return fits(layout, largest) &&

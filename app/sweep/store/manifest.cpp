@@ -84,20 +84,28 @@ std::vector<scene::Override> inherited_values(const plan::PlannedRun& item,
 }
 
 Json run_json(const Run& run) {
-  Json json = {{"run", run.index},
-               {"folder", run.folder},
-               {"key", run.key},
-               {"label", run.label},
-               {"settings", settings_json(run.settings)},
-               {"unset", settings_json(run.inherited)},
-               {"coordinates", run.coordinates},
-               {"first_frame", run.frames.first},
-               {"last_frame", run.frames.last},
-               {"particles", run.particles},
-               {"memory_bytes", run.memory},
-               {"work", run.work}};
-  if (!run.look.empty()) json["look"] = settings_json(run.look);
-  return json;
+  return {{"run", run.index},
+          {"folder", run.folder},
+          {"key", run.key},
+          {"label", run.label},
+          {"settings", settings_json(run.settings)},
+          {"unset", settings_json(run.inherited)},
+          {"changes", settings_json(run.changes)},
+          {"coordinates", run.coordinates},
+          {"first_frame", run.frames.first},
+          {"last_frame", run.frames.last},
+          {"particles", run.particles},
+          {"memory_bytes", run.memory},
+          {"work", run.work}};
+}
+
+/// Of a run that forks, in a file of before it had the changes: it was told its settings, but for
+/// the seed of its beginning, and how it is seen.
+std::vector<scene::Override> changes_of_before(const Json& run) {
+  std::vector<scene::Override> changes = settings_of(run.at("settings"));
+  std::erase_if(changes, [](const scene::Override& o) { return o.address == "seed"; });
+  std::ranges::move(settings_of(run.value("look", Json::array())), std::back_inserter(changes));
+  return changes;
 }
 
 Run run_of(const Json& json) {
@@ -108,7 +116,8 @@ Run run_of(const Json& json) {
   run.label = json.at("label").get<std::string>();
   run.settings = settings_of(json.at("settings"));
   run.inherited = settings_of(json.at("unset"));
-  run.look = settings_of(json.value("look", Json::array()));
+  run.changes =
+      json.contains("changes") ? settings_of(json.at("changes")) : changes_of_before(json);
   for (const Json& place : json.at("coordinates"))
     run.coordinates.push_back(whole_number<int>(place));
   run.frames = {whole_number<int>(json.at("first_frame")),
@@ -297,16 +306,10 @@ std::string run_text(const Run& run) {
 }
 
 run::RenderOptions Beginning::fork_of(const Run& branch, const std::string& folder) const {
-  const Run& beginning = run_of(branch);
   run::RenderOptions options;
-  options.scene = beginning_folder(folder, beginning).string();
+  options.scene = beginning_folder(folder, run_of(branch)).string();
   options.from = time;
-  std::vector<scene::Override> changes = beginning.settings;
-  // The seed is that of the beginning, whose particles it has drawn.
-  std::copy_if(branch.settings.begin(), branch.settings.end(), std::back_inserter(changes),
-               [](const scene::Override& setting) { return setting.address != "seed"; });
-  changes.insert(changes.end(), branch.look.begin(), branch.look.end());
-  options.overrides = scene::texts_of(changes);
+  options.overrides = scene::texts_of(branch.changes);
   return options;
 }
 

@@ -34,8 +34,7 @@ struct AxisLabels {
 /// The common beginning of runs that fork later than at the start, one for each seed.
 struct Beginning {
   double time = 0;  ///< s, where the runs fork
-  /// Their frame is the last one before; their settings are made by all runs there. See
-  /// beginning_folder() for where they are.
+  /// Their frame is the last one before. See beginning_folder() for where they are.
   std::vector<Run> runs{};
   std::string source{};  ///< run or picture that it was taken from; "": simulated from the start
 

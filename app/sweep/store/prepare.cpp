@@ -158,8 +158,6 @@ std::string key_of(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
   if (!plan.beginnings.empty())
     more += fmt::format("\nfrom {} of {}", plan.fork,
                         key_of_beginning(plan, plan.beginning_of(item.run)));
-  for (const scene::Override& seen : item.run.look)
-    more += "\nseen with " + seen.address + "=" + seen.value;
   return more.empty() ? own : record::hash_of(own + more);
 }
 

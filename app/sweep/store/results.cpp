@@ -163,6 +163,13 @@ std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
   return flaws_of(run_folder, run, status, record::read_run_json(run_folder));
 }
 
+std::optional<std::string> why_to_make(const std::filesystem::path& folder, const Run& run,
+                                       const RunStatus& status, const Retry& retry) {
+  if (!is_finished(status.state) || retry.contains(status.state)) return "";
+  std::string flaws = flaws_of_run(folder, run, status);
+  return flaws.empty() ? std::nullopt : std::optional(std::move(flaws));
+}
+
 RunResult read_result(const std::filesystem::path& folder, const Run& run,
                       const std::string& view) {
   RunResult result;
@@ -173,7 +180,9 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   if (result.status.key != run.key) result.status = RunStatus{};
   std::vector<record::FrameRecord> frames;
   RunNotes notes;
-  const Json record = result.status.key == run.key ? record::read_run_json(run_folder) : Json();
+  // What a run that has not begun has in its folder is of its simulation drawn otherwise.
+  const bool has_begun = result.status.key == run.key && result.status.state != RunState::pending;
+  const Json record = has_begun ? record::read_run_json(run_folder) : Json();
   // Numbers of another simulation are none of this run.
   if (record.is_object() && !is_of_other_simulation(result.status, record)) {
     frames = record::frame_records(record);

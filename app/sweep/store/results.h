@@ -60,6 +60,11 @@ std::vector<std::size_t> listed_metrics(const std::vector<RunResult>& results);
 std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
                          const RunStatus& status);
 
+/// Why a run is to be made: nothing where it has ended and its files are whole; "" where it has not
+/// ended, or `retry` repeats what it ended as; otherwise its flaws.
+std::optional<std::string> why_to_make(const std::filesystem::path& folder, const Run& run,
+                                       const RunStatus& status, const Retry& retry);
+
 /// True if the metrics belong to the last frame, at which all runs are compared.
 bool is_whole(const Run& run, const RunResult& result);
 

@@ -45,7 +45,8 @@ function setMark(row, mark) {
   change('star');
 }
 
-const toggleStar = row => setMark(row, {star: !row.mark.star});
+/** A star takes its note along, as `--remove` does in the folder. */
+const toggleStar = row => setMark(row, row.mark.star ? noMark : {star: true});
 
 /** On a tile. */
 function starOf(row) {
