@@ -22,6 +22,7 @@
 #include "app/support/json.h"
 #include "app/support/text.h"
 #include "render/image/image.h"
+#include "sim/shapes/held_files.h"
 
 namespace neve::app::cli {
 
@@ -206,6 +207,7 @@ int draw_pair(const CompareOptions& options) {
 }  // namespace
 
 int run_compare(const CompareOptions& options) {
+  const sim::shapes::HeldFiles files;
   std::error_code error;
   for (const std::string& path : {options.pictures.a, options.pictures.b})
     if (!fs::exists(path, error))

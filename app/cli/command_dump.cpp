@@ -19,6 +19,7 @@
 #include "app/support/text.h"
 #include "app/timeline/origin.h"
 #include "app/timeline/times.h"
+#include "sim/shapes/held_files.h"
 
 namespace neve::app::cli {
 
@@ -231,6 +232,7 @@ dump::Listing listing_of(const dump::DumpOptions& options, const dump::StepInspe
 }  // namespace
 
 int run_dump(const dump::DumpOptions& given) {
+  const sim::shapes::HeldFiles files;
   dump::DumpOptions options = given;
   options.run.is_start_only = true;  // the times are those of who asks
   const run::RenderJob job = run::make_job(options.run);

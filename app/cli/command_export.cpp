@@ -3,10 +3,12 @@
 #include "app/exports/encode.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
+#include "sim/shapes/held_files.h"
 
 namespace neve::app::cli {
 
 int run_export(const ExportCommand& command) {
+  const sim::shapes::HeldFiles files;
   run::ExportOptions options{command.run, {}, command.at};
   for (const scene::ExportFormat format : command.formats) {
     options.exports.push_back(command.common);

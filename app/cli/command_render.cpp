@@ -34,6 +34,7 @@
 #include "app/timeline/origin.h"
 #include "render/gl/context.h"
 #include "render/overlay/font_cover.h"
+#include "sim/shapes/held_files.h"
 
 namespace neve::app::cli {
 
@@ -404,6 +405,7 @@ int finish(const run::RenderOptions& options, const run::RenderJob& job, const r
 }  // namespace
 
 int run_render(const run::RenderOptions& options) {
+  const sim::shapes::HeldFiles files;
   run::RenderJob job = run::make_job(options);
   refuse_strip(options, job);
   if (!job.run.empty() && !job.fork && !options.resume && !grows(job)) job.scene.exports.clear();

@@ -2,10 +2,12 @@
 #include "app/cli/commands.h"
 #include "app/support/errors.h"
 #include "app/support/interrupt.h"
+#include "sim/shapes/held_files.h"
 
 namespace neve::app::cli {
 
 int run_strip_command(const run::StripOptions& options) {
+  const sim::shapes::HeldFiles files;
   const run::StripJob job = run::make_strip_job(options);
   const setup::Plan plan =
       setup::make_plan(job.run.scene, job.run.frames, job.run.quality, options.run.threads);

@@ -47,7 +47,8 @@ class Fall {
     parts_.clear();
     Vec3d velocity = Vec3d::Zero(), way = Vec3d::Zero();
     for (int k = 1; k <= std::max(1, scene::last_frame(scene)); ++k) {
-      parts_.push_back({setup::with_curves(scene, k).solver.gravity, velocity, way});
+      const std::vector<double> g = *setup::curve_value(scene, "solver.gravity", k);
+      parts_.push_back({{g[0], g[1], g[2]}, velocity, way});
       velocity = velocity_at(k * frame_);
       way = way_at(k * frame_);
     }

@@ -171,7 +171,7 @@ std::shared_ptr<const MeshLook> make_look(const sim::shapes::HeightField& field,
 /// @param snow  about the terrain's origin; empty: the whole terrain matters
 std::shared_ptr<const MeshLook> look_of(const sim::shapes::Terrain& terrain,
                                         const Eigen::AlignedBox3d& snow) {
-  static sim::shapes::Recent<MeshLook> recent;
+  static sim::shapes::Recent<MeshLook> recent(sim::shapes::Made::each_moment);
   const std::shared_ptr<const sim::shapes::HeightField> field = sim::shapes::height_field(terrain);
   const sim::shapes::Bounds& all = field->bounds();
   const auto post = [&](const sim::Vec3d& x) -> Eigen::Vector2d {

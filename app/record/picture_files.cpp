@@ -13,6 +13,7 @@
 #include "app/scene/override.h"
 #include "app/scene/toml/value.h"
 #include "app/support/errors.h"
+#include "sim/shapes/held_files.h"
 #include "sim/shapes/numbered_files.h"
 #include "sim/types/errors.h"
 
@@ -249,7 +250,10 @@ std::map<std::string, std::string> hash_files(const scene::Scene& scene,
                                               const std::vector<scene::LiveChange>& changes) {
   std::map<std::string, std::string> files;
   const auto add = [&](const std::string& file) {
+    // The hash is of what the run has read.
+    sim::shapes::require_unchanged(file);
     files[file] = hash_text(output::hash_file(file));
+    sim::shapes::require_unchanged(file);
   };
   for (const std::string& file : files_of(scene)) add(file);
   for (const scene::LiveChange& change : changes)

@@ -395,8 +395,8 @@ void keep_views(const RenderJob& job, const EarlierRun& earlier, record::RunReco
   scene::Scene merged = other_views(earlier, ours).empty()
                             ? with_length_and_exports_of(earlier.scene, job.scene)
                             : with_views_of(earlier.scene, job.scene);
-  merged.undrawn_views = others_than(merged.views, job.scene.undrawn_views);
-  merged.undrawn_mosaics = others_than(merged.mosaics, job.scene.undrawn_mosaics);
+  merged.undrawn_views = scene::others_than(merged.views, job.scene.undrawn_views);
+  merged.undrawn_mosaics = scene::others_than(merged.mosaics, job.scene.undrawn_mosaics);
   ours.scene = scene::write_scene(merged);
   ours.undrawn = scene::write_undrawn(merged);
   if (!job.run.empty()) ours.scene_file = name_of_earlier(earlier);

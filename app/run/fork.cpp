@@ -10,6 +10,7 @@
 #include "app/scene/flat.h"
 #include "app/scene/presets.h"
 #include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/curves.h"
 #include "app/setup/resolve.h"
@@ -27,6 +28,11 @@ namespace fs = std::filesystem;
 
 scene::Scene with_all_changes(const RenderJob& job) {
   return timeline::with_changes(job.scene, timeline::changes_of(job.scene, job.changes));
+}
+
+/// Where the words of a change are looked for: as those of a scene file, beside it.
+std::string folder_of_changes(const RenderJob& job) {
+  return job.run.empty() && !job.picture ? scene::base_dir_of(job.scene_file) : std::string();
 }
 
 /// The numbers that presets set and that can change while a run runs; others stay, with a note.
@@ -80,8 +86,10 @@ void set_fork(const RenderOptions& options, RenderJob& job) {
   const scene::Scene before = with_all_changes(job);
   take_live_numbers(before, *job.fork);
   setup::refuse_followers(before, job.fork->changes);
-  const scene::Scene forked = scene::apply(before, job.fork->changes, job.scene_file);
+  const scene::Scene forked =
+      scene::apply(before, job.fork->changes, job.scene_file, folder_of_changes(job));
   timeline::require_live(before, forked, "--from");
+  job.scene.limits = forked.limits;  // of the command, which is checked before it simulates
   const int first = timeline::frame_at(job.fork->time, job.scene.fps) + 1;
   const std::optional<setup::FrameRange> frames =
       options.frames ? std::optional(setup::frames_of(job.scene, *options.frames)) : std::nullopt;
@@ -146,7 +154,8 @@ void go_to_fork(RenderJob& job, timeline::Timeline& timeline, Progress& progress
                 {"step", simulation.steps()},
                 {"state_hash", record::hash_text(simulation.state_hash())}};
   const scene::Scene& before = *timeline.here().scene;
-  scene::Scene next = scene::apply(before, job.fork->changes, job.scene_file);
+  scene::Scene next =
+      scene::apply(before, job.fork->changes, job.scene_file, folder_of_changes(job));
   setup::reopen(next, job.fork->changes);
   setup::resolve(next, simulation.particle_count());
   timeline::require_live(before, next, "--from");

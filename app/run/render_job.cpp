@@ -43,7 +43,7 @@ constexpr double usual_shutter = 180;
 template <class Named>
 void draw_only(std::vector<Named> chosen, std::vector<Named>& drawn, std::vector<Named>& undrawn) {
   undrawn.insert(undrawn.end(), drawn.begin(), drawn.end());
-  undrawn = others_than(chosen, std::move(undrawn));
+  undrawn = scene::others_than(chosen, std::move(undrawn));
   drawn = std::move(chosen);
 }
 

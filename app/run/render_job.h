@@ -44,15 +44,6 @@ struct RenderJob : timeline::Origin {
   bool has_movies() const { return options.has_movies && options.movie.is_made; }
 };
 
-/// Those of a list that have other names than these.
-template <class Named>
-std::vector<Named> others_than(const std::vector<Named>& these, std::vector<Named> list) {
-  std::erase_if(list, [&](const Named& one) {
-    return std::ranges::find(these, one.name, &Named::name) != these.end();
-  });
-  return list;
-}
-
 /// Null where there is no mosaic of the name.
 const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name);
 

@@ -18,6 +18,7 @@
 #include "app/support/interrupt.h"
 #include "app/support/text.h"
 #include "render/gl/context.h"
+#include "sim/shapes/held_files.h"
 
 namespace neve::app::run {
 
@@ -99,6 +100,7 @@ RenderResult RenderRun::run() {
     timeline_.moments().bring_to_disk();
     note_states();
     add_slates();
+    warn_of_changed_files();
     result_.movies = ledger_.finish(result_.status);
   } catch (const std::exception& error) {
     is_abandoned_ = true;
@@ -116,6 +118,20 @@ void RenderRun::add_slates() {
   for (output::Picture& slate : drawing_.draw_slates(record()))
     ledger_.write_picture(std::move(slate));
   ledger_.record().slate = record().frames.front().frame - 1;
+}
+
+/// The pictures have the hashes of the files as they were.
+void RenderRun::warn_of_changed_files() {
+  for (const std::string& file : sim::shapes::changed_held_files()) {
+    std::string warning = fmt::format(
+        "{} has changed since the run began, which goes on with what it has read; its pictures "
+        "make "
+        "themselves again with the old file alone",
+        file);
+    progress_.warning(warning);
+    told_before_.push_back(std::move(warning));
+  }
+  note_warnings();
 }
 
 std::vector<int> RenderRun::begin() {

@@ -84,6 +84,7 @@ class RenderRun {
   void begin_next(int frame);
   void compare_with_picture(int frame, std::uint64_t state_hash);
   void draw_frame(int frame);
+  void warn_of_changed_files();
   void note_undrawn(int frame);
   bool checkpoint_is_due(int frame) const;
   void write_checkpoint();

@@ -12,6 +12,7 @@
 #include "app/scene/toml/error.h"
 #include "app/scene/toml/toml_text.h"
 #include "app/support/text.h"
+#include "sim/shapes/held_files.h"
 #include "sim/shapes/numbered_files.h"
 
 namespace neve::app::scene {
@@ -78,8 +79,9 @@ std::string advice_on_file(const std::string& name, const std::filesystem::path&
 std::string existing_file(const Leaf& leaf, const std::string& name) {
   std::error_code error;
   const std::string file = absolute_path(leaf, name);
-  if (name.empty() || !std::filesystem::is_regular_file(file, error))
-    leaf.fail("a file that exists", advice_on_file(name, file));
+  // A run that reads its scene again has read the file, which may be gone for a moment.
+  const bool exists = sim::shapes::is_held(file) || std::filesystem::is_regular_file(file, error);
+  if (name.empty() || !exists) leaf.fail("a file that exists", advice_on_file(name, file));
   return file;
 }
 

@@ -239,8 +239,11 @@ Scene read_with_undrawn(std::string_view text, std::string_view undrawn, const s
   return scene;
 }
 
-Scene apply(const Scene& scene, const std::vector<Override>& overrides, const std::string& name) {
-  Scene changed = scene_of(scene_table(scene), name, {}, overrides);
+Scene apply(const Scene& scene, const std::vector<Override>& overrides, const std::string& name,
+            const std::string& base_dir) {
+  Scene changed = scene_of(scene_table(scene), name, base_dir, overrides);
+  changed.undrawn_views = others_than(changed.views, scene.undrawn_views);
+  changed.undrawn_mosaics = others_than(changed.mosaics, scene.undrawn_mosaics);
   place_in_world(changed, name);
   return changed;
 }

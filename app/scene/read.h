@@ -28,10 +28,11 @@ Scene read_scene_text(std::string_view text, const std::string& name,
                       const std::vector<Override>& overrides = {});
 
 /// A scene with overrides, as if its file were read with them.
-/// @param name  of the scene in messages
+/// @param name      of the scene in messages
+/// @param base_dir  folder of relative paths in the overrides; "" for the current directory
 /// @throws UsageError for an override, SceneError for a scene that it spoils
 Scene apply(const Scene& scene, const std::vector<Override>& overrides,
-            const std::string& name = "the scene");
+            const std::string& name = "the scene", const std::string& base_dir = {});
 
 /// The scene as TOML with every parameter written out; reading it gives the same scene, bit for
 /// bit. Mesh files are written as absolute paths, so it reads the same from anywhere.

@@ -332,4 +332,13 @@ inline bool has_moving_bodies(const Scene& scene) {
                      [](const Collider& collider) { return collider.body.moves(); });
 }
 
+/// Those of a list that have other names than these.
+template <class Named>
+std::vector<Named> others_than(const std::vector<Named>& these, std::vector<Named> list) {
+  std::erase_if(list, [&](const Named& one) {
+    return std::ranges::find(these, one.name, &Named::name) != these.end();
+  });
+  return list;
+}
+
 }  // namespace neve::app::scene

@@ -47,10 +47,6 @@ scene::Scene coarsened(const scene::Scene& scene, Substitute substitute) {
       material.critical_compression = 0.9;
     }
   }
-  // Snow is not the scene's own here: its curves do not fit.
-  std::erase_if(coarse.curves, [](const scene::Curve& curve) {
-    return curve.parameter != "solver.gravity" && !curve.parameter.starts_with("collider.");
-  });
   // Snow that is not crushed would bounce like rubber: pure PIC takes that energy out.
   if (substitute == Substitute::uncrushed) coarse.solver.flip_ratio = 0;
   return coarse;
@@ -68,20 +64,41 @@ sim::ParticleArrays seed_what_fits(const scene::Scene& coarse) {
   return particles;
 }
 
-/// Removes meshes too thin for the coarse cells.
-sim::Simulation coarse_simulation(const scene::Scene& coarse,
-                                  const sim::ParticleArrays& particles) {
+/// Removes meshes too thin for the coarse cells from the scene.
+sim::Simulation coarse_simulation(scene::Scene& coarse, const sim::ParticleArrays& particles) {
   try {
     return make_simulation(coarse, particles, 1);
   } catch (const sim::ShapeError&) {
-    scene::Scene clear = coarse;
-    std::erase_if(clear.colliders, [](const scene::Collider& collider) {
+    std::erase_if(coarse.colliders, [](const scene::Collider& collider) {
       return std::holds_alternative<sim::shapes::Mesh>(collider.shape.form) ||
              std::holds_alternative<sim::shapes::MeshSequence>(collider.shape.form);
     });
-    return make_simulation(clear, particles, 1);
+    return make_simulation(coarse, particles, 1);
   }
 }
+
+/// Follows the curves of the given scene, which the coarse one is no scene of a user to have. Snow
+/// is not its own here: curves of it do not fit.
+class CurvesOfPlaces {
+ public:
+  explicit CurvesOfPlaces(const scene::Scene& scene) : given_(scene) {
+    std::erase_if(given_.curves, [](const scene::Curve& curve) {
+      return curve.parameter != "solver.gravity" && !curve.parameter.starts_with("collider.");
+    });
+  }
+
+  void follow(double time, scene::Scene& coarse, sim::Simulation& simulation) const {
+    if (given_.curves.empty()) return;
+    const scene::Scene now = with_curves(given_, static_cast<int>(std::lround(time * given_.fps)));
+    coarse.solver.gravity = now.solver.gravity;
+    for (scene::Collider& collider : coarse.colliders)
+      collider = *std::ranges::find(now.colliders, collider.name, &scene::Collider::name);
+    simulation.apply(coarse.solver, coarse.materials, scene::sim_colliders(coarse));
+  }
+
+ private:
+  scene::Scene given_;
+};
 
 std::vector<sim::shapes::Bounds> boxes_of_bodies(const sim::Simulation& simulation) {
   std::vector<sim::shapes::Bounds> boxes;
@@ -96,7 +113,9 @@ struct Run {
   bool is_whole = false;  ///< not cut short by a divergence
 };
 
-Run run_within_budget(const scene::Scene& coarse) {
+Run run_within_budget(const scene::Scene& scene, Substitute substitute) {
+  scene::Scene coarse = coarsened(scene, substitute);
+  const CurvesOfPlaces curves(scene);
   const sim::ParticleArrays particles = seed_what_fits(coarse);
   Run result;
   result.is_whole = true;
@@ -110,11 +129,7 @@ Run run_within_budget(const scene::Scene& coarse) {
   long steps_left = std::lround(work_budget / (static_cast<double>(particles.x.size()) + emitted));
   const double duration = scene::duration(coarse);
   for (int k = 1; k <= moments && duration > 0; ++k) {
-    if (!coarse.curves.empty()) {
-      const scene::Scene now =
-          with_curves(coarse, static_cast<int>(std::lround(duration * k / moments * coarse.fps)));
-      simulation.apply(now.solver, now.materials, scene::sim_colliders(now));
-    }
+    curves.follow(duration * k / moments, coarse, simulation);
     simulation.advance_to(duration * k / moments,
                           [&] { return --steps_left <= 0 || is_interrupted(); });
     result.is_whole = !simulation.divergence();
@@ -134,9 +149,9 @@ double planned_particles(const scene::Scene& scene) {
 }
 
 std::vector<CoarseMoment> coarse_run(const scene::Scene& scene) {
-  Run first = run_within_budget(coarsened(scene, Substitute::same));
+  Run first = run_within_budget(scene, Substitute::same);
   if (first.is_whole || is_interrupted()) return first.seen;
-  Run second = run_within_budget(coarsened(scene, Substitute::uncrushed));
+  Run second = run_within_budget(scene, Substitute::uncrushed);
   const bool is_longer = second.seen.size() > first.seen.size();
   return is_longer ? second.seen : first.seen;
 }

@@ -8,7 +8,9 @@
 
 #include "app/scene/override.h"
 #include "app/scene/read.h"
+#include "app/scene/toml/error.h"
 #include "app/scene/toml/value.h"
+#include "app/support/errors.h"
 #include "app/support/text.h"
 #include "sim/shapes/curve.h"
 
@@ -104,12 +106,14 @@ bool sets(const scene::Override& change, const std::string& address) {
 
 }  // namespace
 
-std::vector<scene::Override> curve_values(const scene::Scene& scene, int frame) {
+namespace {
+
+std::vector<scene::Override> values_at(const scene::Scene& scene, double time) {
   std::vector<scene::Override> values;
   for (const scene::Curve& curve : scene.curves) {
     if (curve.keyframes.empty()) continue;
     std::vector<std::string> words;
-    for (const double number : numbers_at(curve, time_of(scene, frame)))
+    for (const double number : numbers_at(curve, time))
       words.push_back(scene::toml::number_text(number));
     scene::Override value{curve.parameter,
                           words.size() == 1 ? words.front() : "[" + joined(words, ", ") + "]"};
@@ -117,6 +121,50 @@ std::vector<scene::Override> curve_values(const scene::Scene& scene, int frame) 
     values.push_back(std::move(value));
   }
   return values;
+}
+
+/// Keyframes where a coordinate is smallest or largest.
+std::set<std::size_t> ends_of(const scene::Curve& curve) {
+  std::set<std::size_t> ends;
+  for (const std::vector<double>& x : coordinates_of(curve)) {
+    const auto [least, most] = std::ranges::minmax_element(x);
+    ends.insert(static_cast<std::size_t>(least - x.begin()));
+    ends.insert(static_cast<std::size_t>(most - x.begin()));
+  }
+  return ends;
+}
+
+}  // namespace
+
+std::vector<scene::Override> curve_values(const scene::Scene& scene, int frame) {
+  return values_at(scene, time_of(scene, frame));
+}
+
+std::optional<std::vector<double>> curve_value(const scene::Scene& scene,
+                                               const std::string& address, int frame) {
+  const scene::Curve* curve = curve_of(scene, address);
+  if (!curve || curve->keyframes.empty()) return std::nullopt;
+  return numbers_at(*curve, time_of(scene, frame));
+}
+
+void require_curve_values(const scene::Scene& scene, const std::string& name) {
+  scene::Scene still = scene;
+  still.curves.clear();
+  for (const scene::Curve& curve : scene.curves)
+    for (const std::size_t k : ends_of(curve)) {
+      const auto fail = [&](const std::string& what, const std::string& hint) {
+        throw scene::toml::SceneError(
+            name, 0, 0,
+            "curve." + curve.name + ".keyframes[" + std::to_string(k + 1) + "]: " + what, hint);
+      };
+      try {
+        scene::apply(still, values_at(scene, curve.keyframes[k].time));
+      } catch (const scene::toml::SceneError& error) {
+        fail(error.message, error.hint);
+      } catch (const UsageError& error) {
+        fail(error.message, error.hint);
+      }
+    }
 }
 
 scene::Scene with_curves(const scene::Scene& scene, int frame) {

@@ -2,6 +2,8 @@
 /// Keyframes of parameters: the values that curves give in a frame.
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,8 +18,17 @@ namespace neve::app::setup {
 /// Check: Curves.GiveTheValueOfTheMiddleOfAFrame
 std::vector<scene::Override> curve_values(const scene::Scene& scene, int frame);
 
+/// Asks all rules of a scene of the values at the ends of its curves; those between break none.
+/// @param name  of the scene in messages @throws SceneError with the place of the keyframe
+void require_curve_values(const scene::Scene& scene, const std::string& name);
+
 /// The scene with these values. @throws UsageError, SceneError
 scene::Scene with_curves(const scene::Scene& scene, int frame);
+
+/// Its numbers alone, without a scene that is read for them; nothing of a parameter without a
+/// curve.
+std::optional<std::vector<double>> curve_value(const scene::Scene& scene,
+                                               const std::string& address, int frame);
 
 /// The curve that a parameter follows; null: none.
 const scene::Curve* curve_of(const scene::Scene& scene, const std::string& address);

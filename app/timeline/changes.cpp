@@ -104,7 +104,9 @@ scene::Scene recorded_scene(const scene::Scene& start, const scene::Scene& now) 
 }
 
 void require_live(const scene::Scene& before, const scene::Scene& after, const char* flag) {
-  const std::vector<scene::Difference> restart = scene::split_live(before, after).restart;
+  std::vector<scene::Difference> restart = scene::split_live(before, after).restart;
+  std::erase_if(restart,
+                [](const scene::Difference& d) { return !scene::concerns_simulation(d.address); });
   if (restart.empty()) return;
   std::vector<std::string> names;
   for (const scene::Difference& d : restart) names.push_back(d.address);

@@ -252,6 +252,7 @@ Origin Origin::of(const std::string& named, const Edits& edits) {
     read_picture(edits, origin);
   else
     read_scene_file(edits, origin);
+  setup::require_curve_values(origin.scene, origin.scene_file);
   return origin;
 }
 

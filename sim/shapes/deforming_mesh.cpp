@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sim/files/mesh_reader.h"
+#include "sim/shapes/held_files.h"
 #include "sim/shapes/mesh_edges.h"
 #include "sim/shapes/numbered_files.h"
 #include "sim/types/number_text.h"
@@ -288,11 +289,15 @@ std::string name_of(const MeshSequence& sequence) {
 
 std::shared_ptr<const DeformingMesh> deforming_mesh(const MeshSequence& sequence) {
   static Recent<DeformingMesh> recent;
-  return recent.get(name_of(sequence), [&] { return std::make_shared<DeformingMesh>(sequence); });
+  return recent.get(name_of(sequence), [&] {
+    auto mesh = std::make_shared<DeformingMesh>(sequence);
+    for (const std::string& file : files_of(sequence)) require_unchanged(file);
+    return mesh;
+  });
 }
 
 std::shared_ptr<const MeshSurface> surface_at(const MeshSequence& sequence, double time) {
-  static Recent<MeshSurface> recent;
+  static Recent<MeshSurface> recent(Made::each_moment);
   const std::shared_ptr<const DeformingMesh> mesh = deforming_mesh(sequence);
   const DeformingMesh::Moment now = mesh->moment(time);
   std::ostringstream name;

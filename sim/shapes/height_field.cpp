@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/shapes/mesh_surface.h"
+#include "sim/shapes/held_files.h"
 #include "sim/types/number_text.h"
 
 namespace neve::sim::shapes {
@@ -37,8 +37,10 @@ std::shared_ptr<const files::HeightGrid> height_grid(const Terrain& terrain) {
   const std::string key = file_stamp(terrain.file) + "|" + number_text(terrain.spacing, 17) + "|" +
                           number_text(terrain.low, 17) + "|" + number_text(terrain.high, 17);
   return recent.get(key, [&] {
-    return std::make_shared<const files::HeightGrid>(
+    auto grid = std::make_shared<const files::HeightGrid>(
         files::read_heights(terrain.file, {terrain.spacing, terrain.low, terrain.high}));
+    require_unchanged(terrain.file);
+    return grid;
   });
 }
 
@@ -151,7 +153,11 @@ std::shared_ptr<const HeightField> height_field(const Terrain& terrain) {
 }
 
 double memory_to_read(const Terrain& terrain) {
-  return files::memory_of_heights(terrain.file);
+  // What a run has read has its room.
+  static Recent<double> recent;
+  return *recent.get(file_stamp(terrain.file), [&] {
+    return std::make_shared<const double>(files::memory_of_heights(terrain.file));
+  });
 }
 
 Vec3d middle_of(const Terrain& terrain) {

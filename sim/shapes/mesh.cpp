@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/files/mesh_reader.h"
+#include "sim/shapes/held_files.h"
 #include "sim/shapes/mesh_edges.h"
 #include "sim/shapes/mesh_parts.h"
 #include "sim/shapes/mesh_surface.h"
@@ -163,6 +164,7 @@ std::shared_ptr<const SolidMesh> read_solid_mesh(const Mesh& mesh) {
   static Recent<SolidMesh> recent;
   return recent.get(reading_key(mesh), [&] {
     files::PolygonMesh read = files::read_mesh(mesh.file);
+    require_unchanged(mesh.file);
     for (Vec3d& x : read.vertices) x -= mesh.origin;
     return std::make_shared<const SolidMesh>(
         scaled(solid_mesh(read, mesh.file, mesh.fill), mesh.scale, mesh.file));

@@ -2,10 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <numeric>
-#include <system_error>
 #include <unsupported/Eigen/BVH>
 
 namespace neve::sim::shapes {
@@ -251,14 +249,6 @@ Vec3d MeshSurface::normal(const Vec3d& y) const {
   return (mesh_.vertices[b] - mesh_.vertices[a])
       .cross(mesh_.vertices[c] - mesh_.vertices[a])
       .normalized();
-}
-
-std::string file_stamp(const std::string& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  const auto time = std::filesystem::last_write_time(path, error);
-  return path + "|" + std::to_string(size) + "|" +
-         std::to_string(error ? 0 : time.time_since_epoch().count());
 }
 
 std::shared_ptr<const MeshSurface> mesh_surface(const Mesh& mesh) {

@@ -3,11 +3,10 @@
 
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "sim/shapes/held_files.h"
 #include "sim/shapes/mesh.h"
 #include "sim/shapes/mesh_columns.h"
 
@@ -73,29 +72,5 @@ void require_faces(const SolidMesh& mesh, const std::string& file);
 
 /// The place of a triangle that is nearest to p.
 Vec3d nearest_on_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p);
-
-/// Tells one content of a file from another: path, size and time of the last change.
-std::string file_stamp(const std::string& path);
-
-/// The last few things that were made, by name. Making happens under a lock: nothing is made twice.
-template <class Thing>
-class Recent {
- public:
-  template <class Make>
-  std::shared_ptr<const Thing> get(const std::string& name, const Make& make) {
-    const std::lock_guard lock(mutex_);
-    for (const auto& [key, thing] : things_)
-      if (key == name) return thing;
-    std::shared_ptr<const Thing> made = make();
-    if (things_.size() >= most) things_.erase(things_.begin());
-    things_.emplace_back(name, made);
-    return made;
-  }
-
- private:
-  static constexpr std::size_t most = 8;
-  std::mutex mutex_;
-  std::vector<std::pair<std::string, std::shared_ptr<const Thing>>> things_;
-};
 
 }  // namespace neve::sim::shapes

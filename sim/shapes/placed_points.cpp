@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "sim/shapes/held_files.h"
 namespace neve::sim::shapes {
 namespace {
 
@@ -111,6 +112,14 @@ std::optional<SummaryKey> key_of(const Points& points, const Mat3d& rotation) {
   return key;
 }
 
+/// The same content as long as it is held.
+files::PointCloud read_held(const std::string& file, const std::vector<std::string>& further = {}) {
+  require_unchanged(file);
+  files::PointCloud cloud = files::read_points(file, further);
+  require_unchanged(file);
+  return cloud;
+}
+
 }  // namespace
 
 /// One of every `thinning` along a curve through space. Along the rows of the file it was one plane
@@ -142,7 +151,7 @@ std::vector<std::size_t> kept_points(const std::vector<Vec3d>& x, double thinnin
 
 std::vector<files::PointColumn> placed_columns(const Points& points,
                                                const std::vector<std::string>& names) {
-  files::PointCloud cloud = files::read_points(points.file, names);
+  files::PointCloud cloud = read_held(points.file, names);
   if (points.thinning != 1) {
     const std::vector<std::size_t> kept = kept_points(cloud.x, points.thinning);
     for (files::PointColumn& column : cloud.further) keep(kept, column.value);
@@ -155,7 +164,7 @@ std::vector<std::string> column_names(const Points& points) {
 }
 
 PlacedPoints::PlacedPoints(const Points& points)
-    : PlacedPoints(files::read_points(points.file), points, points.file) {}
+    : PlacedPoints(read_held(points.file), points, points.file) {}
 
 PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const std::string& name)
     : PointCloud(std::move(cloud)) {

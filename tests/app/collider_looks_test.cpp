@@ -85,6 +85,24 @@ TEST_F(ColliderLooks, SurfacesAreWhereContactIsAtEveryTime) {
   }
 }
 
+TEST_F(ColliderLooks, AMeshIsDrawnAsTheRunHasReadIt) {
+  const sim::shapes::HeldFiles files;
+  const auto scene = scene_with("mesh = { file = \"box.obj\" }", "solid");
+  const auto before = drawn(scene, 0).meshes[0].position;
+  // More of them than are kept of those that are not held.
+  for (int k = 0; k < 12; ++k)
+    drawn(scene_with("mesh = { file = \"box.obj\", scale = 0." + std::to_string(k + 2) + " }",
+                     "solid"),
+          0);
+  folder_.write("box.obj", test::box_obj({3, 2, 1.5}));
+  const auto after = drawn(scene, 0).meshes[0].position;
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t k = 0; k < after.size(); ++k) EXPECT_EQ(after[k].x, before[k].x);
+  EXPECT_THROW(drawn(scene_with("mesh = { file = \"box.obj\", scale = 0.9 }", "solid"), 0),
+               std::exception)
+      << "what is not at hand is not read from another file";
+}
+
 TEST_F(ColliderLooks, WiresAndGhostsAreTheSameSurfaces) {
   for (const std::string& form : drawn_forms) {
     SCOPED_TRACE(form);

@@ -10,6 +10,8 @@
 #include "app/scene/coarsen.h"
 #include "app/scene/override.h"
 #include "app/scene/read.h"
+#include "app/scene/toml/error.h"
+#include "app/setup/coarse_run.h"
 #include "app/support/errors.h"
 #include "app/timeline/timeline.h"
 
@@ -243,6 +245,55 @@ TEST(Curves, TablesWithAValueOfWhatFollowsOneAreRefused) {
                UsageError);
   setup::refuse_followers(scene, scene::parse_overrides({"material.snow={density=200}"}));
   setup::refuse_followers(scene, scene::parse_overrides({"solver=none"}));
+}
+
+/// A run would end in its middle.
+TEST(Curves, ValuesThatNoSceneMayHaveAreNamedWithTheirKeyframe) {
+  const auto error_of = [](const std::string& more) -> std::string {
+    try {
+      setup::require_curve_values(falling(more), "s.toml");
+    } catch (const scene::toml::SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error_of(curves), "");
+  const std::string blade =
+      "[[collider]]\nname = \"blade\"\nshape = { sphere = { center = [2, 0, 0], radius = 0.1 } }\n";
+  const std::string moved = error_of(
+      blade +
+      "keyframes = [{ time = 0, position = [2, 0, 0] }, { time = 1, position = [3, 0, 0] }]\n"
+      "[[curve]]\nname = \"c\"\nparameter = \"collider.blade.velocity\"\n"
+      "keyframes = [{ time = 0.5, vector = [0, 0, 0] }, { time = 1, vector = [1, 0, 0] }]\n");
+  EXPECT_NE(moved.find("curve.c.keyframes[2]"), std::string::npos) << moved;
+  EXPECT_NE(moved.find("velocity and keyframes both move"), std::string::npos) << moved;
+  const std::string sprung =
+      error_of(blade +
+               "[[curve]]\nname = \"c\"\nparameter = \"collider.blade.restitution\"\n"
+               "keyframes = [{ time = 0, value = 0 }, { time = 1, value = 0.5 }]\n");
+  EXPECT_NE(sprung.find("curve.c.keyframes[2]"), std::string::npos) << sprung;
+}
+
+/// Its snow is none that a file could have.
+TEST(Curves, ACoarseRunOfCrushedSnowFollowsThem) {
+  const scene::Scene scene = scene::read_scene_text(R"(
+frames = 24
+[solver]
+cell_size = 0.02
+[material.snow]
+hardening = 20
+variation = { thresholds = 0.3 }
+[[body]]
+shape = { sphere = { center = [0, 0.3, 0], radius = 0.1 } }
+velocity = [0, -60, 0]
+[[collider]]
+shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
+[[curve]]
+parameter = "solver.gravity"
+keyframes = [{ time = 0, vector = [0, -9.81, 0] }, { time = 0.5, vector = [0, -5, 0] }]
+)",
+                                                    "s.toml");
+  EXPECT_FALSE(setup::coarse_run(scene).empty());
 }
 
 TEST(Curves, WithoutEffectAreTold) {

@@ -14,7 +14,9 @@
 #include "app/timeline/timeline.h"
 #include "app/timeline/times.h"
 #include "sim/laws/list.h"
+#include "sim/shapes/held_files.h"
 #include "tests/support/changed_run.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace neve::app {
@@ -263,6 +265,49 @@ keyframes = [{ time = 0, value = 1.4e5 }, { time = 0.16, value = 8e5 }]
     ASSERT_TRUE(between.timeline.go_to(frame / 24.0));
   }
   EXPECT_EQ(between.simulation().state_hash(), whole.simulation().state_hash());
+}
+
+/// Each frame of a scene with curves is read anew: its files are not.
+TEST(Timeline, KeepsTheMeshesThatItHasReadWhateverIsWritten) {
+  const test::TemporaryFolder folder;
+  const auto write_block = [&](double size) {
+    folder.write("block.obj", test::box_obj({size, 0.2, size}));
+  };
+  write_block(0.3);
+  const auto hash_after = [&](const auto& happening) {
+    const sim::shapes::HeldFiles files;
+    const scene::Scene scene = scene::read_scene_text(R"(
+frames = 4
+[solver]
+cell_size = 0.04
+[[body]]
+shape = { sphere = { center = [0, 0.2, 0], radius = 0.08 } }
+velocity = [0, -4, 0]
+[[collider]]
+name = "block"
+shape = { mesh = { file = "block.obj" } }
+[[curve]]
+parameter = "solver.gravity"
+keyframes = [{ time = 0, vector = [0, -9.81, 0] }, { time = 0.16, vector = [4, -9, 0] }]
+)",
+                                                      "s.toml", folder.path().string());
+    Counted run(scene);
+    EXPECT_TRUE(run.timeline.go_to(1 / 24.0));
+    happening();
+    EXPECT_TRUE(run.timeline.go_to(4 / 24.0));
+    return std::pair(run.simulation().state_hash(), sim::shapes::changed_held_files());
+  };
+  const auto undisturbed = hash_after([] {});
+  EXPECT_TRUE(undisturbed.second.empty());
+  const auto removed = hash_after([&] { std::filesystem::remove(folder / "block.obj"); });
+  EXPECT_EQ(removed.first, undisturbed.first);
+  EXPECT_EQ(removed.second, std::vector<std::string>{(folder / "block.obj").string()});
+  write_block(0.3);
+  const auto written = hash_after([&] { write_block(0.16); });
+  EXPECT_EQ(written.first, undisturbed.first);
+  EXPECT_EQ(written.second.size(), 1u);
+  // The next run has the new one.
+  EXPECT_NE(hash_after([] {}).first, undisturbed.first);
 }
 
 /// A frame that holds takes the same steps with "retry": changes inside it are made at theirs.

@@ -119,6 +119,7 @@ class SceneMaker {
                                                       scene::base_dir_of(sweep_.scene_file), all);
     setup::refuse_followers(scene, all);
     scene::place_in_world(scene, sweep_.scene_file);
+    setup::require_curve_values(scene, sweep_.scene_file);
     scene::coarsen(scene, coarsening);
     // A fork is told what it changes.
     if (!is_forked(options_, sweep_) && !settings.empty())
