@@ -78,8 +78,7 @@ void PictureWriter::work() {
 }
 
 void PictureWriter::rethrow_failure() {
-  // Told once: whoever goes on afterwards, on a disk with room again, is not told of it anew.
-  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (failure_) std::rethrow_exception(failure_);
 }
 
 }  // namespace neve::app::output

@@ -121,8 +121,8 @@ class Viewer {
   ViewerOptions options_;
   frontend::ImGuiInput input_;
   panels::ViewerState state_;
-  output::PictureWriter writer_;
-  std::optional<output::FolderLock> lock_;  ///< while frames are recorded
+  std::optional<output::PictureWriter> writer_;  ///< of a recording: what failed ends with it
+  std::optional<output::FolderLock> lock_;       ///< while frames are recorded
   bool is_closed_ = false;
   int pictures_ = 0;
   float styled_scale_ = 0;  ///< that the panels' distances are for

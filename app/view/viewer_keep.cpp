@@ -125,12 +125,12 @@ RecordedKey Viewer::recorded_key() const {
 /// What waits is written, or said to be missing: what failed is no failure of the next recording.
 void Viewer::stop_recording() {
   record_due();
-  if (!lock_) return;
   try {
-    writer_.finish();
+    if (writer_) writer_->finish();
   } catch (const std::exception& error) {
     bench_.say_not_saved(std::string("recorded pictures are missing: ") + error.what());
   }
+  writer_.reset();
   lock_.reset();
   recorded_.reset();
 }
@@ -169,7 +169,7 @@ void Viewer::follow_run() {
 /// In another folder, with the frames that both runs have.
 void Viewer::begin_take() {
   const std::filesystem::path before = take_.folder;
-  writer_.finish();
+  writer_->finish();
   // One that could not be written is in no take.
   std::erase_if(take_.frames,
                 [&](const auto& file) { return !std::filesystem::exists(before / file.first); });
@@ -197,6 +197,7 @@ void Viewer::record_due() {
       require_no_run(bench_.folder());
       lock_.emplace(bench_.folder(), "neve view");
     }
+    if (!writer_) writer_.emplace();
     const bool is_new_view =
         std::none_of(take_.frames.begin(), take_.frames.end(),
                      [&](const auto& file) { return file.first.parent_path() == view; });
@@ -206,11 +207,12 @@ void Viewer::record_due() {
     if (take_.frames.empty()) output::remove_abandoned(take_.folder / view);
     const std::filesystem::path file =
         output::frame_path(take_.folder, view, scene::number_of(*live.scene, live.frame));
-    writer_.write(picture_to_keep(file));
+    writer_->write(picture_to_keep(file));
     take_.frames[file.lexically_relative(take_.folder)] = live.frame;
     state_.recorded = static_cast<int>(take_.frames.size());
   } catch (const std::exception& error) {
     bench_.say_not_saved(std::string("recording stopped: ") + error.what());
+    writer_.reset();
     state_.is_recording = false;
     bench_.session().set_recording(false);
   }

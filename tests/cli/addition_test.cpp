@@ -378,6 +378,11 @@ TEST_F(Addition, ExportsOfARunStayWhenAViewIsAdded) {
   const auto refused =
       render({"scene.toml", "--out", "a", "--no-movie", "--set", "export.mesh.scale=2"}, 2);
   EXPECT_TRUE(contains(refused.errors, "other exports")) << refused.errors;
+  // What goes is not listed.
+  render({"scene.toml", "--out", "a", "--no-movie", "--set", "export.mesh.every=2", "--replace"});
+  for (const app::Json& file : json_of("a/run.json")["exports"][0]["files"])
+    EXPECT_EQ(file["number"].get<int>() % 2, 0) << file.dump();
+  expect_whole("a");
 }
 
 /// A run may be longer than its scene; a drawing of it elsewhere has all of it, resumed or not.

@@ -426,6 +426,20 @@ TEST(Workbench, AFailedReloadSaysWhereAndLeavesTheFileChanged) {
   EXPECT_EQ(work.bench.messages().back().kind, view::session::Message::Kind::note);
 }
 
+/// It is the work of an editor, which only who keeps the scene gives up.
+TEST(Workbench, AFileThatWasChangedMeanwhileIsNotReplaced) {
+  Working work;
+  const std::filesystem::path file = work.folder / "scene.toml";
+  const std::string edited = std::string(tiny_scene) + "# of an editor\n";
+  change_file(work, edited);
+  EXPECT_FALSE(work.bench.save_scene(file));
+  EXPECT_TRUE(contains(work.bench.messages().back().text, "was changed on disk"));
+  EXPECT_EQ(read_text(file), edited);
+  EXPECT_TRUE(work.bench.has_file_changed()) << "the offer to reload stays";
+  work.bench.keep_file();
+  EXPECT_TRUE(work.bench.save_scene(file));
+}
+
 /// A box of three particles from a file, which may go away.
 constexpr const char* from_points = R"(
 frames = 4
