@@ -8,6 +8,7 @@
 
 #include "app/scene/read.h"
 #include "render/shapes/mesh_shapes.h"
+#include "sim/shapes/held_files.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
