@@ -124,9 +124,8 @@ void RenderRun::add_slates() {
 void RenderRun::warn_of_changed_files() {
   for (const std::string& file : sim::shapes::changed_held_files()) {
     std::string warning = fmt::format(
-        "{} has changed since the run began, which goes on with what it has read; its pictures "
-        "make "
-        "themselves again with the old file alone",
+        "{} has changed since the run began, which continues with what it has read; its pictures "
+        "make themselves again with the old file alone",
         file);
     progress_.warning(warning);
     told_before_.push_back(std::move(warning));

@@ -1,6 +1,7 @@
 #include "sim/shapes/height_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/shapes/held_files.h"

@@ -99,7 +99,7 @@ TEST_F(ColliderLooks, AMeshIsDrawnAsTheRunHasReadIt) {
   const auto after = drawn(scene, 0).meshes[0].position;
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t k = 0; k < after.size(); ++k) EXPECT_EQ(after[k].x, before[k].x);
-  EXPECT_THROW(drawn(scene_with("mesh = { file = \"box.obj\", scale = 0.9 }", "solid"), 0),
+  EXPECT_THROW(drawn(scene_with("mesh = { file = \"box.obj\", scale = 0.95 }", "solid"), 0),
                std::exception)
       << "what is not at hand is not read from another file";
 }

@@ -50,7 +50,8 @@ TEST_F(CardCommand, WritesAPictureAndNumbers) {
       << drawn.errors;
   EXPECT_FALSE(exists("x"));
   // Another card does not replace it unless asked to.
-  const auto other = neve({"card", "--preset", "quick", "--out", "made/snow.png"});
+  const auto other = neve({"card", "--preset", "quick", "--set", "material.snow.hardening=6",
+                           "--out", "made/snow.png"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_TRUE(contains(other.errors, "there is a card of other scenes or settings"))
       << other.errors;

@@ -155,8 +155,9 @@ inline constexpr Folder folders[] = {
      "render/gl app/support app/scene/toml app/scene app/view/frontend app/view/web "
      "app/view/replay app/view"},
     {"app/cli",
-     "sim/base sim/seeding sim/kernels sim sim/checks render/image render/gl render/overlay render "
-     "app/support app/scene/toml app/advice app/scene app/output app/record app/setup app/options "
+     "sim/base sim/shapes sim/seeding sim/kernels sim sim/checks render/image render/gl "
+     "render/overlay render app/support app/scene/toml app/advice app/scene app/output app/record "
+     "app/setup app/options "
      "app/forecast "
      "app/health app/picture app/exports app/timeline app/run app/predict app/card app/compare "
      "app/dump "
