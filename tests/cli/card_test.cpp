@@ -49,13 +49,6 @@ TEST_F(CardCommand, WritesAPictureAndNumbers) {
       contains(drawn.errors, ", not a picture of a run; neve card made/snow.png makes it again"))
       << drawn.errors;
   EXPECT_FALSE(exists("x"));
-  // Another card does not replace it unless asked to.
-  const auto other = neve({"card", "--preset", "quick", "--set", "material.snow.hardening=6",
-                           "--out", "made/snow.png"});
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_TRUE(contains(other.errors, "there is a card of other scenes or settings"))
-      << other.errors;
-  EXPECT_EQ(app::output::read_file(folder.path() / "made/snow.png"), bytes);
 }
 
 TEST_F(CardCommand, AnotherCardIsReplacedOnlyWhenAskedFor) {

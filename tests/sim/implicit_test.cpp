@@ -218,11 +218,12 @@ TEST(ImplicitSolve, ImplicitSolveThatFailsIsReplacedByExplicitSteps) {
   s.beta = 0;
   s.max_dt = s.strain_limit = 1;  // speed and sound alone
   Simulation by_force(s, models, {}, strained(150), 1);
-  for (double left = dt; left > 0;) {
-    const double part = left / std::ceil(left / by_force.choose_dt(1).dt);
-    by_force.step(part);
-    left -= part;
-  }
+  for (int quarter = 0; quarter < 4; ++quarter)
+    for (double left = dt / 4; left > 0;) {
+      const double part = left / std::ceil(left / by_force.choose_dt(1).dt);
+      by_force.step(part);
+      left -= part;
+    }
   EXPECT_EQ(failing.state_hash(), by_force.state_hash());
   s.beta = 1;
   s.dt = s.max_dt = dt;
