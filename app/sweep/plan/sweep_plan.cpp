@@ -25,6 +25,7 @@
 #include "app/sweep/plan/expand.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/read/read_sweep.h"
+#include "app/sweep/read/sweep_leaf.h"
 #include "app/timeline/changes.h"
 #include "app/timeline/times.h"
 
