@@ -129,12 +129,6 @@ bool has_exports(const EarlierRun& earlier) {
   return count_below(output::exports_folder, earlier.pictures.files) > 0;
 }
 
-/// Exports of the command are those that the folder has already, or it has none.
-bool are_exports_kept(const RenderJob& job, const EarlierRun& earlier) {
-  return job.scene.exports.empty() || !has_exports(earlier) ||
-         exports_text(job.scene) == exports_text(earlier.scene);
-}
-
 std::string drawing_before(const EarlierRun& earlier, const std::string& view) {
   const Json& json = earlier.json;
   return json.contains("drawings") && json["drawings"].is_object()
@@ -197,6 +191,11 @@ bool is_of_scene(const RenderJob& job, const EarlierRun& earlier) {
 }
 
 }  // namespace
+
+bool are_exports_kept(const RenderJob& job, const EarlierRun& earlier) {
+  return job.scene.exports.empty() || !has_exports(earlier) ||
+         exports_text(job.scene) == exports_text(earlier.scene);
+}
 
 bool EarlierRun::has(const std::string& view) const {
   return std::ranges::find(pictures.views, view) != pictures.views.end();

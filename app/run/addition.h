@@ -57,6 +57,9 @@ void refuse_foreign_files(const RenderJob& job, const record::RunRecord& ours);
 void refuse_loss(const RenderJob& job, const EarlierRun& earlier, const record::RunRecord& ours,
                  const record::PictureRecord& picture);
 
+/// Exports of the command are those that the folder has already, or it has none.
+bool are_exports_kept(const RenderJob& job, const EarlierRun& earlier);
+
 /// Notes the views of an earlier part of the run with the frames that they have, and all else that
 /// its run.json says and this command does not.
 void keep_views(const RenderJob& job, const EarlierRun& earlier, record::RunRecord& ours);

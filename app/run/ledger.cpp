@@ -49,12 +49,9 @@ timeline::Made Ledger::made(int frame) const {
 }
 
 void Ledger::add_to(const EarlierRun& earlier) {
-  const record::FileHashes removed = add_to_run(job_, earlier, record_);
-  record::remove_listed(job_.folder, removed);
-  const bool are_exports_removed = std::ranges::any_of(removed, [](const auto& file) {
-    return file.first.starts_with(std::string(output::exports_folder) + "/");
-  });
-  if (!job_.scene.exports.empty() && earlier.json.contains("exports") && !are_exports_removed)
+  record::remove_listed(job_.folder, add_to_run(job_, earlier, record_));
+  if (!job_.scene.exports.empty() && earlier.json.contains("exports") &&
+      are_exports_kept(job_, earlier))
     exporter_.resume(earlier.json["exports"], output::max_frame);
   note_exports();
   earlier_ = earlier;

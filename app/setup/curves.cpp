@@ -104,10 +104,6 @@ bool sets(const scene::Override& change, const std::string& address) {
   return std::ranges::find(all, address) != all.end();
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<scene::Override> values_at(const scene::Scene& scene, double time) {
   std::vector<scene::Override> values;
   for (const scene::Curve& curve : scene.curves) {

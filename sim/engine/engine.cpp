@@ -14,6 +14,8 @@ namespace {
 
 /// Of a semi-implicit step: each costs the solves that were of no use.
 constexpr int max_halvings = 2;
+/// Explicit steps in place of one, at most.
+constexpr int max_parts = 1000;
 
 }  // namespace
 
@@ -91,9 +93,12 @@ void Engine<Real>::take_implicit(double dt, int halvings) {
     return;
   }
   took_explicit_ = true;
-  // Snow that is crushed hardens from each of them to the next.
+  // Snow that is crushed hardens from each of them to the next. What would need thousands is
+  // hopeless: steps that are too long break the rule of sound, which says so.
+  const double least = dt / max_parts;
   for (double left = dt; left > 0 && !divergence();) {
-    const double part = explicit_part(state_.method.settings, state_.progress.limits, left);
+    const double wanted = explicit_part(state_.method.settings, state_.progress.limits, left);
+    const double part = std::min(left, std::max(wanted, least));
     take_fused(part, false);
     left -= part;
   }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "sim/shapes/held_files.h"
+
 namespace neve::sim::shapes {
 namespace {
 
