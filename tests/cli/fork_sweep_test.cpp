@@ -10,6 +10,7 @@
 #include "app/sweep/store/results.h"
 #include "tests/cli/run_neve.h"
 #include "tests/support/child.h"
+#include "tests/support/meshes.h"
 
 namespace neve::test {
 namespace {
@@ -375,6 +376,20 @@ TEST_F(ForkSweep, RunsOfABeginningThatFailsFailWithItsReason) {
   EXPECT_TRUE(contains(read_text(folder / "bad.cdb/report.html"), "the common beginning ended as"));
   EXPECT_EQ(neve(words).exit_code, 7);
   EXPECT_EQ(json_of("bad.cdb/beginning/status.json")["attempts"], 1);
+}
+
+/// A branch runs in a folder of its own, and was told the path as it was typed.
+TEST_F(ForkSweep, FilesOfAnAxisAreThoseBesideTheScene) {
+  folder.write("shots/low.obj", box_obj({1, 0.02, 1}));
+  folder.write("shots/high.obj", box_obj({1, 0.06, 1}));
+  folder.write("shots/scene.toml",
+               std::string(tiny_scene) +
+                   "[[collider]]\nname = \"wall\"\nshape = { mesh = { file = \"low.obj\" } }\n");
+  const auto done =
+      neve({"sweep", "shots/scene.toml", "-p", "collider.wall.shape.mesh.file=low.obj,high.obj",
+            "--fork", "0.05s", "--frames", "2", "--size", "96x54", "--out", "f.cdb"});
+  ASSERT_EQ(done.exit_code, 0) << done.errors;
+  EXPECT_NE(hashes("f.cdb/runs/0000")[2], hashes("f.cdb/runs/0001")[2]);
 }
 
 TEST_F(ForkSweep, RunsOfABeginningThatIsRefusedAreRefused) {

@@ -333,6 +333,12 @@ TEST_F(Fork, OnlyWhatMayChangeInARunIsTaken) {
   refused({"--frames", "2"}, "is at or after frame 2, the last one");
   refused({"--out", "a"}, "a is the run that is forked");
   EXPECT_EQ(hashes("a").size(), 5u);
+  // What concerns the run alone changes no state.
+  const auto allowed =
+      render({"a", "--from", "0.1", "--set", "limits.particles=5000", "--out", "b"});
+  EXPECT_EQ(allowed.exit_code, 0) << allowed.errors;
+  EXPECT_TRUE(contains(json_of("b/run.json")["scene"].get<std::string>(), "particles = 5000"));
+  EXPECT_EQ(hashes("b")[4], hashes("a")[4]);
   const auto negative = render({"a", "--from", "-1"});
   EXPECT_EQ(negative.exit_code, 2);
   EXPECT_TRUE(contains(negative.errors, "as in --from 0.25s")) << negative.errors;
@@ -388,6 +394,21 @@ TEST_F(Fork, ColoursAndCamerasChangeWithoutATraceInTheState) {
   EXPECT_TRUE(json_of("b/run.json")["changes"].empty());
   EXPECT_FALSE(app::output::read_file(folder / "a/particles/0004.png") ==
                app::output::read_file(folder / "b/particles/0004.png"));
+}
+
+TEST_F(Fork, ABranchKnowsTheViewsThatItDoesNotDraw) {
+  folder.write("views.toml", std::string(tiny_scene) +
+                                 "[[view]]\nname = \"slice\"\n"
+                                 "slice = { normal = [0, 1, 0], point = [0, 0.05, 0] }\n");
+  ASSERT_EQ(render({"views.toml", "--view", "particles", "--out", "a"}).exit_code, 0);
+  const auto branch = render({"a", "--from", "0.1", "--set", "material.snow.hardening=4", "--out",
+                              "b", "--view", "particles"});
+  ASSERT_EQ(branch.exit_code, 0) << branch.errors;
+  const auto drawn = render({"b", "--view", "slice"});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.errors;
+  const std::string record = neve({"info", "b/slice/0004.png"}).output;
+  EXPECT_TRUE(contains(record, "normal = [0, 1, 0]")) << record;
+  EXPECT_TRUE(contains(record, "point = [0, 0.05, 0]")) << record;
 }
 
 /// Only files that the scene names counted: a branch showed the states of the mesh before.

@@ -425,6 +425,13 @@ TEST_F(SweepCli, AFileThatASceneNamesAndThatChangedSinceIsTold) {
   const auto later = neve({"sweep", "promote", "s", "1"});
   EXPECT_EQ(later.exit_code, 0) << later.errors;
   EXPECT_TRUE(contains(later.errors, "mesh.obj has changed since the sweep")) << later.errors;
+  // Nor are runs of a larger rock seen by the camera of the smaller one.
+  const std::string before = read_text(folder / "s/look.toml");
+  write_mesh("1.5");
+  const auto again = neve({"sweep", "shots/scene.toml", "-p", "material.snow.hardening=5,7",
+                           "--frames", "1", "--quiet", "--out", "s"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_NE(read_text(folder / "s/look.toml"), before);
 }
 
 TEST_F(SweepCli, StarsAndNotesStayWithTheSweep) {
