@@ -482,7 +482,14 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   catch_interrupts();
   {
     const NothingToKeep reading;
-    sweep::plan::share_camera_and_ranges(plan, cores);
+    const std::filesystem::path aside = sweep::plan::share_camera_and_ranges(plan, cores);
+    if (!aside.empty())
+      progress.warning(fmt::format(
+          "{} was written for another scene, frame or shape of the tiles: the camera and the "
+          "colour ranges are found anew, and it is kept as {}; to see these runs so, write its "
+          "camera into {}",
+          sweep::plan::shared_view_path(plan.folder).string(), aside.filename().string(),
+          sweep::plan::shared_view_path(plan.folder).filename().string()));
   }
   if (const std::size_t outdated = sweep::store::outdated_runs(plan.folder); outdated > 0)
     progress.note(fmt::format(
