@@ -492,10 +492,15 @@ std::vector<int> draws_of(const SweepPlan& plan) {
   return draws;
 }
 
+double bytes_of_states(const PlannedRun& item) {
+  return run::state_bytes_per_particle * item.run.particles * item.run.frames.count();
+}
+
 double bytes_of_states(const SweepPlan& plan) {
   double bytes = 0;
-  for (const PlannedRun& item : plan.runs)
-    bytes += run::state_bytes_per_particle * item.run.particles * item.run.frames.count();
+  for (const PlannedRun& item : plan.runs) bytes += bytes_of_states(item);
+  for (const PlannedVariant& variant : plan.variants)
+    if (variant.failure.empty()) bytes += bytes_of_states(variant.item);
   return bytes;
 }
 
