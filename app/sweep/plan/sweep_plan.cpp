@@ -63,11 +63,11 @@ scene::View chosen_view(const SweepOptions& options, const read::Sweep& sweep,
   }
 }
 
-/// One view, as large as a tile, without the words that the sheet has once. Colours of a frame
-/// would compare nothing: all tiles have the ranges of the scene.
+/// One view, as large as a tile, without the words that the sheet has once; the others are known
+/// by name. Colours of a frame would compare nothing: all tiles have the ranges of the scene.
 void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::Scene& scene) {
-  scene.views = {chosen_view(options, sweep, scene)};
-  scene.mosaics.clear();
+  scene::draw_only({chosen_view(options, sweep, scene)}, scene.views, scene.undrawn_views);
+  scene::draw_only({}, scene.mosaics, scene.undrawn_mosaics);
   scene::View& view = scene.views.front();
   setup::set_size(tile_size(options, sweep, scene, view), scene);
   std::erase(view.layers, scene::Layer::legend);
