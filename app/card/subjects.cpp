@@ -11,6 +11,7 @@
 #include "app/card/again.h"
 #include "app/scene/names.h"
 #include "app/scene/override.h"
+#include "app/scene/presets.h"
 #include "app/scene/read.h"
 #include "app/setup/curves.h"
 #include "app/support/errors.h"
@@ -51,6 +52,17 @@ void add_sources(const timeline::Origin& origin, const std::string& title,
                                         is_alone ? title : title + ": " + material.name),
                        title, origin});
   }
+}
+
+/// What these edits give a value: changes of a run do not take it back.
+std::vector<std::string> set_by(const std::vector<std::string>& overrides) {
+  std::vector<std::string> set = scene::addresses_of(scene::parse_overrides(overrides));
+  for (std::size_t k = 0, count = set.size(); k < count; ++k)
+    if (scene::is_preset_address(set[k])) {
+      const std::vector<std::string> numbers = scene::addresses_set_by(set[k]);
+      set.insert(set.end(), numbers.begin(), numbers.end());
+    }
+  return set;
 }
 
 /// A ball of the preset, with the law of scenes that name none.
@@ -118,7 +130,11 @@ std::vector<Source> sources_of(const CardOptions& options) {
     if (!cards.empty()) continue;
     origins.push_back(origin);
     scene::Scene& scene = origins.back().scene;
-    scene = timeline::with_changes(scene, timeline::changes_of(scene, origin.changes));
+    std::vector<scene::LiveChange> changes = timeline::changes_of(scene, origin.changes);
+    std::erase_if(changes, [set = set_by(options.overrides)](const scene::LiveChange& change) {
+      return std::ranges::find(set, change.address) != set.end();
+    });
+    scene = timeline::with_changes(scene, changes);
     titles.push_back(origins.back().name());
   }
   for (const scene::Preset preset : options.presets) {

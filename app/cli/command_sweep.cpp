@@ -42,22 +42,37 @@ namespace neve::app::cli {
 
 namespace {
 
-/// The runs of --only and --shard, otherwise all: 0 to `last`. @throws UsageError
-std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options, int last) {
+/// The runs of --only, otherwise all: 0 to `last`. @throws UsageError
+std::vector<int> selected_runs(const sweep::plan::SweepOptions& options, int last) {
+  if (!options.only.empty()) return sweep::plan::parse_selection("--only", options.only, last);
   std::vector<int> indices(static_cast<std::size_t>(last) + 1);
   std::iota(indices.begin(), indices.end(), 0);
-  if (!options.only.empty()) indices = sweep::plan::parse_selection("--only", options.only, last);
-  if (options.shard)
-    std::erase_if(indices, [&](int index) {
-      return index % options.shard->count != options.shard->index - 1;
-    });
   return indices;
 }
 
-/// The chosen runs, and the copies of their points.
+bool is_in_share(const sweep::plan::SweepOptions& options, int index) {
+  return !options.shard || index % options.shard->count == options.shard->index - 1;
+}
+
+/// The runs of --only and --shard, otherwise all: 0 to `last`. @throws UsageError
+std::vector<int> chosen_runs(const sweep::plan::SweepOptions& options, int last) {
+  std::vector<int> indices = selected_runs(options, last);
+  std::erase_if(indices, [&](int index) { return !is_in_share(options, index); });
+  return indices;
+}
+
+/// The chosen runs, the copies of their points, and runs at full resolution. One share of --shard
+/// has the copies of a point, that of its first run.
 std::vector<int> wanted_runs(const sweep::plan::SweepOptions& options,
                              const sweep::store::Manifest& manifest) {
-  return manifest.with_variants(chosen_runs(options, manifest.runs.back().index));
+  const int last = manifest.runs.back().index;
+  std::vector<int> indices = manifest.with_variants(selected_runs(options, last));
+  std::erase_if(indices, [&](int index) {
+    const bool is_run = index <= last;
+    const auto place = static_cast<std::size_t>(is_run ? index : index - last - 1);
+    return !is_in_share(options, is_run ? index : static_cast<int>(manifest.variants[place].of));
+  });
+  return indices;
 }
 
 sweep::store::Retry retry_of(const std::string& states) {
@@ -150,6 +165,19 @@ sweep::jobs::JobsResult run_engine(const sweep::plan::SweepOptions& options,
                                   const std::filesystem::path& folder) {
   throw Error(failure.code, "the sweep stopped: " + failure.reason, folder.string(),
               "solve this and repeat the command: it continues, and no run is lost");
+}
+
+/// Runs of the sweep that are ok: copies and runs at full resolution are no further ones.
+int count_ok(const sweep::plan::SweepOptions& options, const std::filesystem::path& folder,
+             const sweep::store::Manifest& manifest) {
+  std::set<std::string> ok;  // folders, which equal runs share
+  for (const int index : chosen_runs(options, manifest.runs.back().index)) {
+    const std::string& run = manifest.runs[static_cast<std::size_t>(index)].folder;
+    const sweep::store::RunStatus status =
+        sweep::store::read_status(sweep::store::runs_folder(folder) / run);
+    if (status.state == sweep::store::RunState::ok) ok.insert(run);
+  }
+  return static_cast<int>(ok.size());
 }
 
 int exit_code_of(const sweep::jobs::JobsResult& result) {
@@ -390,7 +418,8 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
   const sweep::plan::Refinement refinement = sweep::plan::refinement_of(options, plan);
   if (refinement.is_wanted() && forecast.seconds_per_work > 0)
     progress.note(sweep::plan::refinement_text(refinement, plan, forecast, cores));
-  return forecast.seconds_of_all(left.runs, cores).expected + of_copies / cores;
+  return forecast.seconds_of_all(left.runs, cores).expected +
+         (of_copies + sweep::plan::cost_of(refinement, plan, forecast).seconds) / cores;
 }
 
 /// First runs of the points that are to be made at full resolution.
@@ -482,7 +511,14 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   catch_interrupts();
   {
     const NothingToKeep reading;
-    sweep::plan::share_camera_and_ranges(plan, cores);
+    const std::filesystem::path aside = sweep::plan::share_camera_and_ranges(plan, cores);
+    if (!aside.empty())
+      progress.warning(fmt::format(
+          "{} was written for another scene, frame or shape of the tiles: the camera and the "
+          "colour ranges are found anew, and it is kept as {}; to see these runs so, write its "
+          "camera into {}",
+          sweep::plan::shared_view_path(plan.folder).string(), aside.filename().string(),
+          sweep::plan::shared_view_path(plan.folder).filename().string()));
   }
   if (const std::size_t outdated = sweep::store::outdated_runs(plan.folder); outdated > 0)
     progress.note(fmt::format(
@@ -509,6 +545,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   if (result.failure) fail_by_machine(*result.failure, plan.folder);
   sweep::sheet::collect_sweep(plan.folder, movie, options.has_review, options.backend, cores,
                               progress);
+  result.ok = count_ok(options, plan.folder, manifest);
   print_sweep_result(options, plan.folder, result, foreseen_seconds, progress);
   if (result.elsewhere > 0)
     progress.say(fmt::format(

@@ -34,17 +34,6 @@ constexpr double alike = 0.1;
 /// small scene itself.
 constexpr ForecastBudget forecast_budget{1e9, 3e6, 400};
 
-double fast_cfl(const scene::Scene& scene) {
-  const sim::SolverSettings& s = scene.solver;
-  if (s.transfer == sim::Transfer::apic || s.transfer == sim::Transfer::mls) return smoothed_cfl;
-  if (s.transfer != sim::Transfer::flip) return flip_cfl;
-  const bool is_snow =
-      std::all_of(scene.materials.begin(), scene.materials.end(), [](const sim::Material& m) {
-        return m.model == sim::Model{} && m.poisson_ratio <= longest_steps_poisson_ratio;
-      });
-  return is_snow && s.kernel == sim::Kernel::cubic ? flip_snow_cfl : flip_cfl;
-}
-
 /// What the coarse copy of a scene tells.
 struct Copied {
   double work = 0;   ///< in explicit steps of packed snow
@@ -60,12 +49,26 @@ struct Copied {
   }
 };
 
+/// None if the copy diverges: a broken state foretells nothing.
+/// @param max_work  ends the copy, in explicit steps of packed snow
+std::optional<Copied> copy_of(const scene::Scene& scene, int last,
+                              double max_work = forecast_budget.work) {
+  ForecastBudget budget = forecast_budget;
+  budget.work = max_work;
+  Forecast forecast = foresee(scene, setup::planned_particles(scene), last, budget);
+  if (!forecast.divergence.empty() || forecast.frames.empty()) return std::nullopt;
+  forecast.count_in_packed_steps();
+  return Copied{forecast.work(0, last).expected, forecast.peak_force, forecast.mean_J_P};
+}
+
 /// A scene that becomes a faster one, and its changes.
 class Candidate {
  public:
   /// @param coarsening  the N of --coarsen, which has made the scene what it is
-  Candidate(const scene::Scene& scene, const std::vector<std::string>& chosen, double coarsening)
-      : scene_(scene), chosen_(chosen), coarsening_(coarsening) {}
+  /// @param cfl  of explicit steps
+  Candidate(const scene::Scene& scene, const std::vector<std::string>& chosen, double coarsening,
+            double cfl)
+      : scene_(scene), chosen_(chosen), coarsening_(coarsening), cfl_(cfl) {}
 
   /// @param grows  with the cells: --coarsen will multiply what is given
   void set(const std::string& address, double& value, double to, bool grows = false) {
@@ -88,7 +91,7 @@ class Candidate {
     sim::SolverSettings& s = scene_.solver;
     set("solver.beta", s.beta, 0);
     if (s.time_step == sim::TimeStep::adaptive)
-      set("solver.acoustic_cfl", s.acoustic_cfl, std::max(s.acoustic_cfl, fast_cfl(scene_)));
+      set("solver.acoustic_cfl", s.acoustic_cfl, std::max(s.acoustic_cfl, cfl_));
   }
 
   void take_semi_implicit_steps() {
@@ -104,43 +107,45 @@ class Candidate {
     scene_.solver.is_implicit() ? take_semi_implicit_steps() : take_explicit_steps();
   }
 
-  /// None if the copy diverges: a broken state foretells nothing.
-  /// @param max_work  ends the copy, in explicit steps of packed snow
-  std::optional<Copied> run_copy(int last, double max_work = forecast_budget.work) const {
-    ForecastBudget budget = forecast_budget;
-    budget.work = max_work;
-    Forecast forecast = foresee(scene_, setup::planned_particles(scene_), last, budget);
-    if (!forecast.divergence.empty() || forecast.frames.empty()) return std::nullopt;
-    forecast.count_in_packed_steps();
-    return Copied{forecast.work(0, last).expected, forecast.peak_force, forecast.mean_J_P};
-  }
-
+  const scene::Scene& scene() const { return scene_; }
   bool is_implicit() const { return scene_.solver.is_implicit(); }
   const std::vector<std::string>& overrides() const { return overrides_; }
 
  private:
   scene::Scene scene_;
   const std::vector<std::string>& chosen_;
-  double coarsening_;
+  double coarsening_, cfl_;
   std::vector<std::string> overrides_;
 };
 
 }  // namespace
 
+double fast_cfl(const scene::Scene& scene) {
+  const sim::SolverSettings& s = scene.solver;
+  if (s.transfer == sim::Transfer::apic || s.transfer == sim::Transfer::mls) return smoothed_cfl;
+  if (s.transfer != sim::Transfer::flip) return flip_cfl;
+  const bool is_snow =
+      std::all_of(scene.materials.begin(), scene.materials.end(), [](const sim::Material& m) {
+        return m.model == sim::Model{} && m.poisson_ratio <= longest_steps_poisson_ratio;
+      });
+  return is_snow && s.kernel == sim::Kernel::cubic ? flip_snow_cfl : flip_cfl;
+}
+
 FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen,
-                   double coarsening) {
+                   double coarsening, double longest_cfl) {
+  const double cfl = std::min(fast_cfl(scene), longest_cfl);
   using Copy = std::optional<Copied>;
-  const auto copy_of = [&](const Candidate& candidate) {
-    return std::async(std::launch::async, [&] { return candidate.run_copy(last); });
+  const auto start_copy = [&](const Candidate& candidate) {
+    return std::async(std::launch::async, [&] { return copy_of(candidate.scene(), last); });
   };
-  Candidate same(scene, chosen, coarsening);
+  Candidate same(scene, chosen, coarsening, cfl);
   same.take_longer_steps();
   Candidate capped = same;
   capped.limit_hardening();
   const bool has_cap = capped.overrides().size() > same.overrides().size();
-  const Candidate unchanged(scene, chosen, coarsening);
-  std::future<Copy> before_run = copy_of(unchanged), same_run = copy_of(same), capped_run;
-  if (has_cap) capped_run = copy_of(capped);
+  const Candidate unchanged(scene, chosen, coarsening, cfl);
+  std::future<Copy> before_run = start_copy(unchanged), same_run = start_copy(same), capped_run;
+  if (has_cap) capped_run = start_copy(capped);
   const Copy before = before_run.get();
   FastLook look;
   look.is_implicit = scene.solver.is_implicit();
@@ -163,37 +168,56 @@ FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::s
     if (takes_cap && is_less(copy)) take(capped, *copy);
   }
   if (scene.solver.time_step != sim::TimeStep::adaptive && !scene.solver.is_implicit()) return look;
-  Candidate other(scene, chosen, coarsening);
+  Candidate other(scene, chosen, coarsening, cfl);
   scene.solver.is_implicit() ? other.take_explicit_steps() : other.take_semi_implicit_steps();
   if (takes_cap) other.limit_hardening();
   if (other.is_implicit() == scene.solver.is_implicit() || !look.work) return look;
-  const bool has_longest_steps = !scene.solver.is_implicit() && fast_cfl(scene) == flip_snow_cfl;
+  const bool has_longest_steps = !scene.solver.is_implicit() && cfl == flip_snow_cfl;
   const double worth = has_longest_steps ? worth_after_longest_steps : worth_another_step;
-  const Copy copy = other.run_copy(last, worth * *look.work);
+  const Copy copy = copy_of(other.scene(), last, worth * *look.work);
   if (!copy || copy->work >= worth * *look.work) return look;
   // Semi-implicit steps damp: snow that breaks in explicit ones may hold together in them.
   if (!other.is_implicit() || !before || copy->is_like(*before)) take(other, *copy);
   return look;
 }
 
+bool is_same_snow(const scene::Scene& before, const scene::Scene& after, int last) {
+  const std::optional<Copied> was = copy_of(before, last);
+  if (!was) return true;
+  const std::optional<Copied> is = copy_of(after, last);
+  return is && is->is_like(*was);
+}
+
 std::vector<std::string> longer_steps(const scene::Scene& scene,
                                       const std::vector<std::string>& chosen) {
-  Candidate candidate(scene, chosen, 1);
+  Candidate candidate(scene, chosen, 1, fast_cfl(scene));
   candidate.take_longer_steps();
   candidate.limit_hardening();
   return candidate.overrides();
 }
 
+std::vector<std::string> FastLook::risks() const {
+  std::vector<std::string> addresses;
+  for (const std::string& change : overrides) {
+    const std::string address = change.substr(0, change.find('='));
+    if (address.ends_with(".max_hardening") || (is_implicit && address == "solver.beta"))
+      addresses.push_back(address);
+  }
+  return addresses;
+}
+
 std::string FastLook::sentence() const {
-  if (overrides.empty()) return "--fast finds no longer steps for this scene";
+  const std::string stays = kept.empty() ? "" : "; " + kept;
+  if (overrides.empty()) return "--fast finds no longer steps for this scene" + stays;
   const std::string changes = "--fast sets " + joined(overrides, ", ");
-  if (!work || !work_before) return changes;
+  if (!work || !work_before) return changes + stays;
   std::string text = fmt::format("{}: about {} % of the work", changes,
                                  rough_text(100 * *work / std::max(*work_before, 1.0)));
   constexpr double notable = 0.05;
   if (std::abs(force_change) > notable)
     text += fmt::format(", and {} % of the peak force in a coarse copy",
                         rough_text(100 * (1 + force_change)));
+  text += stays;
   if (!force_under_cap) return text;
   text += fmt::format("; max_hardening stays: a ceiling of {} ", rough_text(hardening_ceiling));
   if (std::abs(*force_under_cap) <= alike) return text + "packs and tears the snow in another way";

@@ -1,6 +1,7 @@
 #pragma once
 /// Settings for a look at the snow in less time: see docs/time_step.md, "Fast looks".
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,10 @@ struct FastLook {
   /// on hardening where it is not taken because of that.
   double force_change = 0;
   std::optional<double> force_under_cap;
+  /// Why settings stay that this scene bears: other scenes that are compared with it do not.
+  std::string kept;
+  /// Addresses of overrides that may make other snow: semi-implicit steps and ceilings.
+  std::vector<std::string> risks() const;
   /// The changes and what they gain, or why there are none; a sentence.
   std::string sentence() const;
 };
@@ -32,8 +37,17 @@ struct FastLook {
 /// @param last  frame of the run
 /// @param chosen  addresses that the user has set, which stay, as those with curves do
 /// @param coarsening  the N of --coarsen that made the scene, and that will scale the overrides
+/// @param longest_cfl  of scenes that are to have steps of the same kind
 FastLook fast_look(const scene::Scene& scene, int last, const std::vector<std::string>& chosen,
-                   double coarsening = 1);
+                   double coarsening = 1,
+                   double longest_cfl = std::numeric_limits<double>::infinity());
+
+/// Whether a change of settings leaves the peak force and the mean J_P of a coarse copy as they
+/// are, within a tenth, or the copy of the first diverges, which foretells nothing.
+bool is_same_snow(const scene::Scene& before, const scene::Scene& after, int last);
+
+/// The largest acoustic_cfl with which a fast look of a scene shows its snow.
+double fast_cfl(const scene::Scene& scene);
 
 /// The settings that take longer steps of the kind that the scene has, without a forecast. All of
 /// them may change while a simulation runs.

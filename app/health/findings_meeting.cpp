@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/health/findings.h"
+#include "app/health/point_findings.h"
 #include "app/scene/coarsen.h"
 #include "app/setup/curves.h"
 #include "app/setup/snow_pieces.h"
@@ -83,6 +84,19 @@ class Fall {
   std::vector<Part> parts_;
 };
 
+/// m/s, of all particles of a body together, beyond its own: the points of a file may move.
+Vec3d drift_of(const sim::seeding::Body& body, const Vec3d& center,
+               const sim::ParticleArrays& particles, std::size_t first, std::size_t end) {
+  Vec3d momentum = Vec3d::Zero();
+  double mass = 0;
+  for (std::size_t p = first; p < end; ++p) {
+    const Vec3d spin = body.angular_velocity.cross(Vec3d(particles.x[p] - center));
+    momentum += particles.m[p] * (particles.v[p] - body.velocity - spin);
+    mass += particles.m[p];
+  }
+  return mass > 0 ? Vec3d(momentum / mass) : momentum;
+}
+
 /// A body in free flight until it meets a collider; there it stays.
 class Flight {
  public:
@@ -93,6 +107,9 @@ class Flight {
     const std::size_t stride = (end - first) / max_sampled + 1;
     for (std::size_t p = first; p < end; p += stride) start_.push_back(seeded.particles.x[p]);
     center_ = sim::shapes::center(body_->shape);
+    velocity_ = body_->velocity;
+    if (is_from_points(*body_))
+      velocity_ += drift_of(*body_, center_, seeded.particles, first, end);
     for (const Vec3d& x : start_) box_.add(x);
     const double volume = (box_.max - box_.min).prod();
     spacing_ = start_.empty() ? 0 : std::cbrt(volume / static_cast<double>(start_.size()));
@@ -103,10 +120,10 @@ class Flight {
   /// m, between the particles that are looked at.
   double spacing() const { return spacing_; }
   bool moves() const {
-    return fall_->acts() || body_->velocity.norm() > 0 || body_->angular_velocity.norm() > 0;
+    return fall_->acts() || velocity_.norm() > 0 || body_->angular_velocity.norm() > 0;
   }
   /// m/s, at the end of a flight.
-  double speed_at(double time) const { return (body_->velocity + fall_->velocity_at(time)).norm(); }
+  double speed_at(double time) const { return (velocity_ + fall_->velocity_at(time)).norm(); }
   /// m
   double size() const { return box_.diagonal(); }
 
@@ -118,7 +135,7 @@ class Flight {
     const sim::Mat3d turn =
         spin.norm() > 0 ? Eigen::AngleAxisd(spin.norm() * t, spin.normalized()).toRotationMatrix()
                         : sim::Mat3d::Identity();
-    const Vec3d moved = center_ + t * body_->velocity + fall_->way_at(t);
+    const Vec3d moved = center_ + t * velocity_ + fall_->way_at(t);
     std::vector<Vec3d> places;
     places.reserve(start_.size());
     for (const Vec3d& x : start_) {
@@ -131,7 +148,7 @@ class Flight {
  private:
   const sim::seeding::Body* body_;
   const Fall* fall_;
-  Vec3d center_;
+  Vec3d center_, velocity_;
   double spacing_ = 0;
   std::vector<Vec3d> start_;
   Box box_;

@@ -17,9 +17,12 @@
 #include "app/scene/names.h"
 #include "app/scene/presets.h"
 #include "app/scene/toml/value.h"
+#include "app/setup/auto_ranges.h"
 #include "app/setup/curves.h"
 #include "app/support/text.h"
+#include "sim/files/height_reader.h"
 #include "sim/laws/law.h"
+#include "sim/shapes/placed_points.h"
 #include "sim/shapes/solid.h"
 
 namespace neve::app::health {
@@ -118,7 +121,7 @@ void check_snow_in_views(const scene::Scene& scene, std::vector<Finding>& findin
     double across = setup::largest_at_moments(
         scene, [&](const scene::Scene& then) { return std::abs(then.solver.gravity.dot(normal)); });
     for (const sim::seeding::Body& body : scene.bodies)
-      across += std::abs(body.velocity.dot(normal));
+      across += std::abs(body.velocity.dot(normal)) + setup::own_speed(body.shape);
     return across < 1e-9;
   };
   // Distances from a plane to the nearest and the farthest corner, along its normal.
@@ -279,6 +282,19 @@ std::optional<Idle> idle_in_material(const scene::Scene& scene, const sim::Mater
       "neve params --wishes names parameters by what they do"};
 }
 
+/// Of a body whose file says the same.
+std::optional<Idle> idle_in_body(const sim::seeding::Body& body, const std::string& key) {
+  const auto* points = std::get_if<sim::shapes::Points>(&body.shape.form);
+  if (!points) return std::nullopt;
+  if (is_one_of(key, {"particles_per_cell", "sampling"}))
+    return Idle{"the points of its file are its particles",
+                "remove it; shape.points.thinning takes fewer of them"};
+  if (key == "shape.points.spacing" &&
+      sim::shapes::summary_of(*points, sim::Mat3d::Identity()).has_volumes)
+    return Idle{"the file has the volume of each point", "remove it"};
+  return std::nullopt;
+}
+
 /// Of a collider whose other settings switch it off.
 std::optional<Idle> idle_in_collider(const scene::Scene& scene, const scene::Collider& collider,
                                      const std::string& key) {
@@ -299,6 +315,12 @@ std::optional<Idle> idle_in_collider(const scene::Scene& scene, const scene::Col
   if (key == "friction" && collider.contact != sim::shapes::Contact::separate)
     return Idle{fmt::format("contact = \"{}\" has no friction", scene::name(collider.contact)),
                 "set contact = \"separate\""};
+  if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form);
+      terrain &&
+      is_one_of(key, {"shape.terrain.spacing", "shape.terrain.low", "shape.terrain.high"}) &&
+      !sim::files::takes_scale(terrain->file))
+    return Idle{"it is for a PNG, and the file is a grid, which says its own spacing and heights",
+                "remove it; the numbers of the grid have to be metres"};
   return std::nullopt;
 }
 
@@ -319,6 +341,9 @@ std::optional<Idle> idle_at(const scene::Scene& scene, const std::string& addres
   for (const sim::Material& m : scene.materials)
     if (const std::string key = key_in("material." + m.name + "."); !key.empty())
       return idle_in_material(scene, m, key);
+  for (const sim::seeding::Body& body : scene.bodies)
+    if (const std::string key = key_in("body." + body.name + "."); !key.empty())
+      return idle_in_body(body, key);
   for (const scene::Collider& collider : scene.colliders)
     if (const std::string key = key_in("collider." + collider.name + "."); !key.empty())
       return idle_in_collider(scene, collider, key);

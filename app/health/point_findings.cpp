@@ -14,6 +14,7 @@
 #include "app/scene/toml/value.h"
 #include "app/support/text.h"
 #include "sim/laws/law.h"
+#include "sim/laws/threshold_cell.h"
 
 namespace neve::app::health {
 
@@ -94,6 +95,25 @@ void check_packing_of_points(const scene::Scene& scene, const sim::seeding::Body
            : "grains are never packed: give them a J_P of 1"});
 }
 
+/// What the scene may not say of material.variation, of the points' own factors.
+void check_thresholds_of_points(const scene::Scene& scene, const sim::seeding::Body& body,
+                                std::span<const double> threshold, std::vector<Finding>& findings) {
+  const sim::Material m = sim::laws::in_cells(
+      scene.materials[setup::material_index(scene, body.material)], scene.solver);
+  if (!sim::laws::of(m).reads(&sim::Material::critical_compression)) return;
+  const double largest = std::ranges::max(threshold);
+  if (m.critical_compression * largest < 1) return;
+  findings.push_back(
+      {Severity::warning, "body." + body.name + ".shape.points",
+       fmt::format("{} of {} points never yield in compression: their threshold, up to {}, times "
+                   "critical_compression, {}, is 1 or more, and snow is not compressed to nothing",
+                   std::ranges::count_if(threshold,
+                                         [&](double t) { return m.critical_compression * t >= 1; }),
+                   threshold.size(), rough_text(largest), rough_text(m.critical_compression)),
+       "give a file without the column threshold, or the material that the points were exported "
+       "with"});
+}
+
 /// Points that weigh where they lie something else than their material says: masses, volumes and
 /// positions are not of the same units.
 void check_density_of_points(const scene::Scene& scene, const sim::seeding::Body& body,
@@ -130,6 +150,8 @@ void check_points(const scene::Scene& scene, const setup::SeededScene& seeded,
     check_density_of_points(scene, body, seeded.particles, begin, end, findings);
     if (const std::span<const double> J_P = seeded.particles.J_P; !J_P.empty())
       check_packing_of_points(scene, body, J_P.subspan(begin, end - begin), findings);
+    if (const std::span<const double> threshold = seeded.particles.threshold; !threshold.empty())
+      check_thresholds_of_points(scene, body, threshold.subspan(begin, end - begin), findings);
   }
 }
 

@@ -39,14 +39,6 @@ void add_look_files(const RenderJob& job, record::FileHashes& files) {
 /// Degrees at final quality: half of each frame, as film cameras have it.
 constexpr double usual_shutter = 180;
 
-/// Makes `chosen` what is drawn, and keeps the others by name.
-template <class Named>
-void draw_only(std::vector<Named> chosen, std::vector<Named>& drawn, std::vector<Named>& undrawn) {
-  undrawn.insert(undrawn.end(), drawn.begin(), drawn.end());
-  undrawn = scene::others_than(chosen, std::move(undrawn));
-  drawn = std::move(chosen);
-}
-
 /// Draws the views and mosaics of these names, and the views that the mosaics need.
 void choose_views(const std::vector<std::string>& names, RenderJob& job) {
   std::vector<scene::View> views;
@@ -66,8 +58,8 @@ void choose_views(const std::vector<std::string>& names, RenderJob& job) {
       for (const std::string& tile : mosaic->views)
         if (add_view(tile)) job.only_tiles.push_back(tile);
     }
-  draw_only(std::move(views), job.scene.views, job.scene.undrawn_views);
-  draw_only(std::move(mosaics), job.scene.mosaics, job.scene.undrawn_mosaics);
+  scene::draw_only(std::move(views), job.scene.views, job.scene.undrawn_views);
+  scene::draw_only(std::move(mosaics), job.scene.mosaics, job.scene.undrawn_mosaics);
 }
 
 /// Checks that the last change of each address can be set, and that its passes are known.

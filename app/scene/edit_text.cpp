@@ -440,6 +440,13 @@ std::string changed_scene_text(const std::string& text, const std::vector<Overri
   return whole;
 }
 
+std::string text_with_all_views(Scene scene) {
+  scene.views.insert(scene.views.end(), scene.undrawn_views.begin(), scene.undrawn_views.end());
+  scene.mosaics.insert(scene.mosaics.end(), scene.undrawn_mosaics.begin(),
+                       scene.undrawn_mosaics.end());
+  return write_scene(scene);
+}
+
 std::string with_header(const std::string& text, const std::string& header) {
   const std::size_t start = text.starts_with("#:schema") ? text.find('\n') + 1 : 0;
   return text.substr(0, start) + header + text.substr(start);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/scene/override.h"
+#include "app/scene/scene.h"
 
 namespace neve::app::scene {
 
@@ -29,6 +30,9 @@ std::string edit_scene_text(const std::string& text, const std::vector<Override>
 /// @throws SceneError for the text, UsageError for the changes
 std::string changed_scene_text(const std::string& text, const std::vector<Override>& changes,
                                const std::string& file, const std::string& out);
+
+/// A scene in full, with the views and mosaics that a run of it leaves undrawn.
+std::string text_with_all_views(Scene scene);
 
 /// Comments put above a scene, below the line that names the schema, which editors want first.
 std::string with_header(const std::string& text, const std::string& header);

@@ -341,4 +341,12 @@ std::vector<Named> others_than(const std::vector<Named>& these, std::vector<Name
   return list;
 }
 
+/// Makes `chosen` what is drawn, and keeps the others by name.
+template <class Named>
+void draw_only(std::vector<Named> chosen, std::vector<Named>& drawn, std::vector<Named>& undrawn) {
+  undrawn.insert(undrawn.end(), drawn.begin(), drawn.end());
+  undrawn = others_than(chosen, std::move(undrawn));
+  drawn = std::move(chosen);
+}
+
 }  // namespace neve::app::scene

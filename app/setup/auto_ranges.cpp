@@ -58,13 +58,6 @@ double distance_to(const sim::shapes::Collider& collider, const Vec3d& point,
   return enter <= leave ? enter : -1;
 }
 
-/// Largest speed of points that have velocities in their file.
-double own_speed(const sim::shapes::Shape& shape) {
-  const auto* points = std::get_if<sim::shapes::Points>(&shape.form);
-  if (!points) return 0;
-  return sim::shapes::summary_of(*points, sim::rotation_from_degrees(shape.rotation)).max_speed;
-}
-
 /// Unit vector; without gravity that of the pictures.
 Vec3d down_in(const scene::Scene& scene) {
   const double g = scene.solver.gravity.norm();
@@ -83,7 +76,8 @@ double half_height(const sim::shapes::Bounds& box, const Vec3d& down) {
 /// Speed of snow when it meets the surface below it, or at the end of the scene when nothing is.
 double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   const sim::shapes::Bounds box = sim::shapes::bounds(*piece.shape);
-  const double start = piece.velocity.norm() + speed_of_spin(piece) + own_speed(*piece.shape);
+  const double start =
+      piece.velocity.norm() + speed_of_spin(piece) + setup::own_speed(*piece.shape);
   const double g = scene.solver.gravity.norm();
   if (g == 0) return start;
   const Vec3d down = down_in(scene);
@@ -294,6 +288,12 @@ double speed_of_top(const scene::Scene& scene, const SnowPiece& piece) {
 }
 
 }  // namespace
+
+double own_speed(const sim::shapes::Shape& shape) {
+  const auto* points = std::get_if<sim::shapes::Points>(&shape.form);
+  if (!points) return 0;
+  return sim::shapes::summary_of(*points, sim::rotation_from_degrees(shape.rotation)).max_speed;
+}
 
 double impact_speed(const scene::Scene& given) {
   return largest_at_moments(given, [](const scene::Scene& scene) {

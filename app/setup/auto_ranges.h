@@ -13,6 +13,9 @@ namespace neve::app::setup {
 scene::Range automatic_range(const scene::Scene& scene, scene::ColorBy color_by,
                              std::size_t particle_count);
 
+/// m/s, the largest of points that have velocities in their file.
+double own_speed(const sim::shapes::Shape& shape);
+
 /// m/s: speed of the quickest body when it meets the surface below it, or at the end of the scene.
 double impact_speed(const scene::Scene& scene);
 

@@ -22,6 +22,14 @@ bool is_png(std::string_view bytes) {
   return bytes.starts_with("\x89PNG");
 }
 
+std::string start_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(512, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return start;
+}
+
 /// The number behind a key of the header of a grid; 0: it is not there.
 double number_after(std::string_view text, std::string_view key) {
   const auto same = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
@@ -65,11 +73,12 @@ HeightGrid read_heights(const std::string& path, const HeightScale& scale) {
   return parse_heights(read_input_file(path, max_mebibytes, "height fields"), path, scale);
 }
 
+bool takes_scale(const std::string& path) {
+  return is_png(start_of(path));
+}
+
 double memory_of_heights(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(512, '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  const std::string start = start_of(path);
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error) return 0;

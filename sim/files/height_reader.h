@@ -51,6 +51,9 @@ HeightGrid parse_height_png(std::string_view bytes, const std::string& name,
 /// @throws ShapeError also when the file cannot be read or is larger than 1 GiB
 HeightGrid read_heights(const std::string& path, const HeightScale& scale);
 
+/// Whether a file is read by a scale; a grid has its own, and takes none.
+bool takes_scale(const std::string& path);
+
 /// Bytes that reading a file takes at most, of which a third or less stays: from its size and its
 /// first bytes. 0: it cannot be read.
 double memory_of_heights(const std::string& path);

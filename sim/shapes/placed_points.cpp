@@ -84,9 +84,15 @@ class PointsSolid final : public Form {
 };
 
 PointsSummary summarize(const PlacedPoints& placed, const Mat3d& rotation) {
-  PointsSummary summary{
-      placed.x.size(),  placed.expected_count,        placed.volume, placed.V0, sum(placed.m), 0,
-      placed.x.front(), placed.bounds_after(rotation)};
+  PointsSummary summary{placed.x.size(),
+                        placed.expected_count,
+                        placed.volume,
+                        placed.V0,
+                        placed.has_volumes,
+                        sum(placed.m),
+                        0,
+                        placed.x.front(),
+                        placed.bounds_after(rotation)};
   for (const Vec3d& v : placed.v) summary.max_speed = std::max(summary.max_speed, v.norm());
   return summary;
 }
@@ -183,6 +189,7 @@ PlacedPoints::PlacedPoints(files::PointCloud cloud, const Points& points, const 
     throw ShapeError(name +
                      ": it has no column volume; give spacing, the distance between neighbouring "
                      "points in metres");
+  has_volumes = !V.empty();
   volume = V.empty() ? count * std::pow(points.spacing, 3) : sum(V);
   V0 = sum(V);
   if (V.empty())

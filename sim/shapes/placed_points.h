@@ -20,6 +20,7 @@ struct PlacedPoints : files::PointCloud {
 
   double volume = 0;          ///< m3, of all
   double V0 = 0;              ///< m3, of all before deformation; 0: no column says it
+  bool has_volumes = false;   ///< in its file; otherwise spacing gives them
   double expected_count = 0;  ///< points over thinning, which may be less than the one there is
 };
 
@@ -42,6 +43,7 @@ struct PointsSummary {
   double expected_count = 0;                    ///< see PlacedPoints
   double volume = 0;                            ///< m3, of all
   double V0 = 0;                                ///< see PlacedPoints
+  bool has_volumes = false;                     ///< see PlacedPoints
   double mass = 0;                              ///< kg, of all; 0: the file has none
   double max_speed = 0;                         ///< m/s
   Vec3d first{0, 0, 0};                         ///< m, the first point, not turned

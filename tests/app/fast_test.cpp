@@ -140,9 +140,8 @@ TEST(Fast, CopiesThatDivergeForetellNothing) {
   EXPECT_EQ(look.sentence().find('%'), std::string::npos) << look.sentence();
 }
 
-/// Packed snow carries its load by what it hardens: bounded, a press has a part of its force.
-TEST(Fast, TheCeilingOnHardeningIsNotTakenWhereItChangesForces) {
-  const std::string press = R"(
+/// A block between two plates that close.
+const std::string closing_plates = R"(
 frames = 12
 [solver]
 cell_size = 0.02
@@ -154,7 +153,10 @@ shape = { plane = {} }
 shape = { box = { center = [0, 0.25, 0], size = [0.4, 0.1, 0.4] } }
 velocity = [0, -0.25, 0]
 )";
-  const forecast::FastLook look = look_at(press, {}, 12);
+
+/// Packed snow carries its load by what it hardens: bounded, a press has a part of its force.
+TEST(Fast, TheCeilingOnHardeningIsNotTakenWhereItChangesForces) {
+  const forecast::FastLook look = look_at(closing_plates, {}, 12);
   EXPECT_EQ(look.overrides, Lines({"solver.acoustic_cfl=0.85"})) << look.sentence();
   ASSERT_TRUE(look.force_under_cap);
   EXPECT_LT(*look.force_under_cap, -0.1);
@@ -233,6 +235,27 @@ TEST(Fast, ASweepKeepsWhatItVaries) {
   EXPECT_EQ(plan.runs[1].scene.solver.acoustic_cfl, 0.6);
   for (const sweep::plan::PlannedRun& run : plan.runs)
     EXPECT_EQ(run.scene.materials[0].max_hardening, 20);
+  // Transfers are compared in steps that are right for each of them.
+  options.axes = {"solver.transfer=flip,apic,asflip"};
+  for (const sweep::plan::PlannedRun& run : sweep::plan::plan_sweep(options).runs)
+    EXPECT_EQ(run.scene.solver.acoustic_cfl, 0.7);
+}
+
+/// The base of this sweep hardens too little for a ceiling to change its force.
+TEST(Fast, ASweepTakesNoCeilingThatOneOfItsRunsDoesNotBear) {
+  const test::TemporaryFolder folder;
+  folder.write("press.toml", closing_plates + "[material.snow]\nhardening = 1\n");
+  sweep::plan::SweepOptions options;
+  options.file = (folder / "press.toml").string();
+  options.out = (folder / "out").string();
+  options.axes = {"material.snow.hardening=1,10"};
+  options.is_fast = true;
+  const sweep::plan::SweepPlan plan = sweep::plan::plan_sweep(options);
+  EXPECT_EQ(plan.fast->overrides, Lines({"solver.acoustic_cfl=0.85"}));
+  EXPECT_NE(plan.fast->sentence().find("material.snow.max_hardening stays: with "
+                                       "material.snow.hardening=10 it would make other snow"),
+            std::string::npos)
+      << plan.fast->sentence();
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/output/read_picture.h"
+#include "app/scene/toml/error.h"
 #include "app/setup/camera_path.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/framing.h"
@@ -306,6 +307,41 @@ TEST_F(SheetFraming, TilesHaveLegendsWhereOneWouldBeUntrue) {
 TEST_F(SheetFraming, NumbersOfFramesAreOfAllRuns) {
   EXPECT_THROW(framed("", "first_frame = [0, 1001]"), scene::toml::SceneError);
   EXPECT_THROW(framed("", "handles = [0, 4]"), scene::toml::SceneError);
+}
+
+/// What a person has written into the look is used for tiles of any size, and never lost.
+TEST(SharedLook, ACameraThatIsWrittenIntoItStays) {
+  const test::TemporaryFolder folder;
+  plan::SweepOptions options;
+  options.file = folder
+                     .write("still.toml",
+                            "frames = 1\n[solver]\ncell_size = 0.1\ngravity = [0, 0, 0]\n"
+                            "[[body]]\nshape = { sphere = { radius = 0.3 } }\n")
+                     .string();
+  options.axes = {"seed=1,2"};
+  options.out = (folder / "s.cdb").string();
+  const auto eye_after = [&](std::filesystem::path& aside) {
+    plan::SweepPlan plan = plan::plan_sweep(options);
+    aside = plan::share_camera_and_ranges(plan, 1);
+    return plan.runs[1].scene.camera->eye.value();
+  };
+  const fs::path look = plan::shared_view_path(options.out);
+  fs::path aside;
+  const sim::Vec3d found = eye_after(aside);
+  options.frames = setup::FrameRange{0, 0};
+  eye_after(aside);
+  EXPECT_TRUE(aside.empty()) << "nobody has written into it";
+  std::string text = test::read_text(look);
+  const std::size_t place = text.find("eye = [");
+  ASSERT_NE(place, std::string::npos) << text;
+  text.replace(place, text.find(']', place) + 1 - place, "eye = [0, 1, 7]");
+  folder.write("s.cdb/look.toml", text);
+  options.size = scene::PictureSize{320, 180};
+  EXPECT_EQ(eye_after(aside), sim::Vec3d(0, 1, 7)) << "tiles of another size";
+  EXPECT_TRUE(aside.empty());
+  options.frames.reset();
+  EXPECT_EQ(eye_after(aside), found);
+  EXPECT_EQ(test::read_text(aside), text) << "it is kept";
 }
 
 }  // namespace

@@ -474,6 +474,19 @@ TEST(RunResults, FramesOfKilledRunsHaveTheirPictures) {
   EXPECT_TRUE(app::sweep::store::read_result(folder.path(), m.runs[0], m.view).frames.empty());
 }
 
+/// Copies go with any seed of their point, and runs at full resolution were chosen by themselves.
+TEST(RunResults, VariantsOfSomeRunsAreTheirCopiesAndAllFullRuns) {
+  app::sweep::store::Manifest m = manifest_of({6});
+  m.seeds = 2;
+  for (const std::size_t of : {0u, 2u, 5u}) {
+    app::sweep::store::Variant& variant = m.variants.emplace_back();
+    variant.of = of;
+    variant.coarsening = of == 5 ? 1 : 2;
+    variant.run.index = m.last_index();
+  }
+  EXPECT_EQ(m.with_variants({1}), (std::vector<int>{1, 6, 8}));
+}
+
 TEST(RunText, ARunIsNamedWithItsFolderIfTheNumbersDiffer) {
   app::sweep::Run run;
   run.index = 1;

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "app/health/diagnosis.h"
+#include "app/health/findings.h"
 #include "app/picture/collider_looks.h"
 #include "app/picture/snow_volume.h"
 #include "app/scene/read.h"
@@ -48,6 +49,14 @@ TEST_F(TerrainScene, IsWrittenAsItWasRead) {
     EXPECT_EQ(scene::write_scene(scene::read_scene_text(text, "again.toml")), text);
     EXPECT_NE(text.find("on = \"hills\""), std::string::npos);
   }
+}
+
+TEST_F(TerrainScene, AScaleBesideAGridIsIdle) {
+  const std::string at = "collider.hills.shape.terrain.";
+  EXPECT_NE(health::why_idle(read("file = \"hills.asc\", spacing = 0.3"), at + "spacing"), "");
+  const scene::Scene grey = read("file = \"grey.png\", spacing = 2, low = -3, high = 8");
+  for (const char* key : {"spacing", "low", "high"})
+    EXPECT_EQ(health::why_idle(grey, at + key), "");
 }
 
 TEST_F(TerrainScene, ACoverLiesWhereItsTerrainIs) {

@@ -10,6 +10,9 @@
 #include "app/card/plates.h"
 #include "app/card/subjects.h"
 #include "app/output/atomic_file.h"
+#include "app/record/picture_record.h"
+#include "app/scene/read.h"
+#include "app/scene/scene_file.h"
 #include "app/support/errors.h"
 #include "render/image/image.h"
 #include "tests/card/subject.h"
@@ -168,6 +171,31 @@ keyframes = [{ time = 0, value = 2e4 }, { time = 1, value = 3e4 }]
   EXPECT_EQ(stiffness_with("curve.1.keyframes=[{time=0,value=2e3}]"), 2e3);
   EXPECT_EQ(stiffness_with("curve.1=none"), 1e5);
   EXPECT_THROW(stiffness_with("material.snow.youngs_modulus=1e6"), UsageError);
+}
+
+/// What is asked for counts, also where the run of the picture has changed it on its way.
+TEST_F(CardSubjects, OfAPictureHaveWhatIsSetAndOtherwiseWhatItsRunChanged) {
+  neve::app::record::PictureRecord record;
+  record.scene = neve::app::scene::write_scene(
+      neve::app::scene::read_scene_file((folder.path() / "two.toml").string()));
+  record.view = "particles";
+  record.quality = "preview";
+  record.state_hash = "0123456789abcdef";
+  record.changes = {{3, "material.snow.hardening", "4"}};
+  const neve::render::Image pixel{1, 1, 3, {0, 0, 0}};
+  neve::app::output::write_file(
+      folder / "branch.png",
+      neve::render::encode_png(pixel, neve::app::record::to_png_text(record)));
+  options.scenes = {(folder / "branch.png").string()};
+  options.materials = {"snow"};
+  const auto hardening_with = [&](const std::vector<std::string>& changes) {
+    options.overrides = changes;
+    return sources_of(options).front().subject.material.hardening;
+  };
+  EXPECT_EQ(hardening_with({}), 4);
+  EXPECT_EQ(hardening_with({"material.snow.hardening=20"}), 20);
+  EXPECT_EQ(hardening_with({"material.snow.preset=wet"}),
+            neve::app::scene::snow_of(Preset::wet).hardening);
 }
 
 TEST_F(CardSubjects, AreNotMoreThanAPictureHolds) {

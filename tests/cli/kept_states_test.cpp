@@ -87,6 +87,14 @@ TEST_F(KeptStates, WithoutThemTheRunsAreMadeAgainAndItIsSaid) {
   EXPECT_TRUE(contains(one.errors, "1 run is made again")) << one.errors;
   const auto plan = neve({"sweep", "scene.toml", "-p", "seed=1,2", "--keep-states", "--dry-run"});
   EXPECT_TRUE(contains(plan.output, "kept states take about")) << plan.output;
+  const auto bytes = [&](std::vector<std::string> words) {
+    words.insert(words.end(),
+                 {"-p", "seed=1,2", "--coarsen", "1.5", "--keep-states", "--dry-run", "--json"});
+    return app::parse_json(neve(words).output).at("state_bytes").get<double>();
+  };
+  EXPECT_GT(bytes({"sweep", "scene.toml", "--refine-runs", "0"}),
+            2 * bytes({"sweep", "scene.toml"}))
+      << "of one run at full resolution too";
 }
 
 TEST_F(KeptStates, ADamagedStateCostsItsFrameAloneAndIsMended) {

@@ -192,6 +192,56 @@ TEST_F(PointFiles, PackingOfPointsOutsideTheRangeOfTheirMaterialIsSaid) {
       << told;
 }
 
+/// Of factors of the file that no material may have.
+TEST_F(PointFiles, ThresholdsWithWhichSnowNeverYieldsAreSaid) {
+  std::istringstream block(block_csv(3.2e-3));
+  std::string varied, line;
+  for (int k = 0; std::getline(block, line); ++k)
+    varied += line + (k == 0 ? ",threshold\n" : k % 10 == 0 ? ",20\n" : ",2\n");
+  folder.write("points/block.csv", varied);
+  folder.write("scene.toml", block_scene + std::string("[material.snow]\n"
+                                                       "critical_compression = 0.08\n"));
+  EXPECT_TRUE(contains(warnings(),
+                       "100 of 1000 points never yield in compression: their "
+                       "threshold, up to 20, times critical_compression, 0.08"))
+      << warnings();
+}
+
+TEST_F(PointFiles, SettingsThatTheFileTakesThePlaceOfAreSaid) {
+  std::string text = block_scene;
+  const std::string shape = "center = [0, 0.05, 0] } }\n";
+  text.replace(text.find(shape), shape.size(),
+               "center = [0, 0.05, 0], spacing = 0.01 } }\nparticles_per_cell = 4\n");
+  folder.write("scene.toml", text);
+  const std::string told = warnings();
+  EXPECT_TRUE(contains(told,
+                       "body.block.shape.points.spacing: spacing has no effect: the file has "
+                       "the volume of each point"))
+      << told;
+  EXPECT_TRUE(contains(told, "body.block.particles_per_cell: particles_per_cell has no effect"))
+      << told;
+}
+
+/// Velocities in the file take a block to a wall, or away from it.
+TEST_F(PointFiles, FlightsKnowTheVelocitiesInTheFile) {
+  std::string text = block_scene;
+  text.replace(text.find("frames = 2"), 10, "frames = 6");
+  text.replace(text.find("shape = { plane"), std::string::npos,
+               "shape = { box = { center = [1.3, 0, 0], size = [0.2, 3, 3] } }\n");
+  folder.write("scene.toml", text);
+  const auto thrown = [&](const std::string& velocity) {
+    std::string block = block_csv(3.2e-3);
+    const std::string down = ",0,-1,0,";
+    for (std::size_t at = 0; (at = block.find(down, at)) != std::string::npos;)
+      block.replace(at, down.size(), velocity);
+    folder.write("points/block.csv", block);
+    return warnings();
+  };
+  EXPECT_EQ(thrown(",8,0,0,"), "");
+  const std::string away = thrown(",-8,0,0,");
+  EXPECT_TRUE(contains(away, "block meets nothing until the scene ends")) << away;
+}
+
 constexpr const char* moving_scene = R"(
 frames = 6
 [solver]

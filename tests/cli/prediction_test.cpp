@@ -256,7 +256,7 @@ TEST_F(Prediction, ASweepMakesItsBestPointsAtFullResolutionInTheSameFolder) {
                                            }())
                                                .output);
   EXPECT_EQ(result.at("started"), 0) << "what has been made is kept";
-  EXPECT_EQ(result.at("ok"), 6);
+  EXPECT_EQ(result.at("ok"), 3) << "runs at full resolution are no further ones";
 }
 
 TEST_F(Prediction, DamagedRunsAtFullResolutionAreToldByCollect) {

@@ -561,6 +561,9 @@ TEST_F(SweepCli, ARunOfASweepThatAnotherBuildHasPlannedIsRefused) {
 }
 
 TEST_F(SweepCli, AllRunsAreSeenAlike) {
+  folder.write("scene.toml", std::string(tiny_scene) +
+                                 "[[view]]\nname = \"cut\"\nlayers = [\"heatmap\"]\n"
+                                 "slice = { normal = [1, 0, 0] }\n");
   folder.write("look.toml", std::string(small_sweep) +
                                 "[set]\n\"view.particles.particles.color_by\" = \"speed\"\n");
   ASSERT_EQ(neve({"sweep", "look.toml", "--frames", "0"}).exit_code, 0);
@@ -574,6 +577,9 @@ TEST_F(SweepCli, AllRunsAreSeenAlike) {
     for (const char* start : {"eye = ", "target = ", "particles = "})
       EXPECT_EQ(line("0000", start), line(run, start)) << run;
   EXPECT_FALSE(contains(line("0000", "particles = "), "auto"));
+  const app::Json run = json_of("out/look.cdb/runs/0000/run.json");
+  EXPECT_TRUE(contains(run.value("undrawn", ""), "name = \"cut\"")) << "views are known by name";
+  EXPECT_FALSE(exists("out/look.cdb/runs/0000/cut"));
 }
 
 TEST_F(SweepCli, FailuresBecomeAStateAndAReason) {

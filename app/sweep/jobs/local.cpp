@@ -476,7 +476,10 @@ class LocalJobs {
                                                     [&](const Run& own) { return &own == &run; });
     run::RenderOptions options;
     options.scene = "scene.toml";
-    if (is_branch) options = manifest_.beginning->fork_of(run, "../..");
+    if (is_branch)
+      options = manifest_.beginning->fork_of(run, "../..");
+    else
+      options.views = {manifest_.view};
     // Forks have it from the run that they leave.
     const double coarsening = manifest_.coarsening_of(run);
     if (!is_branch && coarsening > 1) options.coarsened = coarsening;

@@ -96,7 +96,8 @@ void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
                          {"frame", plan.beginnings.front().run.frames.last},
                          {"seeds", plan.beginnings.size()},
                          {"seconds", foreseen.beginning.expected * foreseen.seconds_per_work}};
-  if (plan.keeps_states) json["state_bytes"] = whole_bytes(bytes_of_states(plan));
+  if (plan.keeps_states)
+    json["state_bytes"] = whole_bytes(bytes_of_states(plan) + refinement.state_bytes);
   if (!plan.variants.empty())
     json["prediction"] = {{"copies", plan.variants.size()},
                           {"seconds", seconds_of_copies(plan, foreseen)}};
@@ -220,9 +221,11 @@ void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int r
                                   duration_text(seconds_in_all(plan, refinement, forecast,
                                                                seconds.expected, rounds, cores))))
             << (longest.empty() ? "" : longest + "\n")
-            << (plan.keeps_states ? fmt::format("kept states take about {} on disk\n",
-                                                bytes_text(whole_bytes(bytes_of_states(plan))))
-                                  : "")
+            << (plan.keeps_states
+                    ? fmt::format(
+                          "kept states take about {} on disk\n",
+                          bytes_text(whole_bytes(bytes_of_states(plan) + refinement.state_bytes)))
+                    : "")
             << fmt::format("out: {}\n", plan.folder.string());
   if (totals.too_large > 0)
     std::cout << fmt::format(

@@ -28,9 +28,9 @@ std::vector<int> points_of_runs(const std::vector<int>& runs, int seeds) {
   return {points.begin(), points.end()};
 }
 
-/// Bytes, of the largest run at full resolution of the named points, and of the point whose coarse
-/// runs are the largest where any may be chosen.
-double memory_of(const SweepOptions& options, const Refinement& refinement, SweepPlan plan) {
+/// Plans the runs at full resolution of the named points, and of the point whose coarse runs are
+/// the largest, as if all that may be chosen were like it.
+void take_needs(const SweepOptions& options, SweepPlan plan, Refinement& refinement) {
   std::vector<std::size_t> points;
   for (const int run : refinement.named) points.push_back(place(run));
   if (refinement.chosen > 0) {
@@ -41,9 +41,12 @@ double memory_of(const SweepOptions& options, const Refinement& refinement, Swee
   }
   plan.variants.clear();
   add_full_runs(options, points, plan);
-  double memory = 0;
-  for (const PlannedVariant& full : plan.variants) memory = std::max(memory, full.item.run.memory);
-  return memory;
+  for (std::size_t k = 0; k < plan.variants.size(); ++k) {
+    const PlannedRun& full = plan.variants[k].item;
+    const bool is_like_chosen = k % points.size() >= refinement.named.size();
+    refinement.memory = std::max(refinement.memory, full.run.memory);
+    refinement.state_bytes += (is_like_chosen ? refinement.chosen : 1) * bytes_of_states(full);
+  }
 }
 
 }  // namespace
@@ -55,8 +58,7 @@ Refinement refinement_of(const SweepOptions& options, const SweepPlan& plan) {
     refinement.named = points_of_runs(
         parse_selection("--refine-runs", options.refine_runs, plan.runs.back().run.index), seeds);
   refinement.chosen = std::min(options.refine, static_cast<int>(plan.runs.size()) / seeds);
-  if (options.is_dry_run && refinement.is_wanted())
-    refinement.memory = memory_of(options, refinement, plan);
+  if (options.is_dry_run && refinement.is_wanted()) take_needs(options, plan, refinement);
   return refinement;
 }
 

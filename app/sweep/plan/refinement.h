@@ -16,6 +16,7 @@ struct Refinement {
   std::vector<int> named{};  ///< first runs of the points of --refine-runs
   int chosen = 0;            ///< points of --refine: which, is known when all runs have ended
   double memory = 0;         ///< bytes, of the largest run that may be among them
+  double state_bytes = 0;    ///< on disk, of all of them at most, where states are kept
 
   bool is_wanted() const { return chosen > 0 || !named.empty(); }
 };

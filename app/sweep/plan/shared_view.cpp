@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <future>
+#include <numeric>
 #include <system_error>
 
 #include "app/output/atomic_file.h"
@@ -20,6 +21,8 @@
 #include "app/sweep/plan/order.h"
 
 namespace neve::app::sweep::plan {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -229,38 +232,59 @@ void put_legends_on_tiles(const scene::Scene& shared, SweepPlan& plan) {
 }
 
 /// Names the scene that the camera and ranges belong to, and what the camera holds. Axes are no
-/// part of it: they may grow.
+/// part of it: they may grow. Nor are the pixels of tiles, but their shape.
 std::string mark_of(const SweepPlan& plan) {
+  scene::Scene seen = plan.base;
+  const int pixels = std::gcd(seen.size.width, seen.size.height);
+  seen.size = {seen.size.width / pixels, seen.size.height / pixels};
   std::string held;
   if (plan.sweep.sheet.framing == read::Framing::each) held = ", each run by itself";
   if (plan.sweep.sheet.framing == read::Framing::sheet && !plan.runs.empty())
     held = ", at frame " + std::to_string(plan.runs.front().run.frames.last);
   return "# Camera and colour ranges of all runs. Of scene " +
-         record::hash_of(scene::write_scene(plan.base) + record::file_lines(plan.base)) + held +
-         "\n";
+         record::hash_of(scene::write_scene(seen) + record::file_lines(seen)) + held + "\n";
+}
+
+std::string as_found(const std::string& look) {
+  return "# As found: " + record::hash_of(look) + "\n" + look;
+}
+
+/// Whether nobody has written into it since.
+bool is_as_found(const std::string& text) {
+  const std::size_t mark_end = text.find('\n') + 1, look = text.find('\n', mark_end) + 1;
+  return text.substr(mark_end) == as_found(text.substr(look));
+}
+
+/// Puts a look that a person may have written aside. Shards come here together: it stays what they
+/// all have read.
+fs::path put_aside(const fs::path& folder, const std::string& look) {
+  const fs::path aside = folder / ("look_" + record::hash_of(look) + ".toml");
+  output::write_file(aside, look);
+  return aside;
 }
 
 }  // namespace
 
-std::filesystem::path shared_view_path(const std::filesystem::path& folder) {
+fs::path shared_view_path(const fs::path& folder) {
   return folder / "look.toml";
 }
 
-void share_camera_and_ranges(SweepPlan& plan, int cores) {
-  const std::filesystem::path file = shared_view_path(plan.folder);
+fs::path share_camera_and_ranges(SweepPlan& plan, int cores) {
+  const fs::path file = shared_view_path(plan.folder);
   const std::string mark = mark_of(plan);
   std::error_code error;
   std::optional<scene::Scene> shared;
-  if (std::filesystem::is_regular_file(file, error)) {
-    const std::string text = scene::read_toml_file(file.string());
-    if (text.starts_with(mark)) shared = scene::read_scene_text(text, file.string());
-  }
+  std::string earlier;
+  if (fs::is_regular_file(file, error)) earlier = scene::read_toml_file(file.string());
+  if (earlier.starts_with(mark)) shared = scene::read_scene_text(earlier, file.string());
+  fs::path aside;
   if (!shared) {
     shared = find_shared_view(plan, cores);
     // A framing that was cut short is another one.
-    if (is_interrupted()) return;
+    if (is_interrupted()) return aside;
     output::make_folder(plan.folder);
-    output::write_file(file, mark + scene::write_scene(*shared));
+    if (!earlier.empty() && !is_as_found(earlier)) aside = put_aside(plan.folder, earlier);
+    output::write_file(file, mark + as_found(scene::write_scene(*shared)));
   }
   if (plan.sweep.sheet.framing == read::Framing::each) {
     std::vector<PlannedRun*> items;
@@ -278,13 +302,14 @@ void share_camera_and_ranges(SweepPlan& plan, int cores) {
     if (variant.failure.empty()) complete(variant.item);
   for (PlannedRun& item : plan.beginnings) complete(item);
   put_legends_on_tiles(*shared, plan);
-  if (plan.beginnings.empty()) return;
+  if (plan.beginnings.empty()) return aside;
   PlannedRun before = plan.beginnings.front();
   if (plan.source) {  // which may have changed on its way to the fork
     before.scene = plan.base;
     complete(before);
   }
   for (PlannedRun& item : plan.runs) item.run.changes = changes_of(before.scene, item);
+  return aside;
 }
 
 }  // namespace neve::app::sweep::plan

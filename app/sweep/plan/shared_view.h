@@ -12,7 +12,9 @@ std::filesystem::path shared_view_path(const std::filesystem::path& folder);
 /// then it is written there. So later runs look like earlier ones, and another camera can be
 /// written into that file. Settings of a run are kept.
 /// @param cores for dry runs side by side
+/// @return the file that now has what was in DIR/look.toml for another scene, if a person may have
+/// written it; empty: there was nothing
 /// @throws SceneError for a broken look.toml, IoError
-void share_camera_and_ranges(SweepPlan& plan, int cores);
+std::filesystem::path share_camera_and_ranges(SweepPlan& plan, int cores);
 
 }  // namespace neve::app::sweep::plan

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <future>
+#include <set>
 
 #include "app/forecast/forecast.h"
 #include "app/options/languages.h"
@@ -23,6 +26,7 @@
 #include "app/support/out_folder.h"
 #include "app/support/text.h"
 #include "app/sweep/plan/expand.h"
+#include "app/sweep/plan/order.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/read/read_sweep.h"
 #include "app/sweep/read/sweep_leaf.h"
@@ -59,11 +63,11 @@ scene::View chosen_view(const SweepOptions& options, const read::Sweep& sweep,
   }
 }
 
-/// One view, as large as a tile, without the words that the sheet has once. Colours of a frame
-/// would compare nothing: all tiles have the ranges of the scene.
+/// One view, as large as a tile, without the words that the sheet has once; the others are known
+/// by name. Colours of a frame would compare nothing: all tiles have the ranges of the scene.
 void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::Scene& scene) {
-  scene.views = {chosen_view(options, sweep, scene)};
-  scene.mosaics.clear();
+  scene::draw_only({chosen_view(options, sweep, scene)}, scene.views, scene.undrawn_views);
+  scene::draw_only({}, scene.mosaics, scene.undrawn_mosaics);
   scene::View& view = scene.views.front();
   setup::set_size(tile_size(options, sweep, scene, view), scene);
   std::erase(view.layers, scene::Layer::legend);
@@ -169,21 +173,77 @@ void refuse_two_frames(const SweepOptions& options, const read::Sweep& sweep) {
                "remove one of them");
 }
 
-/// The settings of --fast for all runs; what the sweep sets or varies stays.
-forecast::FastLook take_fast_look(const SweepOptions& options, const scene::Scene& base,
-                                  read::Sweep& sweep) {
+/// A run at an end of the axes, or of the rows.
+struct Corner {
+  const Run* run;
+  scene::Scene scene;  ///< without settings of --fast
+};
+
+/// The first corner that becomes other snow by the settings that all runs have now; null: none.
+const Run* other_snow_among(const std::vector<Corner>& corners, const SceneMaker& maker,
+                            const std::function<int(const scene::Scene&)>& last_of) {
+  std::vector<std::future<bool>> judged;
+  for (const Corner& corner : corners)
+    judged.push_back(std::async(
+        std::launch::async,
+        [&before = corner.scene, after = maker.make(corner.run->settings),
+         last = last_of(corner.scene)] { return forecast::is_same_snow(before, after, last); }));
+  const Run* other = nullptr;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    if (!judged[k].get() && !other) other = corners[k].run;
+  return other;
+}
+
+/// The settings of --fast for all runs; what the sweep sets or varies stays. Runs are compared in
+/// steps of one kind, and of a length that is right for all of them.
+forecast::FastLook take_fast_look(const SweepOptions& options, const SceneMaker& maker,
+                                  const scene::Scene& base, read::Sweep& sweep) {
+  constexpr std::size_t most_corners = 8;
   std::vector<std::string> chosen = scene::addresses_of(sweep.fixed);
-  for (const read::Axis& axis : sweep.axes)
+  std::vector<int> sizes;
+  for (const read::Axis& axis : sweep.axes) {
+    sizes.push_back(static_cast<int>(axis.size()));
     for (const read::Axis::Parameter& parameter : axis.parameters)
       chosen.push_back(parameter.address);
+  }
   for (const Run& row : sweep.rows)
     for (std::string& address : scene::addresses_of(row.settings))
       chosen.push_back(std::move(address));
-  const forecast::FastLook look = forecast::fast_look(base, frames_of(options, sweep, base).last,
-                                                      chosen, options.coarsening.value_or(1));
-  for (const std::string& change : look.overrides)
-    sweep.fixed.push_back(scene::parse_override(change));
-  return look;
+  const std::vector<Run> runs = expand(sweep);
+  std::vector<std::vector<int>> places;
+  for (const Run& run : runs) places.push_back(run.coordinates);
+  double cfl = forecast::fast_cfl(base);
+  std::vector<Corner> corners;
+  std::set<std::string> known{run::simulation_text(base)};
+  for (const std::size_t k : coarse_first(places, sizes)) {
+    scene::Scene scene = maker.make(runs[k].settings);
+    cfl = std::min(cfl, forecast::fast_cfl(scene));
+    if (corners.size() < most_corners && known.insert(run::simulation_text(scene)).second)
+      corners.push_back({&runs[k], std::move(scene)});
+  }
+  const auto last_of = [&](const scene::Scene& scene) {
+    return frames_of(options, sweep, scene).last;
+  };
+  const std::vector<scene::Override> given = sweep.fixed;
+  std::string kept;
+  while (true) {
+    forecast::FastLook look =
+        forecast::fast_look(base, last_of(base), chosen, options.coarsening.value_or(1), cfl);
+    look.kept = kept;
+    sweep.fixed = given;
+    for (const std::string& change : look.overrides)
+      sweep.fixed.push_back(scene::parse_override(change));
+    const std::vector<std::string> risks = look.risks();
+    const Run* other = risks.empty() ? nullptr : other_snow_among(corners, maker, last_of);
+    if (!other) return look;
+    std::vector<std::string> settings;
+    for (const scene::Override& setting : other->settings)
+      settings.push_back(setting.address + "=" + setting.value);
+    kept += fmt::format("{}{} {}: with {} it would make other snow", kept.empty() ? "" : "; ",
+                        joined(risks, " and "), risks.size() == 1 ? "stays" : "stay",
+                        joined(settings, ", "));
+    chosen.insert(chosen.end(), risks.begin(), risks.end());
+  }
 }
 
 /// The time of the fork; empty where there is none, see is_forked.
@@ -367,7 +427,7 @@ SweepPlan plan_sweep(const SweepOptions& options) {
   const SceneMaker maker(options, plan.sweep, plan.source);
   plan.base = maker.make_base();
   if (options.is_fast) {
-    plan.fast = take_fast_look(options, plan.base, plan.sweep);
+    plan.fast = take_fast_look(options, maker, plan.base, plan.sweep);
     plan.base = maker.make_base();
   }
   plan.view = plan.base.views.front().name;
@@ -432,10 +492,15 @@ std::vector<int> draws_of(const SweepPlan& plan) {
   return draws;
 }
 
+double bytes_of_states(const PlannedRun& item) {
+  return run::state_bytes_per_particle * item.run.particles * item.run.frames.count();
+}
+
 double bytes_of_states(const SweepPlan& plan) {
   double bytes = 0;
-  for (const PlannedRun& item : plan.runs)
-    bytes += run::state_bytes_per_particle * item.run.particles * item.run.frames.count();
+  for (const PlannedRun& item : plan.runs) bytes += bytes_of_states(item);
+  for (const PlannedVariant& variant : plan.variants)
+    if (variant.failure.empty()) bytes += bytes_of_states(variant.item);
   return bytes;
 }
 

@@ -87,7 +87,9 @@ std::string seeds_text(const read::Sweep& sweep);
 /// The place of each run among the seeds of its point; see coarse_first().
 std::vector<int> draws_of(const SweepPlan& plan);
 
-/// On disk, if the states of all drawn frames of all runs are kept, about.
+/// On disk, if the states of all drawn frames of a run, or of all runs and their variants, are
+/// kept, about.
+double bytes_of_states(const PlannedRun& item);
 double bytes_of_states(const SweepPlan& plan);
 
 }  // namespace neve::app::sweep::plan

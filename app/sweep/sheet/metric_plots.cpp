@@ -42,8 +42,12 @@ Across by_choice(const store::Manifest& manifest, const Parameter& parameter) {
   Across across;
   across.title = parameter.name;
   std::vector<std::string> values;
+  // An inherited text is in quotes, one of an axis is not.
+  const auto value_of = [&](const Run& run) {
+    return plan::value_text(run.value(parameter.address));
+  };
   for (const Run& run : manifest.runs) {
-    const std::string value = run.value(parameter.address);
+    const std::string value = value_of(run);
     if (!value.empty() && std::find(values.begin(), values.end(), value) == values.end())
       values.push_back(value);
   }
@@ -51,14 +55,14 @@ Across by_choice(const store::Manifest& manifest, const Parameter& parameter) {
     return (static_cast<double>(k) + 0.5) / static_cast<double>(values.size());
   };
   for (const Run& run : manifest.runs) {
-    const auto found = std::find(values.begin(), values.end(), run.value(parameter.address));
+    const auto found = std::find(values.begin(), values.end(), value_of(run));
     across.place.push_back(
         found == values.end()
             ? std::nullopt
             : std::optional(place(static_cast<std::size_t>(found - values.begin()))));
   }
   for (std::size_t k = 0; k < values.size() && values.size() <= 8; ++k)
-    across.ticks.push_back({place(k), plan::value_text(values[k])});
+    across.ticks.push_back({place(k), values[k]});
   return across;
 }
 

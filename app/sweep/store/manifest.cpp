@@ -277,7 +277,8 @@ void check_values(const Manifest& m) {
     check(run.index == static_cast<int>(k), "its runs are not numbered in order");
     check_run(m, run);
   }
-  check(m.variants.size() <= std::size_t(read::max_runs), "it has too many variants");
+  // Copies of each point, and each run at full resolution.
+  check(m.variants.size() <= 10 * std::size_t(read::max_runs), "it has too many variants");
   for (std::size_t k = 0; k < m.variants.size(); ++k) {
     const Variant& variant = m.variants[k];
     check(variant.of < m.runs.size() &&
@@ -327,9 +328,11 @@ int Manifest::last_index() const {
 }
 
 std::vector<int> Manifest::with_variants(std::vector<int> indices) const {
-  const std::set<int> chosen(indices.begin(), indices.end());
+  const auto point_of = [&](std::size_t run) { return run / static_cast<std::size_t>(seeds); };
+  std::set<std::size_t> points;
+  for (const int index : indices) points.insert(point_of(static_cast<std::size_t>(index)));
   for (const Variant& variant : variants)
-    if (variant.failure.empty() && chosen.contains(static_cast<int>(variant.of)))
+    if (variant.is_full() || (variant.failure.empty() && points.contains(point_of(variant.of))))
       indices.push_back(variant.run.index);
   return indices;
 }

@@ -109,7 +109,8 @@ struct Manifest {
   /// The run of a number, a variant's too; null: there is none.
   const Run* run_of(int index) const;
   int last_index() const;
-  /// These runs, and the variants of their points.
+  /// These runs, the copies of their points, and all runs at full resolution: they were chosen by
+  /// themselves.
   std::vector<int> with_variants(std::vector<int> indices) const;
 
   double coarsening_of(const Run& run) const;

@@ -14,6 +14,7 @@
 #include "app/record/picture_record.h"
 #include "app/record/run_json.h"
 #include "app/run/identity.h"
+#include "app/scene/edit_text.h"
 #include "app/scene/read.h"
 #include "app/scene/scene_file.h"
 #include "app/support/errors.h"
@@ -94,15 +95,16 @@ bool has_text(const fs::path& file, const std::string& text) {
   }
 }
 
-/// The scene of a branch is that of the beginning; its own values are changes on the way.
+/// The scene of a branch is that of the beginning; its own values are changes on the way. Views
+/// that a run does not draw are in it: its record has them by name.
 std::string text_of_run(const plan::SweepPlan& plan, const plan::PlannedRun& item) {
-  if (plan.beginnings.empty()) return scene::write_scene(item.scene);
+  if (plan.beginnings.empty()) return scene::text_with_all_views(item.scene);
   const plan::PlannedRun& beginning = plan.beginning_of(item.run);
   const run::RenderOptions options =
       Beginning{plan.fork, {beginning.run}}.fork_of(item.run, "../..");
   return "# A run that forks from the common beginning. In this folder:\n# " +
          options::shell_line(options::words_of(options)) + "\n" +
-         scene::write_scene(beginning.scene);
+         scene::text_with_all_views(beginning.scene);
 }
 
 /// The keys of a run, and its scene as text.
@@ -183,7 +185,7 @@ Manifest prepare_sweep(const plan::SweepPlan& plan, Redrawn* redrawn) {
                 {text_of_run(plan, *items[k]), keys[k], simulation_key_of(plan, *items[k])});
   for (const plan::PlannedRun& item : plan.beginnings)
     write_run(beginning_folder(plan.folder, item.run),
-              {scene::write_scene(item.scene), key_of_beginning(plan, item),
+              {scene::text_with_all_views(item.scene), key_of_beginning(plan, item),
                simulation_key_of(plan, item)});
   if (!plan.sweep.file.empty())
     output::write_file(plan.folder / "sweep.toml", scene::read_toml_file(plan.sweep.file));

@@ -51,21 +51,14 @@ std::filesystem::file_time_type time_of(const std::string& file) {
   return error ? std::filesystem::file_time_type{} : time;
 }
 
-scene::Scene with_all_views(scene::Scene scene) {
-  scene.views.insert(scene.views.end(), scene.undrawn_views.begin(), scene.undrawn_views.end());
-  scene.mosaics.insert(scene.mosaics.end(), scene.undrawn_mosaics.begin(),
-                       scene.undrawn_mosaics.end());
-  return scene;
-}
-
 /// A run at its newest moment, as a session has it in which its changes were made. Without one it
 /// starts again, and makes its changes at their steps.
 Opened open_run(const std::string& folder, const timeline::Edits& edits) {
   const timeline::Origin origin = timeline::Origin::of(folder, edits);
   const std::string beside =
       origin.scene_file.substr(0, folder.find_last_not_of('/') + 1) + ".toml";
-  Opened opened{Document(beside, scene::write_scene(with_all_views(origin.scene)), {}, 1,
-                         Source::no_file, origin.coarsening),
+  Opened opened{Document(beside, scene::text_with_all_views(origin.scene), {}, 1, Source::no_file,
+                         origin.coarsening),
                 origin.overrides};
   timeline::Moments moments;
   moments.add_run(origin.run);
