@@ -422,15 +422,18 @@ struct Renderer::Impl {
       return make_view(f.camera, targets->sample_width(), targets->sample_height());
     };
     channels::LightPlanes light;
-    const float weight = 1 / static_cast<float>(request.moments.size());
-    for (const Frame& moment : request.moments)
+    const Moments& moments = request.moments;
+    for (int k = 0; k < moments.count; ++k) {
+      const Frame moment = moments.at(k);
+      channels::check_moment(frame, moment);
       with_lit_surfaces(moment, view_of(moment), [&](const channels::LitSurfaces& lit) {
-        channels::add_light(lit, request, weight, light);
+        channels::add_light(lit, request, 1 / static_cast<float>(moments.count), light);
       });
+    }
     channels::DataPlanes data;
     const View view = view_of(frame);
     with_lit_surfaces(frame, view, [&](const channels::LitSurfaces& lit) {
-      if (request.moments.empty()) channels::add_light(lit, request, 1, light);
+      if (moments.count == 0) channels::add_light(lit, request, 1, light);
       const std::optional<cpu::SolidSamples> meshes = draw_mesh_numbers(frame, view);
       data = channels::gather_data(lit, request, view, meshes ? &*meshes : nullptr, pool);
     });

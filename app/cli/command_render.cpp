@@ -65,7 +65,8 @@ void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json
     json["coarsen"] = job.coarsening;
     json["out"] = job.folder.string();
     json["views"] = Json::array();
-    for (const scene::View& view : job.scene.views) json["views"].push_back(view.name);
+    for (const scene::View& view : job.scene.views)
+      if (job.draws_alone(view)) json["views"].push_back(view.name);
     json["passes"] = job.passes;
     json["mosaics"] = Json::array();
     for (const scene::Mosaic& mosaic : job.scene.mosaics) json["mosaics"].push_back(mosaic.name);
@@ -80,30 +81,31 @@ void print_plan(const run::RenderJob& job, const setup::Plan& plan, bool is_json
             << "frames     " << plan.first_number + plan.frames.first << " to "
             << plan.first_number + plan.frames.last << "\n";
   for (const scene::View& view : job.scene.views) {
+    if (!job.draws_alone(view)) continue;
     const scene::PictureSize size = setup::size_of(job.scene, view);
     std::cout << "view       " << view.name << ", " << size.width << "x" << size.height << "\n";
   }
   if (job.options.predicts) std::cout << "prediction " << predict::cost_text() << "\n";
   if (!job.passes.empty()) std::cout << "passes     " << joined(job.passes, ", ") << "\n";
   for (const scene::Mosaic& mosaic : job.scene.mosaics) {
-    const scene::PictureSize size = setup::size_of(job.scene, mosaic);
+    const scene::PictureSize size = setup::size_of(job.scene, mosaic, job.caption_lines());
     std::cout << "mosaic     " << mosaic.name << ", " << size.width << "x" << size.height << "\n";
   }
   std::cout << "out        " << job.folder.string() << "\n";
 }
 
-void check_picture_sizes(const scene::Scene& scene, setup::Quality quality, int largest) {
-  for (const scene::View& view : scene.views) {
-    const scene::PictureSize size = setup::size_of(scene, view);
-    if (std::max(size.width, size.height) * setup::supersampling(quality) > largest)
+void check_picture_sizes(const run::RenderJob& job, int largest) {
+  for (const scene::View& view : job.scene.views) {
+    const scene::PictureSize size = setup::size_of(job.scene, view);
+    if (std::max(size.width, size.height) * setup::supersampling(job.quality) > largest)
       throw LimitError(
           fmt::format("refused: the view {} is larger than the {} samples a side that this "
                       "backend draws",
                       view.name, largest),
           fmt::format("view.{}.size", view.name), "draw smaller pictures with --size");
   }
-  for (const scene::Mosaic& mosaic : scene.mosaics) {
-    const scene::PictureSize size = setup::size_of(scene, mosaic);
+  for (const scene::Mosaic& mosaic : job.scene.mosaics) {
+    const scene::PictureSize size = setup::size_of(job.scene, mosaic, job.caption_lines());
     if (std::max(size.width, size.height) > largest)
       throw LimitError(
           fmt::format("refused: the mosaic {} is larger than the {} pixels a side that this "
@@ -210,9 +212,10 @@ void check_movie_sides(const run::RenderJob& job, std::vector<health::Finding>& 
                      output::name(job.options.movie.format), view, sides),
          "choose an even size, as " + sides + ", or --movie gif"});
   };
-  for (const scene::View& view : job.scene.views) check(view.name, setup::size_of(job.scene, view));
+  for (const scene::View& view : job.scene.views)
+    if (job.draws_alone(view)) check(view.name, setup::size_of(job.scene, view));
   for (const scene::Mosaic& mosaic : job.scene.mosaics)
-    check(mosaic.name, setup::size_of(job.scene, mosaic));
+    check(mosaic.name, setup::size_of(job.scene, mosaic, job.caption_lines()));
 }
 
 /// Units that are not those of neve, snow that starts inside colliders or flies past everything:
@@ -441,7 +444,7 @@ int run_render(const run::RenderOptions& options) {
       fmt::format("OpenGL: {}, {}, {}", context->backend, context->renderer, context->version));
   ThreadPool pool(options.threads);
   render::Renderer renderer(*context, options.shader_dir, &pool);
-  check_picture_sizes(job.scene, job.quality, renderer.max_size());
+  check_picture_sizes(job, renderer.max_size());
   run::check_plates(job);
   if (!job.lut.empty()) run::read_lut(job.lut);
   // Before anything else of the run: another one may be writing there.

@@ -139,14 +139,14 @@ void put(std::vector<Sample>& samples, Sample sample) {
 
 }  // namespace
 
-Exporter::Exporter(const scene::Scene& scene, fs::path folder,
-                   const std::vector<std::size_t>& body_end,
+Exporter::Exporter(const scene::Scene& scene, fs::path folder, const setup::SeededScene& seeded,
                    const std::vector<scene::LiveChange>& changes)
     : scene_(scene),
       colliders_(scene.colliders),
       folder_(std::move(folder)),
-      origins_(scene, body_end),
-      carried_(scene, body_end),
+      seeded_(seeded),
+      origins_(scene, seeded.body_end),
+      carried_(scene, seeded.body_end),
       moves_otherwise_(may_move_otherwise(scene, changes)) {
   for (const StageCamera& camera : stage_cameras(scene))
     if (!camera.settings.follow.empty()) follows_.insert(camera.settings.follow);
@@ -228,8 +228,7 @@ std::map<std::string, sim::Vec3d> Exporter::followed(
     const std::vector<scene::Collider>& colliders) const {
   std::map<std::string, sim::Vec3d> moved;
   for (const std::string& name : follows_)
-    moved[name] =
-        picture::followed_by(name, scene_, colliders, origins_.body_end(), particles, time);
+    moved[name] = picture::followed_by(name, scene_, colliders, seeded_, particles, time);
   return moved;
 }
 

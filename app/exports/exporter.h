@@ -12,6 +12,7 @@
 #include "app/exports/series.h"
 #include "app/output/file_hash.h"
 #include "app/scene/live_change.h"
+#include "app/setup/seed_scene.h"
 #include "app/support/json.h"
 
 namespace neve::app::exports {
@@ -21,11 +22,10 @@ class Exporter {
   using Work = std::function<std::vector<output::WrittenFile>()>;
 
   /// @param folder    of all exports; each writes into one of its own in it
-  /// @param body_end  see Origins
+  /// @param seeded    outlives it
   /// @param changes   made while the run ran, and to come
   Exporter(const scene::Scene& scene, std::filesystem::path folder,
-           const std::vector<std::size_t>& body_end,
-           const std::vector<scene::LiveChange>& changes = {});
+           const setup::SeededScene& seeded, const std::vector<scene::LiveChange>& changes = {});
 
   bool is_due(int frame) const;
 
@@ -75,6 +75,7 @@ class Exporter {
   scene::Scene scene_;
   std::vector<scene::Collider> colliders_;  ///< all that there were at any moment
   std::filesystem::path folder_;
+  const setup::SeededScene& seeded_;
   Origins origins_;
   Carried carried_;
   std::vector<Job> jobs_;

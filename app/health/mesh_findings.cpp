@@ -116,19 +116,31 @@ void check_shape(const sim::shapes::Shape& shape, const std::string& address,
   check_openness(*read, mesh->fill, address + ".shape.mesh.fill", name, findings);
 }
 
-/// Far from the origin, the spacing of numbers in single precision reaches the size of cells.
+/// Far from the origin, the spacing of numbers in single precision reaches the size of cells. What
+/// a file says is in such numbers; of other snow only pictures are, where less shows.
 void check_distance(const scene::Scene& scene, const sim::shapes::Shape& shape,
-                    const std::string& address, const std::string& name,
+                    const std::string& address, const std::string& name, bool is_snow,
                     std::vector<Finding>& findings) {
   const bool is_mesh = std::holds_alternative<sim::shapes::Mesh>(shape.form);
   const bool is_points = std::holds_alternative<sim::shapes::Points>(shape.form);
   const bool is_terrain = std::holds_alternative<sim::shapes::Terrain>(shape.form);
-  if (!is_mesh && !is_points && !is_terrain) return;
-  constexpr double single = 0x1p-23, worth_a_word = 0.001;
+  const bool is_of_file = is_mesh || is_points || is_terrain;
+  if (!is_of_file && !is_snow) return;
+  constexpr double single = 0x1p-23;
+  const double worth_a_word = is_of_file ? 0.001 : 0.02;
   const sim::shapes::Bounds b = sim::shapes::Solid(shape).bounds();
   const double far = std::max(b.min.cwiseAbs().maxCoeff(), b.max.cwiseAbs().maxCoeff());
   const double h = scene.solver.cell_size;
   if (single * far < worth_a_word * h) return;
+  if (!is_of_file) {
+    findings.push_back(
+        {Severity::warning, address + ".shape",
+         fmt::format("{} reaches {} m from the scene's origin: pictures have numbers "
+                     "in single precision, and show its places {} cells apart",
+                     name, rough_text(far), rough_text(single * far / h)),
+         "move the whole scene to its origin"});
+    return;
+  }
   findings.push_back(
       {Severity::warning,
        address + ".shape." +
@@ -191,7 +203,9 @@ void check_meshes(const scene::Scene& scene, std::vector<Finding>& findings) {
     for (const auto& object : objects) {
       const std::string address = kind + "." + object.name;
       check_shape(object.shape, address, display_name(kind, object.name), findings);
-      check_distance(scene, object.shape, address, display_name(kind, object.name), findings);
+      const bool is_snow = kind == "body" || kind == "emitter";
+      check_distance(scene, object.shape, address, display_name(kind, object.name), is_snow,
+                     findings);
       if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&object.shape.form))
         check_holes(*terrain, address, display_name(kind, object.name), findings);
     }

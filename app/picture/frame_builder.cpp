@@ -246,7 +246,7 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
   const SlicePlane plane = plane_of(scene_, view, seeded_, snapshot);
   add_slice(scene_, view, snapshot, plane, {pixels_on(plane, frame), seeded_.spacing}, frame);
   if (!frame.footnote.empty() && !view.slice.follow.empty() &&
-      !centre_of(view.slice.follow, scene_, scene_.colliders, seeded_.body_end, snapshot.particles,
+      !centre_of(view.slice.follow, scene_, scene_.colliders, seeded_, snapshot.particles,
                  snapshot.time))
     frame.footnote += ", " + view.slice.follow + " is gone" +
                       (std::ranges::any_of(scene_.bodies,
@@ -270,7 +270,7 @@ void FrameBuilder::add_grid(const scene::View& view, const Snapshot& snapshot,
 SlicePlane plane_of(const scene::Scene& scene, const scene::View& view,
                     const setup::SeededScene& seeded, const Snapshot& snapshot) {
   return slice_plane(view.slice, snapshot.time,
-                     followed_by(view.slice.follow, scene, scene.colliders, seeded.body_end,
+                     followed_by(view.slice.follow, scene, scene.colliders, seeded,
                                  snapshot.particles, snapshot.time));
 }
 
@@ -319,7 +319,7 @@ setup::CameraPlace camera_place(const scene::Scene& scene, const scene::View& vi
                                 const setup::SeededScene& seeded, const Snapshot& snapshot) {
   const scene::CameraSettings& settings = settings_of(scene, view);
   setup::CameraPlace place = setup::camera_at(settings, snapshot.time, scene::duration(scene));
-  const sim::Vec3d moved = followed_by(settings.follow, scene, scene.colliders, seeded.body_end,
+  const sim::Vec3d moved = followed_by(settings.follow, scene, scene.colliders, seeded,
                                        snapshot.particles, snapshot.time);
   place.eye += moved;
   place.target += moved;

@@ -33,10 +33,8 @@ std::vector<std::string> strip_caption(const std::vector<std::string>& lines, bo
 
 render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
                           const BuildFrame& build, const std::vector<std::string>& lines,
-                          render::Renderer& renderer, const DrawFrame& draw) {
-  const std::vector<std::string> caption = strip_caption(lines, !scene.title.empty());
-  const setup::MosaicLayout layout =
-      setup::layout_of(scene, mosaic, static_cast<int>(caption.size()));
+                          int caption_lines, render::Renderer& renderer, const DrawFrame& draw) {
+  const setup::MosaicLayout layout = setup::layout_of(scene, mosaic, caption_lines);
   std::vector<render::Tile> tiles;
   for (const setup::MosaicTile& tile : layout.tiles) {
     render::Frame frame = build(tile.view);
@@ -47,9 +45,12 @@ render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic
   render::Frame strip;
   strip.width = layout.width;
   strip.height = layout.height;
-  strip.caption = caption;
+  strip.caption = strip_caption(lines, !scene.title.empty());
   strip.caption_height = layout.caption_height;
   strip.font_size = layout.font_size;
+  // What only some pictures tell has no room of its own: heights do not change within a film.
+  const auto count = static_cast<int>(strip.caption.size());
+  if (count > caption_lines) strip.font_size = layout.font_size * (1 + caption_lines) / (1 + count);
   return renderer.draw_over(render::compose(layout.width, layout.height, strip_color, tiles),
                             strip);
 }

@@ -18,9 +18,11 @@ using BuildFrame = std::function<render::Frame(const scene::View& view)>;
 using DrawFrame = std::function<render::Image(const scene::View& view, const render::Frame& frame)>;
 
 /// @param caption  of all views; empty: there is none, and views have no names
+/// @param caption_lines  that have room, see setup::caption_lines
 /// @param draw  draws each tile
 render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic,
                           const BuildFrame& build, const std::vector<std::string>& caption,
-                          render::Renderer& renderer, const DrawFrame& draw = {});
+                          int caption_lines, render::Renderer& renderer,
+                          const DrawFrame& draw = {});
 
 }  // namespace neve::app::picture

@@ -5,7 +5,7 @@
 #include "app/picture/collider_looks.h"
 #include "app/picture/frame_builder.h"
 #include "app/picture/to_float.h"
-#include "sim/rigid/rigid_bodies.h"
+#include "sim/rigid/mass.h"
 
 namespace neve::app::picture {
 
@@ -86,40 +86,26 @@ std::vector<Thing> moving_ghost_grounds(const MotionSource& source, double inter
 
 std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene& scene,
                                     const std::vector<scene::Collider>& colliders,
-                                    const std::vector<std::size_t>& body_end,
+                                    const setup::SeededScene& seeded,
                                     const sim::ParticleArrays& particles, double time) {
-  for (std::size_t body = 0; body < body_end.size(); ++body) {
+  for (std::size_t body = 0; body < seeded.body_end.size(); ++body) {
     if (scene.bodies[body].name != name) continue;
-    const std::size_t first = particles.first_from(body == 0 ? 0 : body_end[body - 1]),
-                      end = particles.first_from(body_end[body]);
-    sim::Vec3d moment = sim::Vec3d::Zero();
-    double mass = 0;
-    for (std::size_t p = first; p < end; ++p) {
-      if (!particles.x[p].allFinite()) continue;
-      moment += particles.m[p] * particles.x[p];
-      mass += particles.m[p];
-    }
-    if (mass > 0) return sim::Vec3d(moment / mass);
+    if (const auto centre = setup::snow_centre(seeded, body, particles)) return centre;
   }
   for (const scene::Collider& collider : colliders)
-    if (collider.name == name)
-      return collider.body.moves() ? sim::rigid::motion_at(collider, time).centre
-                                   : sim::shapes::pose_at(collider, time).point;
+    if (collider.name == name) return sim::rigid::centre_at(collider, time);
   return std::nullopt;
 }
 
 sim::Vec3d followed_by(const std::string& name, const scene::Scene& scene,
                        const std::vector<scene::Collider>& colliders,
-                       const std::vector<std::size_t>& body_end,
-                       const sim::ParticleArrays& particles, double time) {
+                       const setup::SeededScene& seeded, const sim::ParticleArrays& particles,
+                       double time) {
   if (name.empty()) return sim::Vec3d::Zero();
-  const auto body =
-      std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                   [&](const sim::seeding::Body& candidate) { return candidate.name == name; });
-  // A body that a sink has removed is looked for where it was.
-  const sim::Vec3d start =
-      body == scene.bodies.end() ? sim::Vec3d::Zero() : sim::shapes::center(body->shape);
-  return centre_of(name, scene, colliders, body_end, particles, time).value_or(start);
+  sim::Vec3d start = sim::Vec3d::Zero();
+  for (std::size_t body = 0; body < seeded.body_start.size(); ++body)
+    if (scene.bodies[body].name == name) start = seeded.body_start[body];
+  return centre_of(name, scene, colliders, seeded, particles, time).value_or(start);
 }
 
 }  // namespace neve::app::picture

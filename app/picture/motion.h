@@ -34,13 +34,12 @@ std::vector<render::channels::Thing> moving_grounds(const MotionSource& source, 
 std::vector<render::channels::Thing> moving_ghost_grounds(const MotionSource& source,
                                                           double interval);
 
-/// Centre of mass of the snow of a body, or of a collider that moves by itself; the place of
-/// another collider. Nothing where there is no such snow.
-/// @param colliders  of the scene, followed to this moment @param body_end  see SeededScene
+/// Centre of mass of the snow of a body, or of a collider. Nothing where there is no such snow.
+/// @param colliders  of the scene, followed to this moment
 /// @param particles  in the order of their ids
 std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene& scene,
                                     const std::vector<scene::Collider>& colliders,
-                                    const std::vector<std::size_t>& body_end,
+                                    const setup::SeededScene& seeded,
                                     const sim::ParticleArrays& particles, double time);
 
 /// @param name  of what a camera or a plane follows; "": nothing
@@ -48,7 +47,7 @@ std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene&
 /// taken it; 0 for nothing
 sim::Vec3d followed_by(const std::string& name, const scene::Scene& scene,
                        const std::vector<scene::Collider>& colliders,
-                       const std::vector<std::size_t>& body_end,
-                       const sim::ParticleArrays& particles, double time);
+                       const setup::SeededScene& seeded, const sim::ParticleArrays& particles,
+                       double time);
 
 }  // namespace neve::app::picture

@@ -163,42 +163,40 @@ float ground_motion(const Ends& ends, const render::Frame& frame, render::Ground
   return largest;
 }
 
-/// Pixels that ghosts and wires move by.
-float see_through_motion(const MotionSource& source, const Ends& ends, const render::Frame& frame,
-                         double open) {
-  if (std::ranges::all_of(source.scene.colliders, hides, &scene::Collider::style)) return 0;
+/// Pixels that colliders move by, also where they deform.
+float collider_motion(const MotionSource& source, const Ends& ends, const render::Frame& frame,
+                      double open) {
+  if (source.scene.colliders.empty()) return 0;
   const render::Frame before = colliders_after(source, -0.5 * open, frame),
                       after = colliders_after(source, 0.5 * open, frame);
   float largest = 0;
   const auto add = [&](const auto& from, const auto& to) {
-    if (from.size() != to.size()) return;  // a mesh that deforms has become another one
+    if (from.size() != to.size()) return;  // lines at creases, which come and go
     for (std::size_t k = 0; k < from.size(); ++k)
       largest = std::max(largest, ends.way(from[k], to[k]).pixels);
   };
+  for (std::size_t m = 0; m < before.meshes.size(); ++m)
+    add(before.meshes[m].position, after.meshes[m].position);
   for (std::size_t g = 0; g < before.ghosts.size(); ++g)
     add(before.ghosts[g].position, after.ghosts[g].position);
   for (std::size_t l = 0; l < before.lines.size(); ++l)
     add(before.lines[l].ends, after.lines[l].ends);
-  const std::vector<Thing> grounds = moving_ghost_grounds(source, 0.5 * open);
-  for (std::size_t g = 0; g < grounds.size(); ++g)
-    largest =
-        std::max(largest, ground_motion(ends, frame, frame.ghost_grounds[g], grounds[g], true));
+  const auto add_grounds = [&](const std::vector<Thing>& things,
+                               const std::vector<render::GroundPlane>& grounds, bool are_ghosts) {
+    for (std::size_t g = 0; g < things.size(); ++g)
+      largest = std::max(largest, ground_motion(ends, frame, grounds[g], things[g], are_ghosts));
+  };
+  add_grounds(moving_grounds(source, 0.5 * open), frame.grounds, false);
+  add_grounds(moving_ghost_grounds(source, 0.5 * open), frame.ghost_grounds, true);
   return largest;
 }
 
 /// Pixels that anything moves by in the picture while the shutter is open.
 float largest_motion(const MotionSource& source, const Ends& ends, const render::Frame& frame,
                      const std::vector<Vec3f>& velocity, double open) {
-  float largest = see_through_motion(source, ends, frame, open);
+  float largest = collider_motion(source, ends, frame, open);
   for (std::size_t p = 0; p < frame.points.position.size(); ++p)
     largest = std::max(largest, ends.way_of(frame.points.position[p], velocity[p]).pixels);
-  const std::vector<Thing> things = moving_meshes(source, 0.5 * open);
-  for (std::size_t m = 0; m < things.size(); ++m)
-    for (const Vec3f& p : frame.meshes[m].position)
-      largest = std::max(largest, ends.way(things[m].before(p), things[m].after(p)).pixels);
-  const std::vector<Thing> grounds = moving_grounds(source, 0.5 * open);
-  for (std::size_t g = 0; g < grounds.size(); ++g)
-    largest = std::max(largest, ground_motion(ends, frame, frame.grounds[g], grounds[g], false));
   return largest;
 }
 
@@ -213,49 +211,49 @@ void add_blur(const Ends& ends, const std::vector<Vec3f>& velocity, auto& points
 
 }  // namespace
 
-std::vector<render::Frame> shutter_moments(const MotionSource& source, const render::Frame& frame,
-                                           double degrees) {
+render::Moments shutter_moments(const MotionSource& source, const render::Frame& frame,
+                                double degrees) {
   const double open = degrees / 360 / source.scene.fps;
-  const std::vector<Vec3f> velocity = velocities(source, frame.points.id);
-  const std::vector<Vec3f> cut_velocity =
+  std::vector<Vec3f> velocity = velocities(source, frame.points.id);
+  std::vector<Vec3f> cut_velocity =
       frame.points.cut ? velocities(source, frame.points.cut->id) : std::vector<Vec3f>{};
   const Ends ends(source, frame, open);
   const float pixels = largest_motion(source, ends, frame, velocity, open);
-  std::vector<render::Frame> moments;
-  if (!(pixels >= 0.5f)) return moments;
+  if (!(pixels >= 0.5f)) return {};
   render::Frame blurred = frame;
   add_blur(ends, velocity, blurred.points);
   if (blurred.points.cut) add_blur(ends, cut_velocity, *blurred.points.cut);
   const int count = count_of(pixels, frame.supersampling);
-  for (int k = 0; k < count; ++k) {
-    render::Frame& moment = moments.emplace_back(blurred);
-    move_solids(source, open * time_of_share((k + 0.5) / count), moment);
-    keep_labels(frame.camera, moment);
-    const auto move = [&](const std::vector<Vec3f>& by, auto& points) {
-      std::vector<Vec3f>& position = points.position.edit();
-      for (std::size_t p = 0; p < by.size(); ++p) {
-        const double share = (k + static_cast<double>(phase_of(points.id[p]))) / count;
-        position[p] = position[p] + by[p] * static_cast<float>(open * time_of_share(share));
-      }
-    };
-    move(velocity, moment.points);
-    if (moment.points.cut) move(cut_velocity, *moment.points.cut);
-  }
-  return moments;
+  return {count, [=, velocity = std::move(velocity), cut_velocity = std::move(cut_velocity),
+                  blurred = std::move(blurred)](int k) {
+            render::Frame moment = blurred;
+            move_solids(source, open * time_of_share((k + 0.5) / count), moment);
+            keep_labels(blurred.camera, moment);
+            const auto move = [&](const std::vector<Vec3f>& by, auto& points) {
+              std::vector<Vec3f>& position = points.position.edit();
+              for (std::size_t p = 0; p < by.size(); ++p) {
+                const double share = (k + static_cast<double>(phase_of(points.id[p]))) / count;
+                position[p] = position[p] + by[p] * static_cast<float>(open * time_of_share(share));
+              }
+            };
+            move(velocity, moment.points);
+            if (moment.points.cut) move(cut_velocity, *moment.points.cut);
+            return moment;
+          }};
 }
 
-std::vector<render::Frame> with_shared_samples(std::vector<render::Frame> moments) {
-  if (moments.size() < enough_to_share) return moments;
-  int n = 0;
-  for (render::Frame& moment : moments) {
-    if (moment.supersampling == 1) return moments;
-    moment.grain_detail = moment.supersampling;
-    moment.supersampling = 1;
-    if (moment.smoke.samples_per_ray > 0) moment.smoke.samples_per_ray = 1;
-    ++n;
-    turn_by_pixels(radical_inverse(n, 2) - 0.5, radical_inverse(n, 3) - 0.5, moment);
-  }
-  return moments;
+render::Moments with_shared_samples(render::Moments moments) {
+  if (moments.count < enough_to_share) return moments;
+  return {moments.count, [at = std::move(moments.at)](int k) {
+            render::Frame moment = at(k);
+            if (moment.supersampling == 1) return moment;
+            moment.grain_detail = moment.supersampling;
+            moment.supersampling = 1;
+            if (moment.smoke.samples_per_ray > 0) moment.smoke.samples_per_ray = 1;
+            turn_by_pixels(radical_inverse(k + 1, 2) - 0.5, radical_inverse(k + 1, 3) - 0.5,
+                           moment);
+            return moment;
+          }};
 }
 
 }  // namespace neve::app::picture

@@ -99,9 +99,9 @@ Vec3i node_of(const render::NodeLattice& lattice, std::size_t n) {
 
 Vec3f place_of(const render::NodeLattice& lattice, std::size_t n) {
   const Vec3i node = node_of(lattice, n);
-  return {lattice.spacing * static_cast<float>(node.x),
-          lattice.spacing * static_cast<float>(node.y),
-          lattice.spacing * static_cast<float>(node.z)};
+  const Vec3f steps{static_cast<float>(node.x), static_cast<float>(node.y),
+                    static_cast<float>(node.z)};
+  return lattice.origin + steps * lattice.spacing;
 }
 
 /// Values of a field on all nodes, of vectors their lengths.

@@ -26,15 +26,10 @@ Drawing::Drawing(const RenderJob& job, const setup::SeededScene& seeded, render:
   if (!job.passes.empty()) passes_.emplace(scene_, seeded, pass_list(job.passes));
 }
 
-bool Drawing::is_alone(const scene::View& view) const {
-  const std::vector<std::string>& tiles = job_.only_tiles;
-  return std::find(tiles.begin(), tiles.end(), view.name) == tiles.end();
-}
-
 std::vector<std::string> Drawing::views() const {
   std::vector<std::string> names;
   for (const scene::View& view : job_.scene.views)
-    if (is_alone(view)) names.push_back(view.name);
+    if (job_.draws_alone(view)) names.push_back(view.name);
   return names;
 }
 
@@ -71,11 +66,11 @@ Drawing::Files Drawing::draw(const picture::Snapshot& snapshot) {
       files.pictures.push_back(picture_of(waiting.front(), renderer_.fetch()));
   };
   for (const scene::View& view : scene_.views) {
-    if (!is_alone(view)) continue;
+    if (!job_.draws_alone(view)) continue;
     render::Frame drawn = builder_.build(view, snapshot);
     if (!job_.plate.empty()) drawn.is_transparent = true;
-    const std::vector<render::Frame> moments = shutter_frames(view, drawn, snapshot);
-    if (moments.empty() && job_.plate.empty()) {
+    const render::Moments moments = shutter_frames(view, drawn, snapshot);
+    if (moments.count == 0 && job_.plate.empty()) {
       renderer_.submit(drawn);
       waiting.push_back(view.name);
     } else {
@@ -98,33 +93,33 @@ Drawing::Files Drawing::draw(const picture::Snapshot& snapshot) {
   const std::vector<std::string> caption =
       job_.options.has_caption ? builder_.caption(snapshot) : std::vector<std::string>{};
   for (const scene::Mosaic& mosaic : scene_.mosaics)
-    files.pictures.push_back(picture_of(
-        mosaic.name, picture::draw_mosaic(scene_, mosaic, build, caption, renderer_, draw_tile)));
+    files.pictures.push_back(
+        picture_of(mosaic.name, picture::draw_mosaic(scene_, mosaic, build, caption,
+                                                     job_.caption_lines(), renderer_, draw_tile)));
   return files;
 }
 
-std::vector<render::Frame> Drawing::shutter_frames(const scene::View& view,
-                                                   const render::Frame& frame,
-                                                   const picture::Snapshot& snapshot) const {
+render::Moments Drawing::shutter_frames(const scene::View& view, const render::Frame& frame,
+                                        const picture::Snapshot& snapshot) const {
   if (!(job_.shutter > 0)) return {};
   return picture::shutter_moments({scene_, view, seeded_, snapshot}, frame, job_.shutter);
 }
 
-render::Image Drawing::draw_mean(const render::Frame& frame,
-                                 const std::vector<render::Frame>& moments,
+render::Image Drawing::draw_mean(const render::Frame& frame, const render::Moments& moments,
                                  const std::optional<render::Image>& plate) {
   const auto draw = [&](const render::Frame& moment) {
     return plate ? renderer_.draw_on_plate(moment, *plate) : renderer_.draw(moment);
   };
-  if (moments.empty()) return draw(frame);
+  if (moments.count == 0) return draw(frame);
   render::MeanImage mean;
-  for (const render::Frame& moment : picture::with_shared_samples(moments)) mean.add(draw(moment));
+  const render::Moments shared = picture::with_shared_samples(moments);
+  for (int k = 0; k < shared.count; ++k) mean.add(draw(shared.at(k)));
   return mean.mean();
 }
 
 output::WriteTask Drawing::draw_channels(const picture::MotionSource& source,
                                          const render::Frame& frame,
-                                         const std::vector<render::Frame>& moments) {
+                                         const render::Moments& moments) {
   render::channels::Request request = passes_->request(source, frame, pass_numbers_);
   request.moments = moments;
   auto picture =
@@ -164,7 +159,8 @@ std::vector<output::Picture> Drawing::draw_incident(const timeline::Timeline& ti
       caption.push_back(std::move(line));
   }
   for (const scene::Mosaic& mosaic : scene_.mosaics)
-    add(mosaic.name, picture::draw_mosaic(scene_, mosaic, build, caption, renderer_));
+    add(mosaic.name,
+        picture::draw_mosaic(scene_, mosaic, build, caption, job_.caption_lines(), renderer_));
   return pictures;
 }
 

@@ -53,15 +53,14 @@ class Drawing {
  private:
   picture::Snapshot take(const timeline::Timeline& timeline, const std::vector<scene::View>& views,
                          int frame, std::uint64_t state_hash);
-  bool is_alone(const scene::View& view) const;
   /// Frames while the shutter is open; none without motion blur.
-  std::vector<render::Frame> shutter_frames(const scene::View& view, const render::Frame& frame,
-                                            const picture::Snapshot& snapshot) const;
+  render::Moments shutter_frames(const scene::View& view, const render::Frame& frame,
+                                 const picture::Snapshot& snapshot) const;
   /// The mean of the moments, or the frame where there are none.
-  render::Image draw_mean(const render::Frame& frame, const std::vector<render::Frame>& moments,
+  render::Image draw_mean(const render::Frame& frame, const render::Moments& moments,
                           const std::optional<render::Image>& plate);
   output::WriteTask draw_channels(const picture::MotionSource& source, const render::Frame& frame,
-                                  const std::vector<render::Frame>& moments);
+                                  const render::Moments& moments);
   record::PictureRecord record_of(const std::string& view) const;
   render::PngText slate_text(const std::string& view, int number) const;
   output::Picture picture_of(const std::string& view, render::Image image) const;

@@ -359,7 +359,7 @@ ExportResult run_export(const ExportJob& job, int threads, Progress& progress) {
     output::make_folder(job.run.folder);
   else
     output::make_own_folder(job.run.folder);
-  exports::Exporter exporter(run.scene, job.run.folder, timeline.seeded().body_end);
+  exports::Exporter exporter(run.scene, job.run.folder, timeline.seeded());
   const Earlier earlier = earlier_exports(job);
   refuse_lost_exports(job, earlier, exporter.to_json(""));
   refuse_foreign_exports(job, earlier);

@@ -32,7 +32,7 @@ Ledger::Ledger(const RenderJob& job, const setup::SeededScene& seeded, record::R
     : job_(job),
       progress_(progress),
       record_(std::move(record)),
-      exporter_(job.scene, job.folder / output::exports_folder, seeded.body_end, job.changes) {}
+      exporter_(job.scene, job.folder / output::exports_folder, seeded, job.changes) {}
 
 void Ledger::replace_earlier() {
   record::remove_earlier_run(job_.folder);

@@ -16,6 +16,7 @@
 #include "app/scene/flat.h"
 #include "app/scene/read.h"
 #include "app/setup/curves.h"
+#include "app/setup/mosaic_layout.h"
 #include "app/setup/resolve.h"
 #include "app/setup/seed_scene.h"
 #include "app/support/errors.h"
@@ -166,6 +167,16 @@ const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& n
         found != mosaics->end())
       return &*found;
   return nullptr;
+}
+
+bool RenderJob::draws_alone(const scene::View& view) const {
+  return std::ranges::find(only_tiles, view.name) == only_tiles.end();
+}
+
+int RenderJob::caption_lines() const {
+  if (!options.has_caption) return 0;
+  const bool is_predicted = options.predicts || !prediction_lines.empty();
+  return setup::caption_lines(scene, is_predicted || !overrides.empty());
 }
 
 bool RenderJob::is_drawn_in_place() const {

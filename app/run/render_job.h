@@ -41,6 +41,10 @@ struct RenderJob : timeline::Origin {
 
   /// True where the folder is that of the run that is drawn, by whatever name.
   bool is_drawn_in_place() const;
+  /// False for a view that is drawn in a mosaic only.
+  bool draws_alone(const scene::View& view) const;
+  /// Of its mosaics, see setup::layout_of; 0 without a caption.
+  int caption_lines() const;
   bool has_movies() const { return options.has_movies && options.movie.is_made; }
 };
 

@@ -9,6 +9,7 @@
 #include "app/setup/push_in.h"
 #include "app/setup/subject.h"
 #include "app/support/round_number.h"
+#include "sim/rigid/mass.h"
 
 namespace neve::app::setup {
 
@@ -132,6 +133,19 @@ Framing near_the_smallest(const scene::Scene& scene, const std::vector<CoarseMom
   return is_clear(scene, near, whole.towards_eye, lens) ? near : whole.framing;
 }
 
+/// What a camera that follows something moves with, at the start.
+Vec3d place_of(const scene::Scene& scene, const std::string& name) {
+  for (const sim::seeding::Body& body : scene.bodies)
+    if (body.name == name) {
+      sim::shapes::Collider solid;
+      solid.shape = body.shape;
+      return sim::rigid::centre_at(solid, 0);
+    }
+  for (const sim::shapes::Collider& collider : scene.colliders)
+    if (collider.name == name) return sim::rigid::centre_at(collider, 0);
+  return Vec3d::Zero();
+}
+
 struct Place {
   Vec3d eye, target;
 };
@@ -193,7 +207,7 @@ scene::CameraSettings automatic_camera(const scene::Scene& scene,
     framing = near_the_smallest(scene, moments, {framing, towards_eye}, lens);
 
   scene::CameraSettings camera = settings;
-  const Vec3d origin = is_following ? middle : Vec3d::Zero();
+  const Vec3d origin = is_following ? place_of(scene, settings.follow) : Vec3d::Zero();
   const Place place = rounded_place(framing, towards_eye, origin);
   camera.eye = place.eye;
   camera.target = place.target;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "app/setup/curves.h"
 #include "app/setup/plan.h"
 
 namespace neve::app::setup {
@@ -82,8 +83,15 @@ MosaicLayout layout_of(const scene::Scene& scene, const scene::Mosaic& mosaic, i
   return layout;
 }
 
-scene::PictureSize size_of(const scene::Scene& scene, const scene::Mosaic& mosaic) {
-  const MosaicLayout layout = layout_of(scene, mosaic, 2);
+int caption_lines(const scene::Scene& scene, bool has_words) {
+  const bool has_more = has_words || !curves_text(scene, 0).empty() ||
+                        scene.solver.on_divergence == sim::OnDivergence::ignore;
+  return (scene.title.empty() ? 1 : 2) + (has_more ? 1 : 0);
+}
+
+scene::PictureSize size_of(const scene::Scene& scene, const scene::Mosaic& mosaic,
+                           int caption_lines) {
+  const MosaicLayout layout = layout_of(scene, mosaic, caption_lines);
   return {layout.width, layout.height};
 }
 

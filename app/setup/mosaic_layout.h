@@ -22,10 +22,19 @@ struct MosaicLayout {
 
 /// The width is shared evenly; each tile keeps the shape of its view, each row is as high as its
 /// highest tile.
-/// @param caption_lines how many lines the caption will have
+/// @param caption_lines  that have room
 MosaicLayout layout_of(const scene::Scene& scene, const scene::Mosaic& mosaic, int caption_lines);
 
-/// Size of the picture with the caption that a run without overrides has.
-scene::PictureSize size_of(const scene::Scene& scene, const scene::Mosaic& mosaic);
+/// Lines that a caption has room for. All pictures of a film have the same, so what only some of
+/// them tell does not count: it is smaller where it comes.
+/// @param has_words  all tell of overrides or of a prediction
+int caption_lines(const scene::Scene& scene, bool has_words);
+
+/// Of captions of any run.
+inline constexpr int most_caption_lines = 3;
+
+/// @param caption_lines  as for layout_of
+scene::PictureSize size_of(const scene::Scene& scene, const scene::Mosaic& mosaic,
+                           int caption_lines);
 
 }  // namespace neve::app::setup

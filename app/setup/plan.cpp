@@ -51,7 +51,8 @@ std::size_t picture_count(const scene::Scene& scene) {
 std::vector<scene::PictureSize> picture_sizes(const scene::Scene& scene) {
   std::vector<scene::PictureSize> sizes;
   for (const scene::View& view : scene.views) sizes.push_back(size_of(scene, view));
-  for (const scene::Mosaic& mosaic : scene.mosaics) sizes.push_back(size_of(scene, mosaic));
+  for (const scene::Mosaic& mosaic : scene.mosaics)
+    sizes.push_back(size_of(scene, mosaic, most_caption_lines));
   return sizes;
 }
 
@@ -318,15 +319,11 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
   // The plain arrays that go in at the start and come out for every picture.
   const double arrays =
       counted * static_cast<double>(sizeof(sim::Mat3d) * 3 + sizeof(sim::Vec3d) * 3);
-  // Points of each moment of an open shutter: place, number and value.
-  constexpr double moments = 16, point_bytes = 20;
-  const double blurred = quality == Quality::final ? counted * moments * point_bytes : 0;
   // States of exports wait for the worker as pictures do, and are text or bytes while it writes.
   const double exported = scene.exports.empty() ? 0 : arrays * (output::picture_queue_capacity + 2);
   plan.pictures = picture_memory(scene, quality) + channel_memory(scene, quality, channel_bytes);
-  plan.memory =
-      whole_bytes(simulated + arrays + exported + blurred + surface_memory(scene, counted) +
-                  collider_memory(scene) + dust_memory(scene) + plan.pictures);
+  plan.memory = whole_bytes(simulated + arrays + exported + surface_memory(scene, counted) +
+                            collider_memory(scene) + dust_memory(scene) + plan.pictures);
   set_limits(scene, plan);
   for (const scene::PictureSize& size : picture_sizes(scene)) {
     const double samples = supersampling(quality) * supersampling(quality);

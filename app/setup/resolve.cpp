@@ -37,13 +37,14 @@ bool faces_its_plane(const scene::View& view) {
          !scene::has_layer(view, scene::Layer::smoke);
 }
 
-/// A camera whose place neve found, before that. Keyframes that have places are those of push_in.
+/// A camera whose place neve found, before that. Keyframes that have places are those of push_in,
+/// which ends where the camera has been told to follow something since.
 scene::CameraSettings without_place(scene::CameraSettings camera) {
   camera.eye.reset();
   camera.target.reset();
   if (has_place(camera)) {
     camera.keyframes.clear();
-    camera.push_in = true;
+    camera.push_in = camera.follow.empty();
   }
   camera.found = scene::FoundCamera::nothing;
   return camera;

@@ -143,6 +143,21 @@ std::vector<sim::Vec3d> own_places(const scene::Scene& scene, const SeededScene&
   return places;
 }
 
+std::optional<sim::Vec3d> snow_centre(const SeededScene& seeded, std::size_t body,
+                                      const sim::ParticleArrays& particles) {
+  const std::size_t first = particles.first_from(seeded.body_begin(body)),
+                    end = particles.first_from(seeded.body_end[body]);
+  sim::Vec3d moment = sim::Vec3d::Zero();
+  double mass = 0;
+  for (std::size_t p = first; p < end; ++p) {
+    if (!particles.x[p].allFinite()) continue;
+    moment += particles.m[p] * particles.x[p];
+    mass += particles.m[p];
+  }
+  if (!(mass > 0)) return std::nullopt;
+  return sim::Vec3d(moment / mass);
+}
+
 sim::Simulation make_simulation(const scene::Scene& scene, const sim::ParticleArrays& particles,
                                 int threads) {
   return sim::Simulation(scene.solver, scene.materials, scene::sim_colliders(scene), particles,
@@ -154,6 +169,8 @@ SeededScene seed_scene(const scene::Scene& scene) {
   for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
     append_body(scene, index, seeded.particles);
     seeded.body_end.push_back(seeded.particles.x.size());
+    const auto centre = snow_centre(seeded, index, seeded.particles);
+    seeded.body_start.push_back(centre.value_or(sim::shapes::center(scene.bodies[index].shape)));
   }
   double volume = 0;
   for (const SnowPiece& piece : snow_pieces(scene)) volume += piece.volume;

@@ -131,10 +131,11 @@ void add_floor(const scene::Scene& scene, std::vector<Vec3d>& points) {
   for (const sim::shapes::Collider& collider : scene.colliders) {
     const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form);
     if (!plane || !collider.keyframes.empty()) continue;
-    const Vec3d up = plane->normal.normalized();
+    const sim::shapes::Pose pose = sim::shapes::pose_at(collider, 0);
+    const Vec3d up = pose.rotation * plane->normal.normalized();
     if (up.y() < 0.9) continue;
     for (const Vec3d& corner : corners(box.min, box.max)) {
-      const double height = (corner - plane->point).dot(up);
+      const double height = (corner - pose.point).dot(up);
       if (height > 0 && height < box.diagonal()) points.push_back(corner - height * up);
     }
   }

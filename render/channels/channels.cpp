@@ -50,10 +50,12 @@ void check_request(const Frame& frame, const Request& request) {
   }
   for (const PointNumbers& numbers : request.numbers)
     check_count(numbers.value.size(), numbers.channels.size() * points, numbers.name + " numbers");
-  for (const Frame& moment : request.moments)
-    if (moment.width != frame.width || moment.height != frame.height ||
-        moment.supersampling != frame.supersampling)
-      throw std::invalid_argument("Request: a moment of another size than the frame");
+}
+
+void check_moment(const Frame& frame, const Frame& moment) {
+  if (moment.width != frame.width || moment.height != frame.height ||
+      moment.supersampling != frame.supersampling)
+    throw std::invalid_argument("Request: a moment of another size than the frame");
 }
 
 }  // namespace neve::render::channels

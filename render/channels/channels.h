@@ -69,8 +69,8 @@ struct Request {
   std::vector<Vec3f> velocity;         ///< m/s, of each point
   std::vector<std::int32_t> body;      ///< of each point
   std::vector<Thing> meshes, grounds;  ///< one for each of the frame's
-  /// Frames within the shutter, over which light is averaged; empty: the frame itself.
-  std::vector<Frame> moments;
+  /// Over which light is averaged; none: the frame itself.
+  Moments moments;
 };
 
 /// Header with the matrices of the frame's camera, as the standard of OpenEXR has them: camera
@@ -80,5 +80,7 @@ ExrHeader camera_header(const Frame& frame);
 
 /// @throws std::invalid_argument for lists that are not as long as those of the frame
 void check_request(const Frame& frame, const Request& request);
+/// @throws std::invalid_argument for one of another size than the frame
+void check_moment(const Frame& frame, const Frame& moment);
 
 }  // namespace neve::render::channels

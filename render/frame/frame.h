@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -182,7 +183,7 @@ struct Plot {
   std::string title;              ///< "energy"
   std::string unit;               ///< "J", may be empty
   float x_end = 1;                ///< x starts at 0
-  std::optional<float> now = {};  ///< x of a line; values later than it are not drawn
+  std::optional<float> now = {};  ///< x of a line
   float min = 0, max = 1;         ///< of the values, the same in every frame
   std::vector<PlotSeries> series;
   std::string x_title = {}, x_unit = "s";
@@ -252,6 +253,12 @@ struct Frame {
   bool has_caption_plate = false;  ///< dark behind its lines: whatever is near stays readable
   int font_size = 0;               ///< px; 0: in proportion to the picture
   std::vector<Vec3f> marks;        ///< centres of rings that point out particles, for incidents
+};
+
+/// Frames within the shutter, made one at a time: each has places of its own for all points.
+struct Moments {
+  int count = 0;
+  std::function<Frame(int)> at{};  ///< from 0 on
 };
 
 }  // namespace neve::render

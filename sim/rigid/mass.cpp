@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "sim/shapes/deforming_mesh.h"
 #include "sim/shapes/mesh_surface.h"
 #include "sim/shapes/solid.h"
 
@@ -68,18 +69,20 @@ Unit unit(const shapes::Torus& s) {
   return {volume, Vec3d::Zero(), diagonal(across, volume * (R + 0.75 * r), across)};
 }
 
+shapes::Moments moments_of(const shapes::SolidMesh& mesh) {
+  if (mesh.moments) return *mesh.moments;
+  const std::vector<Vec3d>& vertices = mesh.vertices;
+  shapes::Moments moments;
+  // From a vertex, not from the file's origin, which may be far away.
+  moments.from = vertices.front();
+  for (const auto& t : mesh.triangles)
+    moments.add_tetrahedron(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+  return moments;
+}
+
 Unit unit(const shapes::Mesh& s) {
   const std::shared_ptr<const shapes::MeshSurface> surface = shapes::mesh_surface(s);
-  const std::vector<Vec3d>& vertices = surface->mesh().vertices;
-  shapes::Moments moments;
-  if (surface->mesh().moments) {
-    moments = *surface->mesh().moments;
-  } else {
-    // From a vertex, not from the file's origin, which may be far away.
-    moments.from = vertices.front();
-    for (const auto& t : surface->mesh().triangles)
-      moments.add_tetrahedron(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
-  }
+  const shapes::Moments moments = moments_of(surface->mesh());
   const double volume = moments.volume;
   if (!(volume > 0)) throw std::invalid_argument("its mesh has no volume that could have a mass");
   const Vec3d centre = moments.first / volume;
@@ -111,6 +114,27 @@ MassProperties mass_properties(const shapes::Collider& collider) {
   }
   if (body.inertia.minCoeff() > 0) out.inertia = body.inertia.asDiagonal();
   return out;
+}
+
+Vec3d centre_at(const shapes::Collider& collider, double time) {
+  const shapes::Shape& shape = collider.shape;
+  const shapes::Pose pose = shapes::pose_at(collider, time);
+  std::shared_ptr<const shapes::MeshSurface> surface;
+  if (const auto* mesh = std::get_if<shapes::Mesh>(&shape.form))
+    surface = shapes::mesh_surface(*mesh);
+  if (const auto* sequence = std::get_if<shapes::MeshSequence>(&shape.form))
+    surface = shapes::surface_at(*sequence, shapes::shape_time(collider, time));
+  if (surface) {
+    const shapes::Moments moments = moments_of(surface->mesh());
+    return moments.volume > 0
+               ? Vec3d(pose.point + pose.rotation * (moments.from + moments.first / moments.volume))
+               : shapes::bounds_at(collider, time).center();
+  }
+  if (std::holds_alternative<shapes::Points>(shape.form) ||
+      std::holds_alternative<shapes::Cover>(shape.form))
+    return shapes::bounds_at(collider, time).center();
+  if (!shapes::is_rigid_solid(shape)) return pose.point;
+  return pose.point + pose.rotation * shapes::form_axes(shape) * mass_properties(shape, 1).centre;
 }
 
 }  // namespace neve::sim::rigid

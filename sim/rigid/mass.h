@@ -22,4 +22,8 @@ MassProperties mass_properties(const shapes::Shape& shape, double density);
 /// Of a collider that has a body: its mass, density or inertia as given.
 MassProperties mass_properties(const shapes::Collider& collider);
 
+/// Centre of mass of a collider at a time, m, also of one that deforms; the middle of the box
+/// around what has none. A plane and a terrain have their point. @throws ShapeError
+Vec3d centre_at(const shapes::Collider& collider, double time);
+
 }  // namespace neve::sim::rigid

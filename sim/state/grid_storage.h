@@ -51,8 +51,10 @@ struct GridStorage {
   std::vector<kernels::BlockReport<Real>> reports;  ///< per particle block
   std::vector<double> node_contact_work;            ///< per node block, J
   std::vector<kernels::LoadSum> loads;              ///< per collider, of a step
+  std::vector<Vec3d>
+      moved;  ///< m, per collider: from its own point to the one of its load's moment
 
-  /// Adds what snow did to colliders in a step.
+  /// Adds what snow did to colliders in a step, about their own points.
   void add_loads(double unit, std::vector<ColliderLoad>& to) const;
   /// Combines the reports of all blocks.
   StepReport step_report() const;
@@ -74,11 +76,15 @@ struct GridStorage {
 template <class Real>
 void GridStorage<Real>::add_loads(double unit, std::vector<ColliderLoad>& to) const {
   to.resize(loads.size());
-  for (std::size_t k = 0; k < loads.size(); ++k)
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    Vec3d impulse, moment;
     for (int a = 0; a < 3; ++a) {
-      to[k].impulse[a] -= static_cast<double>(loads[k].impulse[a]) * unit;
-      to[k].angular_impulse[a] -= static_cast<double>(loads[k].moment[a]) * unit;
+      impulse[a] = static_cast<double>(loads[k].impulse[a]) * unit;
+      moment[a] = static_cast<double>(loads[k].moment[a]) * unit;
     }
+    to[k].impulse -= impulse;
+    to[k].angular_impulse -= moment + moved[k].cross(impulse);
+  }
 }
 
 template <class Real>

@@ -73,7 +73,7 @@ bool is_in_lattice(const Vec3d& x, double cell_size) {
 
 /// Kernels count from the point of the pose, in single precision. Where that would show, as for a
 /// mesh whose file has the coordinates of a map, the middle of the field takes its place. A body
-/// keeps its own: moments of its contact are about it.
+/// keeps its own: its steps take moments about it.
 void move_to_middle(const Mat3d& axes, double cell_size, shapes::Pose& pose,
                     shapes::DistanceSamples& samples) {
   constexpr double single = 0x1p-23, visible = 1e-3;  // of a cell
@@ -97,11 +97,12 @@ void move_to_foot(const shapes::Plane& plane, shapes::Pose& pose) {
 
 }  // namespace
 
-std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& c, double time,
-                                                 double cell_size, const Vec3i& lattice_origin,
-                                                 const shapes::DistanceSamples& samples,
-                                                 const shapes::HeightSamples& heights) {
+std::optional<KernelPose> kernel_pose(const shapes::Collider& c, double time, double cell_size,
+                                      const Vec3i& lattice_origin,
+                                      const shapes::DistanceSamples& samples,
+                                      const shapes::HeightSamples& heights) {
   shapes::Pose pose = shapes::pose_at(c, time);
+  const Vec3d own = pose.point;
   if (const auto* plane = std::get_if<shapes::Plane>(&c.shape.form);
       plane && !is_in_lattice(pose.point, cell_size))
     move_to_foot(*plane, pose);
@@ -109,7 +110,8 @@ std::optional<kernels::ColliderPose> kernel_pose(const shapes::Collider& c, doub
   shapes::DistanceSamples field = samples;
   if (field.distance && !c.body.moves()) move_to_middle(axes, cell_size, pose, field);
   if (!is_in_lattice(pose.point, cell_size)) return std::nullopt;
-  kernels::ColliderPose out{};
+  KernelPose out{};
+  out.moved = pose.point - own;
   out.contact = static_cast<kernels::ContactLaw>(c.contact);
   out.friction = c.friction;
   out.moves_by_itself = c.body.moves();

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/state/kernel_pose.h"
 #include "sim/types/errors.h"
 
 namespace neve::sim::engine {
@@ -139,8 +138,8 @@ shapes::HeightSamples MovingColliders::Field::heights() const {
 }
 
 /// What deforms has the shape that it was placed with.
-std::optional<kernels::ColliderPose> MovingColliders::pose_at(std::size_t k, const Lattice& lattice,
-                                                              double time, double until) const {
+std::optional<KernelPose> MovingColliders::pose_at(std::size_t k, const Lattice& lattice,
+                                                   double time, double until) const {
   auto pose = kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].samples(),
                           fields_[k].heights());
   if (pose) pose->shape_speed = shape_speed(k, time, until);
@@ -155,6 +154,7 @@ double MovingColliders::shape_speed(std::size_t k, double from, double to) const
 
 void MovingColliders::place(const Lattice& lattice, double time, ThreadPool& pool) {
   poses_.clear();
+  moved_.assign(list_.size(), Vec3d::Zero());
   has_begun_ = false;
   for (std::size_t k = 0; k < list_.size(); ++k) {
     if (fields_[k].deforming)
@@ -162,6 +162,7 @@ void MovingColliders::place(const Lattice& lattice, double time, ThreadPool& poo
     if (auto pose = pose_at(k, lattice, time, time)) {
       pose->index = static_cast<int>(k);
       poses_.push_back(*pose);
+      moved_[k] = pose->moved;
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "sim/shapes/collider.h"
 #include "sim/shapes/deforming_field.h"
 #include "sim/shapes/height_field.h"
+#include "sim/state/kernel_pose.h"
 #include "sim/state/lattice.h"
 
 namespace neve::sim::engine {
@@ -53,6 +54,8 @@ class MovingColliders {
   const std::vector<shapes::Collider>& list() const { return list_; }
   /// Poses of the colliders in reach of the lattice.
   const std::vector<kernels::ColliderPose>& poses() const { return poses_; }
+  /// m, for each collider from its own point to that of its pose, which its loads are about.
+  const std::vector<Vec3d>& moved() const { return moved_; }
   /// Whether one of them has a mesh that may deform.
   bool deform() const;
   std::uint64_t memory_bytes() const;
@@ -70,8 +73,8 @@ class MovingColliders {
   static Field make_field(const shapes::Collider& collider, const Lattice& lattice,
                           ThreadPool& pool);
   /// @param until  end of the span of time over which its shape may be as fast as the pose says
-  std::optional<kernels::ColliderPose> pose_at(std::size_t k, const Lattice& lattice, double time,
-                                               double until) const;
+  std::optional<KernelPose> pose_at(std::size_t k, const Lattice& lattice, double time,
+                                    double until) const;
   /// Speed of the fastest place of a shape that deforms, at any time from one to another, m/s.
   double shape_speed(std::size_t k, double from, double to) const;
 
@@ -80,6 +83,7 @@ class MovingColliders {
   bool has_begun_ = false;  ///< the step of the bodies
   std::vector<Field> fields_;
   std::vector<kernels::ColliderPose> poses_;
+  std::vector<Vec3d> moved_;
   std::vector<kernels::LocalCollider<double>> ahead_;  ///< seen from cell 0
   double cell_size_ = 0, dt_ = 0;                      ///< of look_ahead
 };

@@ -83,6 +83,7 @@ kernels::SweepArgs<Real> State<Real>::sweep_args(double dt, int channels) {
   a.reports = grid.reports.data();
   a.node_contact_work = grid.node_contact_work.data();
   grid.loads.assign(colliders.list().size(), kernels::LoadSum{});
+  grid.moved = colliders.moved();
   a.loads = grid.loads.data();
   a.load_count = static_cast<int>(grid.loads.size());
   a.load_unit = method.load_unit;

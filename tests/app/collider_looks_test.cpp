@@ -6,7 +6,10 @@
 
 #include <cmath>
 
+#include "app/picture/frame_builder.h"
+#include "app/picture/shutter.h"
 #include "app/scene/read.h"
+#include "app/setup/seed_scene.h"
 #include "render/shapes/mesh_shapes.h"
 #include "sim/shapes/held_files.h"
 #include "tests/support/meshes.h"
@@ -122,6 +125,27 @@ TEST_F(ColliderLooks, WiresAndGhostsAreTheSameSurfaces) {
 }
 
 /// A box without its lid: twelve edges, of which four have one face.
+/// Its pose rests, and so does the snow.
+TEST_F(ColliderLooks, AMeshThatDeformsIsBlurredByThat) {
+  const scene::Scene scene = scene::read_scene_text(
+      "[camera]\neye = [0, 0.5, 3]\ntarget = [0, 0, 0]\n"
+      "[[body]]\nshape = { sphere = { center = [1, 0, 0], radius = 0.1 } }\n"
+      "[[collider]]\nshape = { mesh_sequence = { files = \"box_%d.obj\", first = 0, last = 2, rate "
+      "= "
+      "3 } }\n",
+      "s.toml", folder_.path().string());
+  const setup::SeededScene seeded = setup::seed_scene(scene);
+  const sim::Simulation simulation = setup::make_simulation(scene, seeded.particles, 1);
+  picture::Snapshot snapshot = picture::take_snapshot(scene, scene.views, simulation, 0);
+  snapshot.time = 0.2;
+  const render::Frame frame = picture::FrameBuilder(scene, seeded).build(scene.views[0], snapshot);
+  const render::Moments moments =
+      picture::shutter_moments({scene, scene.views[0], seeded, snapshot}, frame, 180);
+  ASSERT_GT(moments.count, 1);
+  EXPECT_NE(moments.at(0).meshes.at(0), moments.at(moments.count - 1).meshes.at(0));
+  EXPECT_EQ(moments.at(0).points.position, frame.points.position) << "the snow rests";
+}
+
 TEST(MeshLines, RimsOfHolesAreLines) {
   const std::vector<Vec3f> corners{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1},
                                    {0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}};

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/health/mesh_findings.h"
 #include "app/scene/coarsen.h"
 #include "app/scene/read.h"
 #include "app/setup/coarse_run.h"
@@ -49,6 +50,26 @@ TEST(Findings, WallThroughWhichSnowIsDraggedIsFound) {
             "if snow lies on both of its sides, what slides on one side drags what lies on the "
             "other, because nodes reach over less than 3; make it thicker; solver.cell_size = "
             "0.01");
+}
+
+/// Simulations keep their digits there.
+TEST(Findings, SnowSoFarAwayThatPicturesRoundItIsFound) {
+  const auto found = [](double x) {
+    std::vector<health::Finding> findings;
+    health::check_meshes(
+        scene::read_scene_text(fmt::format("[solver]\ncell_size = 0.02\n[[body]]\nname = \"ball\"\n"
+                                           "shape = {{ sphere = {{ center = [{}, 0.5, 0], radius = "
+                                           "0.2 }} }}\n",
+                                           x),
+                               "far.toml"),
+        findings);
+    return findings;
+  };
+  EXPECT_TRUE(found(2000).empty());
+  ASSERT_EQ(found(20000).size(), 1u);
+  EXPECT_EQ(found(20000)[0].address, "body.ball.shape");
+  EXPECT_NE(found(20000)[0].what.find("0.119 cells apart"), std::string::npos)
+      << found(20000)[0].what;
 }
 
 /// 3 times 0.07 is more than 0.21 in floating point.

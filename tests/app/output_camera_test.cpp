@@ -13,6 +13,7 @@
 #include "app/setup/coarse_run.h"
 #include "app/setup/resolve.h"
 #include "app/setup/seed_scene.h"
+#include "tests/support/meshes.h"
 
 namespace neve::app {
 namespace {
@@ -116,12 +117,42 @@ TEST(AutomaticCamera, ACameraThatFollowsABodyFramesIt) {
                app::scene::toml::SceneError);
 }
 
+TEST(AutomaticCamera, ACameraThatFollowsAMeshFramesItWhereverTheOriginOfItsFileIs) {
+  const test::TemporaryFolder folder;
+  const auto moved = [](double) { return sim::Vec3d(5, 0.2, 0); };
+  folder.write("boot.obj", test::plate_obj({0.4, 0.4, 0.4}, 1, moved));
+  const std::string mesh =
+      "shape = { mesh = { file = \"" + (folder / "boot.obj").string() + "\" } }\n";
+  for (const char* kind : {"body", "collider"}) {
+    SCOPED_TRACE(kind);
+    scene::Scene scene = scene::read_scene_text(
+        std::string("[camera]\nfollow = \"boot\"\n[[") + kind + "]]\nname = \"boot\"\n" + mesh +
+            "[[body]]\nshape = { sphere = { center = [5, 1, 0], radius = 0.1 } }\n"
+            "[[view]]\nname = \"cut\"\nlayers = [\"heatmap\"]\nslice = { follow = \"boot\" }\n"
+            "[[view]]\nname = \"all\"\n",
+        "boot.toml");
+    const setup::SeededScene seeded = setup::seed_scene(scene);
+    setup::resolve(scene, seeded.particles.x.size());
+    picture::Snapshot snapshot;
+    snapshot.particles = seeded.particles;
+    const setup::CameraPlace place = picture::camera_place(scene, scene.views[1], seeded, snapshot);
+    const sim::Vec3d middle(5, 0.2, 0);
+    EXPECT_LT((place.target - middle).norm(), 0.1);
+    EXPECT_LT((picture::plane_of(scene, scene.views[0], seeded, snapshot).point - middle).norm(),
+              0.01);
+    // Once a sink has taken it, they stay.
+    if (std::string(kind) == "collider") continue;
+    snapshot.particles = {};
+    EXPECT_EQ(picture::camera_place(scene, scene.views[1], seeded, snapshot).target, place.target);
+  }
+}
+
 /// The coarse run of one frame ends long before the snow is on the floor.
 TEST(AutomaticCamera, ASliceShowsTheFloorBelow) {
   app::scene::Scene scene = app::scene::read_scene_text(
       "frames = 1\n[[body]]\nshape = { sphere = { center = [0, 0.6, 0], radius = 0.16 } }\n"
       "[[collider]]\nshape = { box = { center = [0, 0.3, 0], size = [0.2, 0.2, 0.2] } }\n"
-      "[[collider]]\nshape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }\n"
+      "[[collider]]\nshape = { plane = { normal = [0, 0, 1], rotation = [-90, 0, 0] } }\n"
       "[[view]]\nname = \"slice\"\n[[view]]\nname = \"particles\"\n",
       "post.toml");
   app::setup::resolve(scene, 1000);

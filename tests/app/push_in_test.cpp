@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/scene/override.h"
 #include "app/scene/read.h"
 #include "app/scene/toml/error.h"
 #include "app/setup/camera_path.h"
@@ -103,6 +104,12 @@ TEST(PushIn, TheResolvedSceneHasTheWholeMove) {
   EXPECT_EQ(scene::write_scene(again), text);
   for (const double time : {0.0, 0.7, 1.3, 1.9})
     EXPECT_EQ(camera_of(again, time).eye, camera_of(scene, time).eye) << time;
+  // What it is told to follow moves it.
+  const std::vector<scene::Override> changes = scene::parse_overrides({"camera.follow=ball"});
+  scene::Scene following = scene::read_scene_text(text, "again.toml", {}, changes);
+  setup::reopen(following, changes);
+  setup::resolve(following, 1000);
+  EXPECT_TRUE(following.camera->eye && following.camera->keyframes.empty());
 }
 
 TEST(PushIn, ItStandsStillInAFilmTooShortForASlowMove) {

@@ -257,6 +257,18 @@ TEST(Mosaic, MosaicIsAsWideAsTheOutput) {
   EXPECT_EQ(layout.tiles[1].y, layout.tiles[0].y);
 }
 
+/// What comes in the middle of a film, as a rule that is ignored, must not change the height.
+TEST(Mosaic, ItsHeightIsKnownBeforeTheRun) {
+  scene::Scene scene = scene_with("");
+  scene.title.clear();
+  EXPECT_EQ(setup::caption_lines(scene, false), 1);
+  EXPECT_EQ(setup::caption_lines(scene, true), 2);
+  scene.title = "fall";
+  EXPECT_EQ(setup::caption_lines(scene, false), 2);
+  scene.solver.on_divergence = sim::OnDivergence::ignore;
+  EXPECT_EQ(setup::caption_lines(scene, false), setup::most_caption_lines);
+}
+
 TEST(Mosaic, MosaicMayNameBuiltInViews) {
   const app::scene::Scene scene = scene_with("[[mosaic]]\nviews = [\"particles\", \"slice\"]\n");
   ASSERT_EQ(scene.views.size(), 2u);

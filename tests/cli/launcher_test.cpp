@@ -132,6 +132,18 @@ TEST_F(Launcher, PackagesAreInstalledOnlyWhereSomeAreMissing) {
   EXPECT_TRUE(contains(calls(), "apt-get install -y --no-install-recommends libfmt-dev\n"));
 }
 
+/// A machine may have its own ffmpeg, or none.
+TEST_F(Launcher, WhatOnlyDrawsAndFilmsIsNoReasonToStop) {
+  if (::geteuid() == 0 && !fs::exists("/usr/bin/setpriv")) SKIP_OR_FAIL("no setpriv (util-linux)");
+  if (fs::exists("/usr/bin/sudo")) GTEST_SKIP() << "this machine has sudo";
+  let_others_write(true);
+  fs::remove(folder / "bin/sudo");
+  const auto refused = launch({"version"}, "libfmt-dev"), built = launch({"version"}, "ffmpeg");
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_EQ(built.output, "built version\n") << built.errors;
+  EXPECT_TRUE(contains(built.errors, "goes on without ffmpeg: not root and no sudo"));
+}
+
 TEST_F(Launcher, ABuildThatCannotStartOrIsOfElsewhereIsMadeAnew) {
   if (::geteuid() == 0 && !fs::exists("/usr/bin/setpriv")) SKIP_OR_FAIL("no setpriv (util-linux)");
   let_others_write(true);

@@ -126,7 +126,16 @@ TEST_F(Cli, AMosaicHasTheCaptionThatIsAskedForAndTheCounterOfItsViews) {
     more.insert(more.begin(), {"render", "plain.toml", "--view", "both", "--frames", "0-0", "--out",
                                out, "--quiet"});
     EXPECT_EQ(neve(more).exit_code, 0);
-    return render::decode_png(app::output::read_file(folder / (out + "/both/0000.png")));
+    const auto image =
+        render::decode_png(app::output::read_file(folder / (out + "/both/0000.png")));
+    more.insert(more.end(), {"--dry-run", "--replace"});
+    const std::string plan = neve(more).output;
+    EXPECT_NE(plan.find("both, " + std::to_string(image.width) + "x" +
+                        std::to_string(image.height) + "\n"),
+              std::string::npos)
+        << plan;
+    EXPECT_EQ(plan.find("view  "), std::string::npos) << "tiles are no pictures of their own";
+    return image;
   };
   const render::Image with = drawn({}, "a"), without = drawn({"--no-caption"}, "b"),
                       counted = drawn({"--no-caption", "--set",

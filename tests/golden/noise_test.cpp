@@ -62,7 +62,7 @@ class Shaded {
     frame.is_transparent = true;
     return frame;
   }
-  std::vector<render::Frame> moments(const render::Frame& frame) const {
+  render::Moments moments(const render::Frame& frame) const {
     return picture::shutter_moments({scene_, view_, seeded_, snapshot_}, frame, 180);
   }
 
@@ -72,6 +72,12 @@ class Shaded {
   scene::View view_;
   picture::Snapshot snapshot_;
 };
+
+std::vector<render::Frame> all(const render::Moments& moments) {
+  std::vector<render::Frame> frames;
+  for (int k = 0; k < moments.count; ++k) frames.push_back(moments.at(k));
+  return frames;
+}
 
 /// Moves the picture by parts of a pixel, for what is as far away as the target.
 void shift(float right, float up, render::Frame& frame) {
@@ -137,17 +143,17 @@ TEST(Noise, FinalQualityShowsNoneWhereSnowIsBlurredByItsMotion) {
   render::Renderer renderer(*context);
   const Shaded flying("1.2");
   const render::Frame frame = flying.frame();
-  const std::vector<render::Frame> moments = flying.moments(frame);
-  ASSERT_GT(moments.size(), 4u);
+  const render::Moments moments = flying.moments(frame);
+  ASSERT_GT(moments.count, 4);
   render::MeanImage mean, reference;
-  for (const render::Frame& moment : picture::with_shared_samples(moments))
+  for (const render::Frame& moment : all(picture::with_shared_samples(moments)))
     mean.add(renderer.draw(moment));
   // Twice the size moves by twice the pixels, and has twice the moments.
   render::Frame large = frame;
   large.width *= 2;
   large.height *= 2;
-  std::vector<render::Frame> more = flying.moments(large);
-  ASSERT_GT(more.size(), 1.5 * static_cast<double>(moments.size()));
+  std::vector<render::Frame> more = all(flying.moments(large));
+  ASSERT_GT(static_cast<double>(more.size()), 1.5 * moments.count);
   for (render::Frame& moment : more) {
     moment.width = frame.width;
     moment.height = frame.height;
@@ -197,7 +203,7 @@ TEST(Noise, GrainRemainsWhereSnowIsBlurredByItsMotion) {
   render::Renderer renderer(*context);
   const Shaded flying("2.4");
   const render::Frame frame = flying.frame();
-  std::vector<render::Frame> moments = picture::with_shared_samples(flying.moments(frame));
+  std::vector<render::Frame> moments = all(picture::with_shared_samples(flying.moments(frame)));
   ASSERT_GT(moments.size(), 12u);
   render::MeanImage with, without;
   for (render::Frame& moment : moments) {
@@ -224,7 +230,7 @@ TEST(Noise, SomeMomentsOfMotionBlurShareTheSamplesOfAPixel) {
     const Shaded moving(velocity);
     render::Frame frame = moving.frame();
     frame.supersampling = supersampling;
-    return picture::with_shared_samples(moving.moments(frame));
+    return all(picture::with_shared_samples(moving.moments(frame)));
   };
   EXPECT_EQ(moments_at("0.2", 1).size(), 2u);  // 1.5 pixels
   EXPECT_EQ(moments_at("0.6", 1).size(), 6u);
@@ -245,7 +251,7 @@ TEST(Noise, WordsStayWhereMomentsShareSamples) {
   const Shaded flying("1.2");
   render::Frame frame = flying.frame();
   frame.labels = {{{0.03f, 0.07f, 0}, "ball"}};
-  std::vector<render::Frame> moments = picture::with_shared_samples(flying.moments(frame));
+  std::vector<render::Frame> moments = all(picture::with_shared_samples(flying.moments(frame)));
   ASSERT_GT(moments.size(), 4u);
   std::optional<render::Image> first;
   for (render::Frame& moment : moments) {
@@ -266,7 +272,7 @@ TEST(Noise, SnowAtRestKeepsItsGrainWhereMomentsShareSamples) {
   frame.camera.eye = frame.camera.eye * 2.2f;  // grains of about a pixel and a half
   render::MeanImage shared, coarse;
   std::vector<render::Frame> moments =
-      picture::with_shared_samples(std::vector<render::Frame>(16, frame));
+      all(picture::with_shared_samples({16, [&](int) { return frame; }}));
   for (render::Frame& moment : moments) {
     shared.add(renderer.draw(moment));
     moment.grain_detail = 1;

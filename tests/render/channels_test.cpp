@@ -430,9 +430,11 @@ TEST(Channels, LightIsAveragedOverTheMomentsOfTheShutter) {
   Frame frame = one_sphere();
   frame.is_transparent = true;
   channels::Request request = request_for(frame);
-  request.moments.assign(2, frame);
-  request.moments[0].points.position = {{-0.3f, 0, 0}};
-  request.moments[1].points.position = {{0.3f, 0, 0}};
+  request.moments = {2, [&](int k) {
+                       Frame moment = frame;
+                       moment.points.position = {{k == 0 ? -0.3f : 0.3f, 0, 0}};
+                       return moment;
+                     }};
   const Drawn drawn(*context, frame, request);
   EXPECT_FLOAT_EQ(drawn.at("A", 33, 45), 0.5f);
   EXPECT_FLOAT_EQ(drawn.at("A", 87, 45), 0.5f);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "tests/support/meshes.h"
 #include "tests/support/rest.h"
 #include "tests/support/snow.h"
 
@@ -62,6 +63,27 @@ TEST(Loads, SnowAtRestPressesWithItsWeight) {
     const Vec3d torque = (s.centre_of_mass - (place.point + aside)).cross(weight);
     EXPECT_LE((load.angular_impulse - torque).norm(), 0.04 * torque.norm());
   }
+}
+
+/// Kernels count from the middle of a mesh that is far from its file's origin, the torque does not.
+TEST(Loads, TheTorqueOnAMeshIsAboutTheOriginOfItsFile) {
+  const TemporaryFolder folder;
+  const RestingPlace place = tilted_place(0, 0);
+  const Vec3d away(1000, 0, 0);
+  const auto load_on = [&](const std::string& name, const Vec3d& shift) {
+    folder.write(name, plate_obj({0.6, 0.4, 0.6}, 1, [&](double) { return shift; }));
+    shapes::Collider box;
+    box.shape.form =
+        shapes::Mesh{(folder / name).string(), 1, place.point - Vec3d(0, 0.2, 0) - shift};
+    Simulation simulation(rest_settings(flip_cubic()), {Material{}}, {box}, block_at(place, 0.1),
+                          1);
+    return mean_load(simulation, 0.02);
+  };
+  const ColliderLoad near = load_on("near.obj", Vec3d::Zero()), far = load_on("far.obj", away);
+  ASSERT_LT(near.impulse.y(), -0.1);
+  EXPECT_LT((far.impulse - near.impulse).norm(), 1e-3 * near.impulse.norm());
+  const Vec3d expected = near.angular_impulse + away.cross(far.impulse);
+  EXPECT_LT((far.angular_impulse - expected).norm(), 1e-5 * expected.norm());
 }
 
 /// What snow loses in momentum, colliders get. Relative to the impulses: rounding of some hundred
