@@ -35,7 +35,8 @@ std::string force_line(const record::ColliderForce& force) {
 }
 
 std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOptions& options,
-                                 const dump::StepInspection& inside, const dump::Listing& listing) {
+                                 const dump::StepInspection& inside, const dump::Listing& listing,
+                                 std::uint64_t state_hash) {
   const char* const given_up = inside.step.is_given_up
                                    ? "; its solve is given up: a run takes shorter ones in its "
                                      "place, and after no stage is as it is here"
@@ -53,7 +54,7 @@ std::vector<std::string> heading(const run::RenderJob& job, const dump::DumpOpti
                      " are left out of the summary, lighter than " +
                      rough_text(health::Expected::negligible_share()) + " rho h^3"
                : std::string(" particles")),
-      "state " + record::hash_text(inside.simulation.state_hash())};
+      "state " + record::hash_text(state_hash)};
   for (const record::ColliderForce& force : dump::forces_in_step(inside))
     if (force.force != sim::Vec3d::Zero() || force.max_pressure > 0)
       lines.push_back(force_line(force));
@@ -109,7 +110,7 @@ void warn_of_far_probes(const dump::DumpOptions& options, const dump::StepInspec
 
 Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
                const dump::StepInspection& inside, const dump::Listing& listing,
-               const std::vector<std::size_t>& probed) {
+               std::uint64_t state_hash, const std::vector<std::size_t>& probed) {
   Json json;
   json["scene"] = job.scene_file;
   json["time"] = inside.simulation.time();
@@ -117,7 +118,7 @@ Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
   json["dt"] = inside.dt;
   json["dt_limit"] = sim::name(inside.limit);
   json["stage"] = options.stage ? Json(sim::name(*options.stage)) : Json();
-  json["state_hash"] = record::hash_text(inside.simulation.state_hash());
+  json["state_hash"] = record::hash_text(state_hash);
   json[listing.is_of_nodes ? "nodes" : "particles"] = listing.place.size();
   json["forces"] = Json::array();
   for (const record::ColliderForce& force : dump::forces_in_step(inside))
@@ -132,8 +133,8 @@ Json dump_json(const run::RenderJob& job, const dump::DumpOptions& options,
 /// The text of one moment that is no JSON.
 std::string dump_text(const run::RenderJob& job, const dump::DumpOptions& options,
                       const dump::StepInspection& inside, const dump::Listing& listing,
-                      const std::vector<std::size_t>& probed) {
-  const std::vector<std::string> head = heading(job, options, inside, listing);
+                      std::uint64_t state_hash, const std::vector<std::size_t>& probed) {
+  const std::vector<std::string> head = heading(job, options, inside, listing, state_hash);
   std::string text;
   for (const std::string& line : head) text += line + "\n";
   if (options.is_histogram) {
@@ -166,15 +167,17 @@ class DumpOutput {
   DumpOutput(const run::RenderJob& job, const dump::DumpOptions& options)
       : job_(job), options_(options) {}
 
-  void add(const dump::StepInspection& inside, const dump::Listing& listing) {
+  /// @param state_hash  before the step
+  void add(const dump::StepInspection& inside, const dump::Listing& listing,
+           std::uint64_t state_hash) {
     std::vector<std::size_t> probed;
     for (const dump::Probe& probe : options_.probes)
       probed.push_back(probed_row(inside, listing, probe));
     if (options_.run.is_json) {
-      list_.push_back(dump_json(job_, options_, inside, listing, probed));
+      list_.push_back(dump_json(job_, options_, inside, listing, state_hash, probed));
       return;
     }
-    put(dump_text(job_, options_, inside, listing, probed));
+    put(dump_text(job_, options_, inside, listing, state_hash, probed));
   }
 
   void finish() {
@@ -254,13 +257,28 @@ int run_dump(const dump::DumpOptions& given) {
     if (is_interrupted()) throw Error(exit_interrupted, "interrupted before the requested time");
     if (simulation.divergence())
       progress.warning(simulation.divergence()->sentence + "; this is its last state");
-    const double left = timeline.frame_end() - simulation.time();
-    const scene::Scene& scene = *timeline.here().scene;
-    const dump::StepInspection inside =
-        dump::inspect_step(scene, simulation, left > 0 ? left : 1 / job.scene.fps);
-    const dump::Listing listing = listing_of(options, inside);
-    warn_of_far_probes(options, inside, listing, progress);
-    out.add(inside, listing);
+    const auto inspect = [&] {
+      const double left = timeline.frame_end() - simulation.time();
+      return dump::inspect_step(*timeline.here().scene, simulation,
+                                left > 0 ? left : 1 / job.scene.fps);
+    };
+    // The state is as the last step has left it; all else is of the next step, for which curves may
+    // have other values.
+    const std::uint64_t state_hash = simulation.state_hash();
+    std::optional<dump::StepInspection> before;
+    std::optional<dump::Listing> state;
+    if (!options.stage) {
+      before.emplace(inspect());
+      state = listing_of(options, *before);
+    }
+    timeline.look_at_next([&](bool has_other_values) {
+      std::optional<dump::StepInspection> other;
+      if (has_other_values || !before) other.emplace(inspect());
+      const dump::StepInspection& inside = other ? *other : *before;
+      const dump::Listing listing = state ? *std::move(state) : listing_of(options, inside);
+      warn_of_far_probes(options, inside, listing, progress);
+      out.add(inside, listing, state_hash);
+    });
     if (simulation.divergence()) break;
   }
   out.finish();

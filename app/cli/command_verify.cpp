@@ -51,24 +51,25 @@ Findings verify_run_folder(const fs::path& folder) {
 }
 
 /// The folder of `neve export --out`, or of `neve compare --out`.
-Findings verify_listed_folder(const record::Verification& found) {
+Findings verify_listed_folder(const record::Verification& found, const char* what) {
   Findings findings{found};
   findings.is_run = false;
-  if (found.status == "interrupted") findings.unfinished = "the export is not finished";
+  if (found.status == "interrupted") findings.unfinished = std::string(what) + " is not finished";
   return findings;
 }
 
-/// Lists of files of a folder that no run has made.
-std::array<fs::path, 2> lists_of(const fs::path& folder) {
-  return {output::export_list_path(folder), output::comparison_list_path(folder)};
+/// Lists of files of a folder that no run has made, and what made them.
+std::array<std::pair<fs::path, const char*>, 2> lists_of(const fs::path& folder) {
+  return {{{output::export_list_path(folder), "the export"},
+           {output::comparison_list_path(folder), "the comparison"}}};
 }
 
 Findings verify_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(output::run_json_path(folder), error)) return verify_run_folder(folder);
-  for (const fs::path& list : lists_of(folder))
+  for (const auto& [list, what] : lists_of(folder))
     if (const std::optional<record::Verification> found = record::verify_list(list))
-      return verify_listed_folder(*found);
+      return verify_listed_folder(*found, what);
   return verify_run_folder(folder);
 }
 
@@ -134,7 +135,7 @@ bool has_rest_of_run(const fs::path& folder) {
 void require_run(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(output::run_json_path(folder), error)) return;
-  for (const fs::path& list : lists_of(folder))
+  for (const auto& [list, what] : lists_of(folder))
     if (fs::exists(list, error)) return;
   if (has_rest_of_run(folder)) return;
   const FolderAdvice advice = advice_on_folder(folder);

@@ -35,7 +35,6 @@ std::optional<view::session::Opened> look_at(view::session::Opened opened,
   const std::string file = opened.document.file();
   view::session::WorkbenchOptions bench_options;
   bench_options.session.threads = options.run.threads;
-  bench_options.session.kept_budget = options.kept_memory;
   bench_options.session.past = std::move(opened.past);
   bench_options.overrides = std::move(opened.overrides);
   bench_options.backend = options.run.backend;

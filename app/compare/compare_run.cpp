@@ -112,10 +112,11 @@ class PairRun {
       draw_states(*renderer);
     else
       list_moments();
+    if (result_.moments.empty()) return;  // interrupted: what was there before stays
     if (target_.has(Mode::metrics)) add_metrics(renderer ? &*renderer : nullptr);
     for (std::string& warning : target_.add_movies(pair_.a.job.scene))
       result_.warnings.push_back(std::move(warning));
-    target_.finish();
+    target_.finish(result_.is_whole);
   }
 
  private:
@@ -154,12 +155,12 @@ class PairRun {
       const bool is_there = advance(a, pair_.a, frame) && advance(b, pair_.b, frame);
       if (is_there && target_.has(Mode::displacement))
         follow_births(birth_problem(pair_, a.simulation(), b.simulation()), frame);
-      // Nothing of an earlier comparison goes before this one is known to be possible.
-      if (frame == frames.first) target_.begin(numbers_of(frames));
       if (!is_there) {
         result_.is_whole = false;
         return;
       }
+      // Nothing of an earlier comparison goes before this one is known to be possible.
+      if (frame == frames.first) target_.begin(numbers_of(frames));
       result_.moments.push_back(moment(frame));
       painter.take(a, b, target_.modes(), result_.moments.back());
       for (const Mode mode : target_.modes())
@@ -201,9 +202,7 @@ class PairRun {
     const auto named = [](const Side& side) {
       return side.values.empty() ? side.job.scene_file : side.job.scene_file + "   " + side.values;
     };
-    // Interrupted before the first moment, there is nothing to draw.
-    if (renderer && !result_.moments.empty())
-      picture = draw_series(result_.moments, named(pair_.a), named(pair_.b), *renderer);
+    if (renderer) picture = draw_series(result_.moments, named(pair_.a), named(pair_.b), *renderer);
     target_.add_metrics(series_csv(result_.moments), picture,
                         text_of(options_, Mode::metrics, std::nullopt, &pair_));
   }

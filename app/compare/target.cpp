@@ -133,6 +133,20 @@ std::set<std::string> Target::files_to_come(const setup::FrameRange& frames) con
   return files;
 }
 
+/// Files of others in the place of those to come.
+void Target::refuse_foreign(const Json& earlier, const setup::FrameRange& frames) const {
+  if (replaces_) return;
+  std::set<std::string> listed;
+  for (const auto& [name, hash] : record::files_made(out_, earlier)) listed.insert(name);
+  const std::vector<std::string> files = record::foreign_files(out_, files_to_come(frames), listed);
+  if (files.empty()) return;
+  throw UsageError(
+      "--out",
+      fmt::format("{} has files that no neve compare there has made; it would replace {}",
+                  out_.string(), record::files_text(files)),
+      "add --replace, or choose another folder with --out");
+}
+
 /// A comparison that is made again loses nothing.
 void Target::refuse_loss(const Json& earlier, const setup::FrameRange& frames) const {
   if (replaces_) return;
@@ -140,7 +154,7 @@ void Target::refuse_loss(const Json& earlier, const setup::FrameRange& frames) c
       earlier.is_object() && earlier.contains("a") &&
       !(is_same_run(earlier["a"], a_) && is_same_run(earlier.value("b", Json()), b_));
   const std::set<std::string> to_come = files_to_come(frames);
-  record::FileHashes lost = record::file_hashes(earlier);
+  record::FileHashes lost = record::files_made(out_, earlier);
   if (!is_of_others)
     std::erase_if(lost, [&](const auto& file) { return to_come.contains(file.first); });
   const std::vector<std::string> gone = record::unchanged_files(out_, lost);
@@ -163,7 +177,10 @@ void Target::begin(const setup::FrameRange& frames) {
   lock_.emplace(out_, "neve compare");
   const Json earlier = record::read_json(output::comparison_list_path(out_));
   refuse_loss(earlier, frames);
-  record::remove_listed(out_, record::file_hashes(earlier));
+  refuse_foreign(earlier, frames);
+  record::remove_listed(out_, record::files_made(out_, earlier));
+  // If this one is killed, the next one knows which files were to be its own.
+  write_list(false, files_to_come(frames));
   for (const Mode mode : modes_)
     if (mode != Mode::metrics) output::make_own_folder(folder_of(mode));
 }
@@ -217,14 +234,17 @@ void Target::add_metrics(const std::string& csv, const std::optional<render::Ima
   files_.push_back(output::write_hashed(file, render::encode_png(*picture, text)));
 }
 
-void Target::finish() {
-  if (kind_ != TargetKind::folder) return;
+void Target::finish(bool is_whole) {
+  if (kind_ == TargetKind::folder) write_list(is_whole, {});
+}
+
+void Target::write_list(bool is_whole, const std::set<std::string>& begun) const {
   record::FileHashes hashes;
   for (const output::WrittenFile& file : files_)
     hashes[file.file.lexically_relative(out_).generic_string()] = record::hash_text(file.hash);
-  output::write_file(
-      output::comparison_list_path(out_),
-      record::with_own_hash({{"version", version}, {"a", a_}, {"b", b_}, {"files", hashes}}));
+  Json list{{"version", version}, {"a", a_}, {"b", b_}, {"is_whole", is_whole}, {"files", hashes}};
+  if (!begun.empty()) list["begun"] = begun;
+  output::write_file(output::comparison_list_path(out_), record::with_own_hash(list));
 }
 
 }  // namespace neve::app::compare

@@ -38,7 +38,8 @@ class Target {
   void check_movies(double fps) { movie_ = output::available_movie(movie_, fps); }
   /// Takes the folder and removes the files that an earlier comparison wrote there.
   /// @param frames  numbers of the pictures to come
-  /// @throws UsageError where some are of other runs or will not be made again, without --replace
+  /// @throws UsageError where some are of other runs or will not be made again, or others have made
+  /// what has their names, without --replace
   void begin(const setup::FrameRange& frames);
   /// @param text  what made it
   void add(Mode mode, int frame, const render::Image& image, const render::PngText& text);
@@ -48,7 +49,8 @@ class Target {
   void add_metrics(const std::string& csv, const std::optional<render::Image>& picture,
                    const render::PngText& text);
   /// Lists the files in compare.json, with their hashes; only in a folder.
-  void finish();
+  /// @param is_whole  all frames that were to come are there
+  void finish(bool is_whole);
 
   std::vector<std::filesystem::path> files() const;
 
@@ -56,6 +58,8 @@ class Target {
   std::filesystem::path folder_of(Mode mode) const;
   std::set<std::string> files_to_come(const setup::FrameRange& frames) const;
   void refuse_loss(const Json& earlier, const setup::FrameRange& frames) const;
+  void refuse_foreign(const Json& earlier, const setup::FrameRange& frames) const;
+  void write_list(bool is_whole, const std::set<std::string>& begun) const;
 
   std::filesystem::path out_;
   std::string a_, b_;  ///< as they were named

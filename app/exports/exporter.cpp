@@ -10,7 +10,10 @@
 #include "app/output/report_json.h"
 #include "app/output/temporary.h"
 #include "app/picture/motion.h"
+#include "app/scene/flat.h"
 #include "app/scene/names.h"
+#include "app/scene/override.h"
+#include "app/scene/read.h"
 #include "app/scene/toml/value.h"
 #include "app/support/text.h"
 
@@ -50,20 +53,22 @@ Json surface_json(const scene::Scene& scene, const scene::Export& spec) {
 bool are_as_in(const scene::Scene& scene, const std::vector<PlacedShape>& colliders, double time) {
   return std::ranges::equal(
       colliders, placed_at(scene.colliders, time), [](const PlacedShape& a, const PlacedShape& b) {
-        return a.collider == b.collider && a.time == b.time && a.pose.point == b.pose.point &&
-               a.pose.rotation == b.pose.rotation;
+        return a.collider == b.collider && a.shape == b.shape && a.time == b.time &&
+               a.pose.point == b.pose.point && a.pose.rotation == b.pose.rotation;
       });
 }
 
 /// Exact: a run that is resumed writes the same stage.
 Json places_json(const Sample& sample) {
   Json list = Json::array();
-  for (const PlacedShape& placed : sample.colliders)
+  for (const PlacedShape& placed : sample.colliders) {
     list.push_back({{"collider", placed.collider},
                     {"time", placed.time},
                     {"position", output::vector_json(placed.pose.point)},
                     {"angular_velocity", output::vector_json(placed.pose.angular_velocity)},
                     {"rotation", output::matrix_json(placed.pose.rotation)}});
+    if (placed.shape > 0) list.back()["shape"] = placed.shape;
+  }
   return list;
 }
 
@@ -76,6 +81,7 @@ PlacedShape placed_shape(const Json& json) {
         output::vector_of(json.at("rotation").at(static_cast<std::size_t>(row)));
   if (json.contains("angular_velocity"))
     placed.pose.angular_velocity = output::vector_of(json.at("angular_velocity"));
+  if (json.contains("shape")) placed.shape = whole_number<std::size_t>(json.at("shape"));
   if (!placed.pose.point.allFinite() || !placed.pose.rotation.allFinite())
     throw std::runtime_error("collider " + placed.collider + " of an export has no finite place");
   return placed;
@@ -107,6 +113,28 @@ Sample sample_of(const Json& json, const scene::Scene& scene) {
     sample.snow = {output::vector_of(json.at("snow").at(0)),
                    output::vector_of(json.at("snow").at(1))};
   return sample;
+}
+
+bool has_shape(const scene::Collider& collider, const sim::shapes::Shape& shape) {
+  scene::Scene one, other;
+  one.colliders = other.colliders = {collider};
+  other.colliders.front().shape = shape;
+  return scene::differences(one, other).empty();
+}
+
+/// "ADDRESS=VALUE" of all that gives a scene this shape of a collider, or this collider.
+Json changes_to(const scene::Scene& scene, const scene::Collider& collider) {
+  scene::Scene other = scene;
+  const auto place = std::ranges::find(other.colliders, collider.name, &scene::Collider::name);
+  if (place == other.colliders.end())
+    other.colliders.push_back(collider);
+  else
+    place->shape = collider.shape;
+  Json list = Json::array();
+  for (const scene::Difference& part : scene::differences(scene, other))
+    list.push_back(part.address + "=" +
+                   (part.after ? scene::toml::toml_literal(*part.after) : "none"));
+  return list;
 }
 
 /// Bodies that snow moves, and colliders that were changed, follow a curve, or wait.
@@ -157,8 +185,13 @@ Exporter::Exporter(const scene::Scene& scene, fs::path folder, const setup::Seed
   }
 }
 
-bool Exporter::is_due(int frame) const {
-  return std::ranges::any_of(jobs_, [&](const Job& job) { return frame % job.spec.every == 0; });
+std::vector<std::string> Exporter::files_of(int frame) const {
+  std::vector<std::string> files;
+  for (const Job& job : jobs_)
+    if (frame % job.spec.every == 0)
+      files.push_back(scene::folder_of(job.spec) + "/" +
+                      file_name(job.spec, scene::number_of(scene_, frame)));
+  return files;
 }
 
 std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& colliders,
@@ -172,7 +205,6 @@ std::vector<Exporter::Work> Exporter::add(const std::vector<scene::Collider>& co
     if (is_due(job)) due.push_back(job.spec);
   std::vector<Work> works;
   if (due.empty()) return works;
-  note_colliders(colliders);
   const std::shared_ptr<const State> state = read_state(due, origins_, colliders, simulation);
   for (Job& job : jobs_)
     if (is_due(job)) {
@@ -188,10 +220,9 @@ void Exporter::add_between(const std::vector<scene::Collider>& colliders,
     return is_stage(job) && !(is_frame && scene::frame_of(scene_, number) % job.spec.every == 0);
   };
   if (std::ranges::none_of(jobs_, has_no_file)) return;
-  note_colliders(colliders);
   const double time = simulation.time();
   Sample sample{number, time, placed_at(colliders, time)};
-  sample.is_elsewhere = !are_as_in(scene_, sample.colliders, time);
+  note_shapes(colliders, sample);
   sample.followed = followed(simulation.particles(), time, colliders);
   const bool says_nothing = !sample.is_elsewhere && sample.followed.empty() && !moves_otherwise_;
   // Once something was elsewhere, a frame that is not listed would be taken for that, too.
@@ -232,11 +263,38 @@ std::map<std::string, sim::Vec3d> Exporter::followed(
   return moved;
 }
 
-/// Some come and go while a run is made.
-void Exporter::note_colliders(const std::vector<scene::Collider>& colliders) {
+/// Some come and go, and some change their shape, while a run is made.
+void Exporter::note_shapes(const std::vector<scene::Collider>& colliders, Sample& sample) {
   for (const scene::Collider& collider : colliders)
-    if (std::ranges::find(colliders_, collider.name, &scene::Collider::name) == colliders_.end())
-      colliders_.push_back(collider);
+    for (PlacedShape& placed : sample.colliders)
+      if (placed.collider == collider.name) placed.shape = shape_of(collider);
+  sample.is_elsewhere = !are_as_in(scene_, sample.colliders, sample.time);
+}
+
+std::size_t Exporter::shape_of(const scene::Collider& collider) {
+  std::size_t number = 0;
+  for (const scene::Collider& known : colliders_) {
+    if (known.name != collider.name) continue;
+    if (has_shape(known, collider.shape)) return number;
+    ++number;
+  }
+  colliders_.push_back(collider);
+  later_shapes_.push_back({{"collider", collider.name}, {"set", changes_to(scene_, collider)}});
+  return number;
+}
+
+void Exporter::take_later_shapes(const Json& list) {
+  for (const Json& later : list) {
+    std::vector<scene::Override> changes;
+    for (const Json& change : later.at("set"))
+      changes.push_back(scene::parse_override(change.get<std::string>()));
+    const scene::Scene scene = scene::apply(scene_, changes, "a collider of an export");
+    const auto collider = std::ranges::find(
+        scene.colliders, later.at("collider").get<std::string>(), &scene::Collider::name);
+    if (collider == scene.colliders.end())
+      throw std::runtime_error("an export has the shape of a collider that does not exist");
+    shape_of(*collider);
+  }
 }
 
 Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state,
@@ -246,7 +304,7 @@ Exporter::Work Exporter::work(Job& job, std::shared_ptr<const State> state,
   Sample sample{number, state->time, state->colliders};
   sample.hash = state->hash;
   if (is_stage(job)) {
-    sample.is_elsewhere = !are_as_in(scene_, state->colliders, state->time);
+    note_shapes(colliders, sample);
     sample.followed = followed(state->particles, state->time, colliders);
     sample.snow = box_around(spec.dust ? state->dust.x : state->particles.x);
   }
@@ -290,6 +348,7 @@ void Exporter::resume(const Json& list, int last_number) {
     const std::string folder = scene::folder_of(job.spec);
     for (const Json& e : list) {
       if (e.value("name", "") != folder) continue;
+      take_later_shapes(e.value("shapes", Json::array()));
       for (const Json& file : e.at("files"))
         if (whole_number<int>(file.at("number")) <= last_number) {
           Sample sample = sample_of(file, scene_);
@@ -327,6 +386,7 @@ Json Exporter::to_json(const std::string& below) const {
                                {"state_hash", fmt::format("{:016x}", sample.hash)}});
       add_places(sample, json["files"].back());
     }
+    if (is_stage(job) && !later_shapes_.empty()) json["shapes"] = later_shapes_;
     for (const Sample& sample : job.between) {
       Json frame{{"number", sample.number}, {"time", number_or_null(sample.time)}};
       add_places(sample, frame);

@@ -27,7 +27,8 @@ class Exporter {
   Exporter(const scene::Scene& scene, std::filesystem::path folder,
            const setup::SeededScene& seeded, const std::vector<scene::LiveChange>& changes = {});
 
-  bool is_due(int frame) const;
+  /// Names of the files that a frame has, below the folder.
+  std::vector<std::string> files_of(int frame) const;
 
   /// Reads the state. @return writes its files; to be called once each, in order, by any thread,
   /// while this object lives
@@ -70,10 +71,14 @@ class Exporter {
   static bool is_stage(const Job& job);
   std::map<std::string, sim::Vec3d> followed(const sim::ParticleArrays& particles, double time,
                                              const std::vector<scene::Collider>& colliders) const;
-  void note_colliders(const std::vector<scene::Collider>& colliders);
+  void note_shapes(const std::vector<scene::Collider>& colliders, Sample& sample);
+  std::size_t shape_of(const scene::Collider& collider);
+  void take_later_shapes(const Json& list);
 
   scene::Scene scene_;
-  std::vector<scene::Collider> colliders_;  ///< all that there were at any moment
+  /// Those of the scene, then those that came later, and all with another shape.
+  std::vector<scene::Collider> colliders_;
+  Json later_shapes_ = Json::array();  ///< how to make all but the first ones of the scene
   std::filesystem::path folder_;
   const setup::SeededScene& seeded_;
   Origins origins_;

@@ -15,6 +15,11 @@ const PlacedShape* Sample::find(const std::string& collider) const {
   return found == colliders.end() ? nullptr : &*found;
 }
 
+const PlacedShape* Sample::find(const std::string& collider, std::size_t shape) const {
+  const PlacedShape* const found = find(collider);
+  return found && found->shape == shape ? found : nullptr;
+}
+
 double time_in_frames(const scene::Scene& scene, double time) {
   constexpr double rounding = 1e-6;
   const double frames = time * scene.fps, whole = std::round(frames);

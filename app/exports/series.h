@@ -21,6 +21,8 @@ struct Sample {
 
   /// Null where there was no such collider.
   const PlacedShape* find(const std::string& collider) const;
+  /// Null also where it had another shape.
+  const PlacedShape* find(const std::string& collider, std::size_t shape) const;
   bool is_elsewhere = false;  ///< the scene alone does not say where colliders are
   std::map<std::string, sim::Vec3d> followed{};  ///< m, what cameras follow has moved by, by name
   std::optional<setup::Box> snow{};              ///< m, around the snow; of files of a stage
@@ -56,7 +58,8 @@ std::vector<StageCamera> stage_cameras(const scene::Scene& scene);
 /// UsdClipsAPI.
 /// Places of colliders and cameras are those of every frame from the first file to the last one.
 /// @param between  frames without a file, where the scene alone does not say where things are
-/// @param colliders  that there were at any sample; one that came or went is seen while it existed
+/// @param colliders  that there were at any sample; one that came or went is seen while it existed.
+/// One that has changed its shape is there once for each, in the order of PlacedShape::shape
 std::string encode_stage(const scene::Scene& scene, const std::vector<scene::Collider>& colliders,
                          const scene::Export& spec, const Table& columns,
                          const std::vector<Sample>& files, const std::vector<Sample>& between);

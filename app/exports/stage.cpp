@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -25,6 +26,7 @@ using sim::Vec3d;
 /// the square that a stage has.
 struct SeenCollider {
   std::string name;
+  std::size_t shape;  ///< of those that it has had
   setup::Box box;
   std::optional<sim::Vec3d> normal{};  ///< of a plane
 };
@@ -82,7 +84,7 @@ std::string usd_clipping_range(const scene::Scene& scene, const StageCamera& of,
     widest = std::max(widest, camera.fov);
     if (sample.snow) seen.add(*sample.snow, camera.eye);
     for (const SeenCollider& collider : colliders) {
-      const PlacedShape* placed = sample.find(collider.name);
+      const PlacedShape* placed = sample.find(collider.name, collider.shape);
       if (!placed) continue;
       const Mat3d& rotation = placed->pose.rotation;
       const Vec3d eye = rotation.transpose() * (camera.eye - placed->pose.point);
@@ -218,20 +220,21 @@ std::string usd_point_property(const scene::Scene& scene, const Axes& axes,
   return usd_property(scene, declared, values);
 }
 
-/// Empty for a collider that there is at every sample.
+/// Empty for a collider that has this shape at every sample.
 std::string usd_visibility(const scene::Scene& scene, const std::string& collider,
-                           const std::vector<Sample>& samples) {
-  if (std::ranges::all_of(samples, [&](const Sample& s) { return s.find(collider) != nullptr; }))
-    return {};
+                           std::size_t shape, const std::vector<Sample>& samples) {
+  const auto is_there = [&](const Sample& s) { return s.find(collider, shape) != nullptr; };
+  if (std::ranges::all_of(samples, is_there)) return {};
   Values values;
   for (const Sample& sample : samples)
-    values.emplace_back(sample.time, sample.find(collider) ? "\"inherited\"" : "\"invisible\"");
+    values.emplace_back(sample.time, is_there(sample) ? "\"inherited\"" : "\"invisible\"");
   return usd_property(scene, "            token visibility", values);
 }
 
 std::string usd_collider(const scene::Scene& scene, const Axes& axes,
-                         const scene::Collider& collider, const ColliderMesh& surface,
-                         const std::string& name, const std::vector<Sample>& samples) {
+                         const scene::Collider& collider, std::size_t shape,
+                         const ColliderMesh& surface, const std::string& name,
+                         const std::vector<Sample>& samples) {
   const std::vector<std::uint32_t> counts(surface.corners.size() / 3, 3);
   return "        def Mesh \"" + name + "\"\n        {\n" +
          "            uniform token subdivisionScheme = \"none\"\n" +
@@ -239,20 +242,20 @@ std::string usd_collider(const scene::Scene& scene, const Axes& axes,
          "\n" + "            int[] faceVertexIndices = " +
          fmt::format("[{}]", fmt::join(surface.corners, ", ")) + "\n" +
          usd_point_property(scene, axes, collider, surface, samples) +
-         usd_visibility(scene, collider.name, samples) +
+         usd_visibility(scene, collider.name, shape, samples) +
          usd_placed(scene, axes, collider_path(scene, collider.name, samples)) + "        }\n";
 }
 
 /// The box of a deforming mesh has all its shapes.
-SeenCollider seen_collider(const scene::Collider& collider, const ColliderMesh& surface,
-                           const std::vector<Sample>& samples) {
-  SeenCollider seen{collider.name, setup::box_of(surface.points)};
+SeenCollider seen_collider(const scene::Collider& collider, std::size_t shape,
+                           const ColliderMesh& surface, const std::vector<Sample>& samples) {
+  SeenCollider seen{collider.name, shape, setup::box_of(surface.points)};
   if (const auto* plane = std::get_if<sim::shapes::Plane>(&collider.shape.form))
     seen.normal = plane->normal.normalized();
   if (const auto* sequence = std::get_if<sim::shapes::MeshSequence>(&collider.shape.form)) {
     const auto mesh = sim::shapes::deforming_mesh(*sequence);
     for (const Sample& sample : samples)
-      if (const PlacedShape* placed = sample.find(collider.name))
+      if (const PlacedShape* placed = sample.find(collider.name, shape))
         for (const Vec3d& x : mesh->mesh_at(placed->time).vertices) seen.box.add(x);
   }
   return seen;
@@ -264,14 +267,17 @@ std::string usd_colliders(const scene::Scene& scene, const std::vector<scene::Co
                           std::vector<SeenCollider>& seen) {
   std::string text = "    def Xform \"colliders\"\n    {\n";
   std::set<std::string> names;
+  std::map<std::string, std::size_t> shapes;
   for (const scene::Collider& collider : colliders) {
-    if (std::ranges::none_of(samples, [&](const Sample& s) { return s.find(collider.name); }))
+    const std::size_t shape = shapes[collider.name]++;
+    if (std::ranges::none_of(samples,
+                             [&](const Sample& s) { return s.find(collider.name, shape); }))
       continue;
     std::string name = usd_name(collider.name);
     while (!names.insert(name).second) name += "_";
     const ColliderMesh surface = collider_mesh(collider.shape);
-    seen.push_back(seen_collider(collider, surface, samples));
-    text += usd_collider(scene, axes, collider, surface, name, samples);
+    seen.push_back(seen_collider(collider, shape, surface, samples));
+    text += usd_collider(scene, axes, collider, shape, surface, name, samples);
   }
   return text + "    }\n";
 }

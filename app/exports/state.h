@@ -18,7 +18,8 @@ namespace neve::app::exports {
 struct PlacedShape {
   std::string collider;
   sim::shapes::Pose pose;
-  double time = 0;  ///< s
+  double time = 0;        ///< s
+  std::size_t shape = 0;  ///< which of those that it has had in the run; 0: the one of the scene
 };
 std::vector<PlacedShape> placed_at(const std::vector<scene::Collider>& colliders, double time);
 

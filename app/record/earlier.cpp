@@ -63,6 +63,28 @@ std::string files_text(const std::vector<std::string>& files) {
   return fmt::format("{} files, from {} to {}", files.size(), files.front(), files.back());
 }
 
+FileHashes files_made(const fs::path& folder, const Json& list) {
+  FileHashes files = file_hashes(list);
+  const Json begun = list.is_object() ? list.value("begun", Json()) : Json();
+  if (!begun.is_array()) return files;
+  for (const Json& entry : begun) {
+    const std::string name = entry.is_string() ? entry.get<std::string>() : "";
+    if (!files.contains(name) && is_below(folder, name))
+      files[name] = hash_text(output::hash_file(folder / name));
+  }
+  return files;
+}
+
+std::vector<std::string> foreign_files(const fs::path& folder, const std::set<std::string>& to_come,
+                                       const std::set<std::string>& listed) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const std::string& name : to_come)
+    if (!listed.contains(name) && fs::is_regular_file(fs::symlink_status(folder / name, error)))
+      files.push_back(name);
+  return files;
+}
+
 std::size_t remove_listed(const fs::path& folder, const FileHashes& files) {
   std::size_t removed = 0;
   for (const auto& [name, hash] : files) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,16 @@ std::vector<std::string> unchanged_files(const std::filesystem::path& folder,
 
 /// "8 files, from ply/0000.ply to ply/0007.ply". @param files  at least one
 std::string files_text(const std::vector<std::string>& files);
+
+/// Files that export.json or compare.json lists, and those of its `begun` that are there: it was
+/// cut off after it had made some of them, and their bytes are all that tells which. These are of
+/// the list where they are now. @throws IoError for one that cannot be read
+FileHashes files_made(const std::filesystem::path& folder, const Json& list);
+
+/// Files that are in the place of those to come, and that no list there names.
+std::vector<std::string> foreign_files(const std::filesystem::path& folder,
+                                       const std::set<std::string>& to_come,
+                                       const std::set<std::string>& listed);
 
 /// Removes the files of a list that are below the folder and have the bytes that it gives the hash
 /// of, and folders that are empty then. @return how many files @throws IoError, also where one

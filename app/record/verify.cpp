@@ -259,8 +259,7 @@ std::optional<Verification> verify_list(const fs::path& list, const std::string&
   Verification result;
   ++result.files;
   const Json json = read_json(list);
-  // Lists of exports of earlier versions have no hashes. That of a comparison is written at its
-  // end.
+  // Lists of exports of earlier versions have no hashes, those of comparisons no word of their end.
   const bool has_files = json.is_object() && json.contains("files"),
              says_whole = json.is_object() && json.contains("is_whole");
   const bool is_list = (has_files || says_whole) && (!has_files || json["files"].is_object()) &&

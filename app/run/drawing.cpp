@@ -148,8 +148,13 @@ std::vector<output::Picture> Drawing::draw_incident(const timeline::Timeline& ti
   };
   std::vector<output::Picture> pictures;
   const auto add = [&](const std::string& name, render::Image image) {
-    pictures.push_back(picture_of(name, std::move(image)));
-    pictures.back().file = output::diverged_path(job_.folder, name);
+    if (lut_) render::apply(*lut_, image);
+    pictures.push_back({output::diverged_path(job_.folder, name), std::move(image),
+                        sheet_text("a picture of a divergence", name,
+                                   {{"step", std::to_string(divergence.step)},
+                                    {"time", rough_text(divergence.time) + " s"},
+                                    {"state", record_.state_hash}},
+                                   "neve render draws it where the run breaks again")});
   };
   for (const scene::View& view : views) add(view.name, renderer_.draw(build(view)));
   std::vector<std::string> caption;
@@ -175,26 +180,28 @@ std::vector<output::Picture> Drawing::draw_slates(const record::RunRecord& recor
         draw_slate(job_.scene, {first - 1, view, builder_.slate()}, like, renderer_);
     if (lut_) render::apply(*lut_, slate);
     slates.push_back({output::frame_path(job_.folder, view, first - 1), std::move(slate),
-                      slate_text(view, first - 1)});
+                      sheet_text("a slate", view, {{"number", std::to_string(first - 1)}},
+                                 "neve render draws it before the first picture of the view")});
   }
   return slates;
 }
 
-/// No record of a picture: there is no frame that makes it again.
-render::PngText Drawing::slate_text(const std::string& view, int number) const {
-  record::SheetRecord slate;
-  slate.what = "a slate";
-  slate.version = record_.version;
-  slate.add("build", record_.build);
-  slate.add("view", view);
-  slate.add("number", std::to_string(number));
-  slate.add("quality", record_.quality);
-  for (const std::string& change : record_.overrides) slate.add("override", change);
+render::PngText Drawing::sheet_text(const std::string& what, const std::string& view,
+                                    const std::vector<std::pair<std::string, std::string>>& lines,
+                                    const std::string& again) const {
+  record::SheetRecord sheet;
+  sheet.what = what;
+  sheet.version = record_.version;
+  sheet.add("build", record_.build);
+  sheet.add("view", view);
+  for (const auto& [name, text] : lines) sheet.add(name, text);
+  sheet.add("quality", record_.quality);
+  for (const std::string& change : record_.overrides) sheet.add("override", change);
   for (const scene::LiveChange& change : record_.changes)
-    slate.add("changed", scene::text_of(change));
-  slate.scenes = {{"scene", record_.scene}};
-  slate.again = "neve render draws it before the first picture of the view";
-  return record::to_png_text(slate);
+    sheet.add("changed", scene::text_of(change));
+  sheet.scenes = {{"scene", record_.scene}};
+  sheet.again = again;
+  return record::to_png_text(sheet);
 }
 
 record::PictureRecord Drawing::record_of(const std::string& view) const {

@@ -62,7 +62,10 @@ class Drawing {
   output::WriteTask draw_channels(const picture::MotionSource& source, const render::Frame& frame,
                                   const render::Moments& moments);
   record::PictureRecord record_of(const std::string& view) const;
-  render::PngText slate_text(const std::string& view, int number) const;
+  /// Of pictures that no frame makes again. @param lines  names and texts
+  render::PngText sheet_text(const std::string& what, const std::string& view,
+                             const std::vector<std::pair<std::string, std::string>>& lines,
+                             const std::string& again) const;
   output::Picture picture_of(const std::string& view, render::Image image) const;
 
   const RenderJob& job_;

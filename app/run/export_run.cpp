@@ -56,6 +56,7 @@ const char* out_flag(const ExportJob& job) {
 /// The part of an earlier list that stays: exports of other names, with the hashes of their files.
 struct Kept {
   Json exports = Json::array(), files = Json::object();
+  std::set<std::string> begun{};  ///< files of exports that were cut off
   bool is_whole = true;
 };
 
@@ -65,7 +66,7 @@ struct Earlier {
   std::set<std::string> names{};       ///< of all files that it lists, or was to make
   Kept kept;
   Json replaced = Json::array();   ///< exports whose place is taken
-  record::FileHashes their_files;  ///< of these
+  record::FileHashes their_files;  ///< of these, and of those that were cut off
 };
 
 /// @throws std::exception for an entry that neve has not written
@@ -108,7 +109,7 @@ Earlier earlier_exports(const ExportJob& job) {
     Earlier earlier;
     earlier.scene_file = list.at("scene_file").get<std::string>();
     earlier.simulation = list.value("simulation", "");
-    earlier.their_files = record::file_hashes(list);
+    earlier.their_files = record::files_made(job.run.folder, list);
     earlier.names = names_in(list);
     const bool is_of_scene = record::is_same_path(earlier.scene_file, job.run.scene_file) ||
                              earlier.simulation == simulation_of(job.run);
@@ -121,9 +122,18 @@ Earlier earlier_exports(const ExportJob& job) {
       else
         earlier.replaced.push_back(one);
     }
-    std::erase_if(earlier.their_files,
-                  [&](const auto& item) { return earlier.kept.files.contains(item.first); });
-    earlier.kept.is_whole = earlier.kept.exports.empty() || list.at("is_whole").get<bool>();
+    const auto begun = list.value("begun", std::set<std::string>());
+    std::erase_if(earlier.their_files, [&](const auto& item) {
+      const std::string& name = item.first;
+      if (!is_of_scene || !begun.contains(name)) return earlier.kept.files.contains(name);
+      const bool is_ours = std::ranges::any_of(ours, [&](const scene::Export& e) {
+        return name.starts_with(scene::folder_of(e) + "/") || name == exports::series_name(e);
+      });
+      if (!is_ours) earlier.kept.begun.insert(name);
+      return !is_ours;
+    });
+    earlier.kept.is_whole = earlier.kept.begun.empty() &&
+                            (earlier.kept.exports.empty() || list.at("is_whole").get<bool>());
     return earlier;
   } catch (const IoError&) {
     throw;  // files of an earlier export would lie beside the new ones
@@ -224,12 +234,8 @@ void refuse_lost_exports(const ExportJob& job, const Earlier& earlier, const Jso
 /// or other programs, or of the run whose folder it is.
 void refuse_foreign_exports(const ExportJob& job, const Earlier& earlier) {
   if (job.run.options.replaces) return;
-  std::vector<std::string> files;
-  std::error_code error;
-  for (const std::string& name : files_to_write(job))
-    if (!earlier.names.contains(name) &&
-        fs::is_regular_file(fs::symlink_status(job.run.folder / name, error)))
-      files.push_back(name);
+  const std::vector<std::string> files =
+      record::foreign_files(job.run.folder, files_to_write(job), earlier.names);
   if (files.empty()) return;
   throw UsageError(
       out_flag(job),
@@ -298,7 +304,9 @@ void write_list(const ExportJob& job, const ExportResult& result, const Kept& ke
   json["files"] = kept.files;
   for (const auto& [file, hash] : files) json["files"][file] = hash;
   // If this one is killed, the next one knows which files were to be its own.
-  if (result.moments == 0) json["begun"] = files_to_write(job);
+  std::set<std::string> begun = kept.begun;
+  if (result.moments == 0) begun.merge(files_to_write(job));
+  if (!begun.empty()) json["begun"] = begun;
   output::write_file(output::export_list_path(job.run.folder), record::with_own_hash(json));
 }
 

@@ -58,7 +58,7 @@ void Ledger::add_to(const EarlierRun& earlier) {
 }
 
 bool Ledger::is_made(int frame) const {
-  if (!earlier_ || exporter_.is_due(frame) || exporter_.lacks_places(frame)) return false;
+  if (!earlier_ || exporter_.lacks_places(frame)) return false;
   const int number = scene::number_of(job_.scene, frame);
   const auto has = [&](const std::string& name) {
     const auto file = record_.files.find(name);
@@ -73,8 +73,12 @@ bool Ledger::is_made(int frame) const {
   const auto has_passes = [&](const std::string& view) {
     return has(record::channels_name(view, number));
   };
+  const auto has_export = [&](const std::string& name) {
+    return has(std::string(output::exports_folder) + "/" + name);
+  };
   return std::ranges::all_of(record_.views, has_picture) &&
-         std::ranges::all_of(record_.views_of_passes, has_passes);
+         std::ranges::all_of(record_.views_of_passes, has_passes) &&
+         std::ranges::all_of(exporter_.files_of(frame), has_export);
 }
 
 void Ledger::take(const timeline::Moment& moment) {
@@ -117,11 +121,11 @@ void Ledger::note_exports() {
 
 std::vector<exports::Exporter::Work> Ledger::read_exports(const timeline::Timeline& timeline) {
   const int frame = timeline.here().frame;
-  if (!exporter_.is_due(frame) && !exporter_.has_stage()) return {};
+  const bool is_due = !exporter_.files_of(frame).empty();
+  if (!is_due && !exporter_.has_stage()) return {};
   const int number = scene::number_of(job_.scene, frame);
   std::vector<exports::Exporter::Work> work;
-  if (exporter_.is_due(frame))
-    work = exporter_.add(timeline.scene().colliders, timeline.simulation(), number, true);
+  if (is_due) work = exporter_.add(timeline.scene().colliders, timeline.simulation(), number, true);
   if (const std::string warning = exporter_.take_warning(); !warning.empty())
     progress_.warning(warning);
   exporter_.add_between(timeline.scene().colliders, timeline.simulation(), number, true);

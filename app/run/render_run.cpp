@@ -165,7 +165,7 @@ std::vector<int> RenderRun::begin() {
     if (found->flawed.empty()) continue_from(found->moment);
   }
   ledger_.record().asked = frames_asked(is_same ? earlier : std::nullopt);
-  ledger_.record().retries = timeline_.here().retries;
+  note_retries();
   if (frames_.first > 0) {
     const bool is_known =
         earlier && (is_same || found) && record::start_of(earlier->json).has_value();
@@ -309,7 +309,7 @@ bool RenderRun::mend(const std::vector<int>& frames) {
     throw IoError(job_.folder.string() + ": its checkpoint is missing", job_.folder.string());
   const timeline::Moment newest = timeline::to_moment(*std::move(found.checkpoint));
   continue_from(newest);
-  ledger_.record().retries = newest.retries;
+  note_retries();
   if (laws_) watch_laws();
   return true;
 }
@@ -392,7 +392,7 @@ bool RenderRun::take_kept(int frame) {
   const auto listed =
       std::ranges::find(made, scene::number_of(job_.scene, frame), &record::FrameRecord::frame);
   seconds_ = listed != made.end() ? listed->seconds_sim : 0;
-  ledger_.record().retries = kept->retries;
+  note_retries();
   ++ledger_.record().frames_from_states;
   return true;
 }
@@ -405,7 +405,7 @@ bool RenderRun::go_to_frame(int frame) {
   ++result_.simulated;
   const Advanced advanced = next_.valid() ? next_.get() : simulate_to(frame);
   seconds_ = advanced.seconds;
-  note_retries();
+  tell_retries();
   if (laws_) ledger_.record().validation = laws_->records();
   note_warnings();
   if (timeline_.simulation().divergence()) {
@@ -493,13 +493,22 @@ void RenderRun::note_warnings() {
   record.slowdown = slowdown_warning(record.frames);
 }
 
-void RenderRun::note_retries() {
-  std::vector<sim::Retry>& told = ledger_.record().retries;
+void RenderRun::tell_retries() {
   const std::vector<sim::Retry>& retries = timeline_.here().retries;
-  for (std::size_t k = told.size(); k < retries.size(); ++k)
+  for (std::size_t k = retries_told_; k < retries.size(); ++k)
     progress_.warning(retries[k].sentence + ". Back to " + fixed_text(retries[k].back_to, 3) +
                       " s with dt times " + rough_text(retries[k].dt_scale));
-  told = retries;
+  note_retries();
+}
+
+/// Other pictures of earlier frames forget no later one: of the same run, the longer list has all
+/// of the shorter one.
+void RenderRun::note_retries() {
+  const std::vector<sim::Retry>& retries = timeline_.here().retries;
+  retries_told_ = retries.size();
+  const Json& carried = ledger_.record().carried;
+  if (!carried.contains("retries") || retries.size() >= carried["retries"].size())
+    ledger_.record().retries = retries;
 }
 
 /// The report first: pictures of a broken state are the more delicate part.

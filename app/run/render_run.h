@@ -89,6 +89,8 @@ class RenderRun {
   bool checkpoint_is_due(int frame) const;
   void write_checkpoint();
   void note_warnings();
+  /// Notes them for run.json, and warns of new ones.
+  void tell_retries();
   void note_retries();
   void report_incident();
 
@@ -105,8 +107,9 @@ class RenderRun {
   std::vector<std::string> told_before_;   ///< warnings of that command, but for those of its steps
   std::vector<std::string> steps_before_;  ///< these, up to `reached_before_`
   int reached_before_ = -1;                ///< the last frame of that command, counted from 0
-  double seconds_ = 0;                     ///< that the simulation of the frame took
-  bool is_continued_ = false;              ///< from a checkpoint or a fork
+  std::size_t retries_told_ = 0;
+  double seconds_ = 0;         ///< that the simulation of the frame took
+  bool is_continued_ = false;  ///< from a checkpoint or a fork
   bool is_mending_ = false;
   bool said_slow_ = false;
   std::atomic<bool> is_abandoned_ = false;  ///< nobody waits for the frame being simulated

@@ -237,6 +237,14 @@ MemoryLimit memory_limit(const scene::Scene& scene) {
   return {own, false};
 }
 
+void count_on(std::uint64_t bytes, const scene::Scene& scene, Plan& plan) {
+  if (scene.limits.memory > 0 || plan.is_memory_capped) return;
+  plan.memory_limit += bytes;
+  const double cap = caps().memory;
+  if (cap < static_cast<double>(plan.memory_limit))
+    plan.memory_limit = static_cast<std::uint64_t>(cap);
+}
+
 const char* name(Quality quality) {
   return quality_names[static_cast<std::size_t>(quality)];
 }

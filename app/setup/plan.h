@@ -69,6 +69,10 @@ Plan make_plan(const scene::Scene& scene, const FrameRange& frames, Quality qual
 /// @throws LimitError naming the limit and how to keep it, or to raise it where this machine can
 void check_limits(const scene::Scene& scene, const Plan& plan, double coarsening = 1);
 
+/// Adds the memory of a run that ends before this one begins, which is not available yet, to a
+/// limit that is what is available.
+void count_on(std::uint64_t bytes, const scene::Scene& scene, Plan& plan);
+
 Json to_json(const Plan& plan);
 
 }  // namespace neve::app::setup

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/output/atomic_file.h"
+#include "app/record/verify.h"
 #include "app/support/errors.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
@@ -58,9 +59,20 @@ void Moments::add_run(const std::filesystem::path& folder) {
   const Json run = record::read_run_json(folder);
   if (!run.is_object() || run.value("version", Json()) != version) return;
   run_ = folder;
+  run_hashes_.clear();
+  if (const std::optional<record::Pictures> pictures = record::listed_pictures(run))
+    for (const record::FrameRecord& frame : pictures->frames)
+      run_hashes_[frame.frame] = frame.state_hash;
   for (const int frame : output::kept_states(folder)) on_disk_[frame] = {0, true};
   for (const auto& [frame, steps] : output::checkpoint_steps(folder))
     on_disk_[frame] = {steps, true};
+}
+
+bool Moments::is_of_other_run(const Moment& moment) const {
+  return std::ranges::any_of(moment.made.frames, [&](const record::FrameRecord& frame) {
+    const auto listed = run_hashes_.find(frame.frame);
+    return listed != run_hashes_.end() && listed->second != frame.state_hash;
+  });
 }
 
 /// One from a file that this program may continue. @param identity  that it has to have
@@ -72,17 +84,21 @@ std::shared_ptr<const Moment> Moments::use(output::FoundCheckpoint found, int fr
       file && file->frame == frame &&
       (is_of_run ? file->simd == sim::kernels::name(sim::kernels::chosen_simd_level())
                  : file->identity == identity);
-  if (is_ours && !sim::Simulation::can_read(file->state)) {
-    // So it has the others.
+  // What is wrong with one is wrong with the others.
+  const auto leave_all = [&](const std::string& why) {
     std::erase_if(on_disk_, [&](const auto& kept) { return kept.second.is_of_run == is_of_run; });
-    if (progress_)
-      progress_->warning(file->file.string() +
-                         ": another build of neve has written it in a way of its own; the run is "
-                         "simulated from its start");
+    if (progress_) progress_->warning(why + "; the run is simulated from its start");
+  };
+  if (is_ours && !sim::Simulation::can_read(file->state)) {
+    leave_all(file->file.string() + ": another build of neve has written it in a way of its own");
     return nullptr;
   }
   if (is_ours) try {
-      return std::make_shared<const Moment>(to_moment(*std::move(file)));
+      auto moment = std::make_shared<const Moment>(to_moment(*std::move(file)));
+      if (!is_of_run || !is_of_other_run(*moment)) return moment;
+      leave_all(moment->file.string() +
+                ": it is of another run, which has taken the place of the one that is read");
+      return nullptr;
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
@@ -260,6 +276,20 @@ void Moments::forget_after(int frame, std::size_t steps) {
       here != on_disk_.end() && is_later(here->second.steps))
     here->second.steps = 0;
   on_disk_.erase(on_disk_.upper_bound(frame), on_disk_.end());
+}
+
+void Moments::forget(const Moment& here) {
+  if (const auto kept = in_memory_.find(here.frame);
+      kept != in_memory_.end() && kept->second->steps == here.steps) {
+    bytes_ -= bytes_of(*kept->second);
+    in_memory_.erase(kept);
+  }
+  const auto file = on_disk_.find(here.frame);
+  if (file == on_disk_.end()) return;
+  if (here.is_frame_end())
+    on_disk_.erase(file);
+  else if (file->second.steps == here.steps)
+    file->second.steps = 0;  // the end of the frame before it
 }
 
 std::vector<int> Moments::frames() const {

@@ -54,7 +54,8 @@ class Moments {
   Moments(StatesFolder states, Progress& progress);
 
   /// Adds those of a run that exists, in DIR/checkpoint and DIR/states: they are read where they
-  /// are, if this program would have made the same bits.
+  /// are, if this program would have made the same bits. Nobody holds the folder: once it is
+  /// another run, whose frames are not those that run.json lists now, none of them is taken.
   void add_run(const std::filesystem::path& folder);
 
   /// The newest one that is not later than a time; null without one. Damaged files are passed over.
@@ -79,6 +80,8 @@ class Moments {
 
   /// Forgets those of later frames, and of later steps after this one; files stay.
   void forget_after(int frame, std::size_t steps);
+  /// Forgets those of this very moment, which a change has made another one; files stay.
+  void forget(const Moment& here);
 
   bool has(int frame) const { return on_disk_.contains(frame) || in_memory_.contains(frame); }
   /// Numbers of their frames, in order.
@@ -94,6 +97,7 @@ class Moments {
   std::shared_ptr<const Moment> read(int frame, double time, double fps);
   std::shared_ptr<const Moment> use(output::FoundCheckpoint found, int frame, bool is_of_run,
                                     const std::string& identity);
+  bool is_of_other_run(const Moment& moment) const;
 
   /// A file of a moment.
   struct OnDisk {
@@ -105,6 +109,7 @@ class Moments {
   std::map<int, std::shared_ptr<const Moment>> in_memory_;
   std::map<int, OnDisk> on_disk_;
   std::filesystem::path run_;                 ///< that they are read from; empty: none
+  std::map<int, std::uint64_t> run_hashes_;   ///< of the states that it listed, by number
   StatesFolder states_;                       ///< that they are written to; empty: none
   Progress* progress_ = nullptr;              ///< of these
   std::map<int, std::uint64_t> state_bytes_;  ///< of the states in that folder

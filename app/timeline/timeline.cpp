@@ -35,6 +35,15 @@ std::vector<sim::ColliderLoad> with_colliders(const std::vector<sim::ColliderLoa
   return list;
 }
 
+/// How long a run is meant to be concerns no moment of it.
+std::shared_ptr<const scene::Scene> with_frames(const std::shared_ptr<const scene::Scene>& scene,
+                                                int frames) {
+  if (scene->frames == frames) return scene;
+  auto other = std::make_shared<scene::Scene>(*scene);
+  other->frames = frames;
+  return other;
+}
+
 }  // namespace
 
 Watch watched_by(Progress& progress, const scene::Scene& scene) {
@@ -165,12 +174,17 @@ void Timeline::change(const scene::Scene& changed) {
     scene = std::make_shared<const scene::Scene>(setup::with_curves(*scene, curves_at_));
   use(scene);
   fork();
+  bool is_other = false;
   // Compares the values of the simulation, not the typed ones: they differ in a coarsened scene.
   for (const scene::Difference& change : scene::differences(*before, *scene))
-    if (change.is_live && scene::concerns_simulation(change.address))
+    if (change.is_live && scene::concerns_simulation(change.address)) {
+      is_other = true;
       scene::note_change(changes_,
                          {simulation_.steps(), change.address,
                           change.after ? scene::toml::toml_literal(*change.after) : "none"});
+    }
+  // What was kept of this moment is from before the change.
+  if (is_other) moments_.forget(here_);
   made_ = changes_.size();
   start_ = recorded_scene(start_, *scene);
 }
@@ -199,7 +213,7 @@ void Timeline::restore(const Moment& moment) {
     const int curves = frame_of_curves(moment);
     if (moment.scene) {
       curves_at_ = curves;
-      use(moment.scene);
+      use(with_frames(moment.scene, start_.frames));
     } else if (made != made_) {
       curves_at_ = curves;
       make(made);
@@ -310,6 +324,19 @@ void Timeline::begin_frame(bool is_left) {
   }
   here_.advance = {};
   follow_curves(here_.frame + 1);
+}
+
+void Timeline::look_at_next(const std::function<void(bool)>& look) {
+  if (simulation_.divergence()) return look(false);
+  const std::shared_ptr<const scene::Scene> before = here_.scene;
+  begin_frame(true);
+  try {
+    look(here_.scene != before);
+  } catch (...) {
+    leave_frame_start();
+    throw;
+  }
+  leave_frame_start();
 }
 
 /// A frame that was begun and has no step is none: this is the end of the frame before again.

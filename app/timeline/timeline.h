@@ -78,6 +78,11 @@ class Timeline {
   /// Takes one step, even if it breaks a rule.
   void advance_step();
 
+  /// Looks at the next step before it is taken. At the end of a frame the scene is the one that the
+  /// last step had; while the function runs, curves have given it their values of the next frame.
+  /// @param look  is told whether these are others
+  void look_at_next(const std::function<void(bool has_other_values)>& look);
+
   /// Keeps the end of the frame that it is at, in memory.
   void keep() { moments_.keep(moment()); }
   /// Goes to a moment of this run.

@@ -22,10 +22,9 @@ struct ScreenOptions {
 struct ViewOptions {
   run::RenderOptions run;  ///< scene, overrides, coarsening, threads, views, size, out, backend
   ScreenOptions screen;
-  bool is_running = false;        ///< from the start
-  bool is_live = false;           ///< with cells and steps that keep up with the clock
-  std::optional<double> at{};     ///< s, the moment of a run that is shown first; absent: its last
-  std::uint64_t kept_memory = 0;  ///< bytes for kept frames; 0: a quarter of the free memory
+  bool is_running = false;     ///< from the start
+  bool is_live = false;        ///< with cells and steps that keep up with the clock
+  std::optional<double> at{};  ///< s, the moment of a run that is shown first; absent: its last
 };
 
 }  // namespace neve::app::view

@@ -107,6 +107,7 @@ class Viewer {
   void record_due();
   void follow_run();
   void begin_take();
+  void forget_unwritten();
   bool has_what_is_shown() const;
   RecordedKey recorded_key() const;
   void announce_view();

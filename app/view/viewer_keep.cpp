@@ -125,14 +125,24 @@ RecordedKey Viewer::recorded_key() const {
 /// What waits is written, or said to be missing: what failed is no failure of the next recording.
 void Viewer::stop_recording() {
   record_due();
+  recorded_.reset();
+  if (!lock_) return;
   try {
     if (writer_) writer_->finish();
   } catch (const std::exception& error) {
     bench_.say_not_saved(std::string("recorded pictures are missing: ") + error.what());
   }
+  forget_unwritten();
   writer_.reset();
   lock_.reset();
-  recorded_.reset();
+}
+
+/// A picture that could not be written is in no take.
+void Viewer::forget_unwritten() {
+  std::erase_if(take_.frames, [&](const auto& file) {
+    return !std::filesystem::exists(take_.folder / file.first);
+  });
+  state_.recorded = static_cast<int>(take_.frames.size());
 }
 
 /// Every frame once, and again where something else of it is shown before the next.
@@ -170,9 +180,7 @@ void Viewer::follow_run() {
 void Viewer::begin_take() {
   const std::filesystem::path before = take_.folder;
   writer_->finish();
-  // One that could not be written is in no take.
-  std::erase_if(take_.frames,
-                [&](const auto& file) { return !std::filesystem::exists(before / file.first); });
+  forget_unwritten();
   const std::filesystem::path folder = output::free_path(bench_.folder(), "take", "");
   for (const auto& [file, frame] : take_.frames) {
     output::make_folder((folder / file).parent_path());

@@ -477,6 +477,12 @@ TEST(Timeline, TakesNoStepToAMomentThatIsKept) {
   // A run that takes another way has none of the moments after it.
   run.timeline.fork();
   EXPECT_EQ(run.timeline.moments().frames(), (std::vector<int>{0, 1, 2}));
+  // How long the run is meant to be is no matter of one of its moments.
+  scene::Scene longer = *run.timeline.here().scene;
+  longer.frames = 99;
+  run.timeline.change(longer);
+  ASSERT_TRUE(run.timeline.go_to(1 / 24.0));
+  EXPECT_EQ(run.timeline.here().scene->frames, 99);
 }
 
 TEST(Timeline, TakesNoStepToAMomentInAFolder) {
@@ -511,6 +517,34 @@ TEST(Timeline, TakesNoStepToAMomentInAFolder) {
   ASSERT_TRUE(earlier->timeline.go_to(2.5 / 24));
   EXPECT_EQ(earlier->steps, before) << "the moment is ahead in the same frame";
   EXPECT_EQ(earlier->simulation().save(), run.simulation().save());
+  // The file is of the moment before a change that is made there.
+  auto changed = opened();
+  ASSERT_TRUE(changed->timeline.go_to(2.5 / 24));
+  scene::Scene stiffer = *changed->timeline.here().scene;
+  stiffer.materials.front().youngs_modulus *= 10;
+  changed->timeline.change(stiffer);
+  ASSERT_TRUE(changed->timeline.go_to(2.5 / 24));  // by shorter steps
+  const std::vector<std::uint8_t> state = changed->simulation().save();
+  ASSERT_TRUE(changed->timeline.go_to(3 / 24.0));
+  ASSERT_TRUE(changed->timeline.go_to(2.5 / 24));
+  EXPECT_EQ(changed->simulation().save(), state);
+  // Another run takes the place of the one that is read: nobody holds its folder.
+  const auto write = [&](std::uint64_t hash) {
+    timeline::Moment moment = run.timeline.moment();
+    record::FrameRecord listed;
+    listed.frame = moment.frame;
+    listed.state_hash = hash;
+    moment.made.frames.push_back(listed);
+    record.frames = moment.made.frames;
+    timeline::write_origin(folder.path(), record, std::move(moment));
+  };
+  write(7);
+  auto same = opened(), other = opened();
+  ASSERT_TRUE(same->timeline.go_to(2.5 / 24));
+  EXPECT_EQ(same->steps, 0u);
+  write(8);
+  ASSERT_TRUE(other->timeline.go_to(2.5 / 24));
+  EXPECT_GT(other->steps, 0u);
 }
 
 TEST(Timeline, AMomentAfterADivergenceIsLeft) {

@@ -375,6 +375,12 @@ TEST_F(Addition, ExportsOfARunStayWhenAViewIsAdded) {
   render({"a", "--view", "smoke", "--no-movie"});
   EXPECT_EQ(json_of("a/run.json")["exports"], exports);
   expect_whole("a");
+  const std::vector<std::string> same{"scene.toml", "--out", "a", "--no-movie"};
+  EXPECT_TRUE(contains(render(same).errors, "nothing to draw"));
+  std::filesystem::remove(folder / "a/exports/mesh/0002.ply");
+  EXPECT_TRUE(contains(render(same).errors, "1 frame of particles added"));
+  EXPECT_EQ(json_of("a/run.json")["exports"], exports);
+  expect_whole("a");
   const auto refused =
       render({"scene.toml", "--out", "a", "--no-movie", "--set", "export.mesh.scale=2"}, 2);
   EXPECT_TRUE(contains(refused.errors, "other exports")) << refused.errors;

@@ -195,7 +195,7 @@ TEST_F(Compare, AnotherComparisonReplacesTheFilesOfTheOneBefore) {
     const auto result = compare(a, "b", words);
     EXPECT_EQ(result.exit_code, 2) << result.errors;
     EXPECT_TRUE(contains(result.errors, part)) << result.errors;
-    EXPECT_TRUE(exists("both/beside/0004.png"));
+    EXPECT_TRUE(exists("both/beside/0002.png"));
   };
   refused("a", {"beside", "--frames", "1-2"}, "both has a comparison with other frames or modes");
   refused("a", {"metrics"}, "files, from beside");
@@ -207,6 +207,21 @@ TEST_F(Compare, AnotherComparisonReplacesTheFilesOfTheOneBefore) {
   EXPECT_TRUE(exists("both/beside/0002.png"));
   EXPECT_FALSE(exists("both/beside/0004.png"));
   EXPECT_TRUE(exists("both/beside/mine.txt"));
+  // One that was killed had listed what it was to make.
+  app::Json list = json_of("both/compare.json");
+  list["files"] = app::Json::object();
+  list["begun"] = {"beside/0001.png", "beside/0002.png"};
+  list["is_whole"] = false;
+  folder.write("both/compare.json", list.dump());
+  EXPECT_TRUE(contains(neve({"verify", "both"}).output, "the comparison is not finished"));
+  refused("a", {"metrics"}, "files, from beside/0001.png");
+  // Of what is nobody's it is told, too.
+  folder.write("results/metrics.csv", "mine");
+  const auto foreign = compare("a", "b", {"--out", "results", "--mode", "metrics"});
+  EXPECT_EQ(foreign.exit_code, 2) << foreign.errors;
+  EXPECT_TRUE(contains(foreign.errors, "results has files that no neve compare there has made"))
+      << foreign.errors;
+  EXPECT_EQ(read_text(folder / "results/metrics.csv"), "mine");
 }
 
 TEST_F(Compare, ItsFolderIsVerifiedAsThoseOfRunsAre) {

@@ -83,6 +83,13 @@ TEST_F(Cli, PicturesOfADivergenceAreTheSameForAnyNumberOfThreads) {
       EXPECT_TRUE(pictures.contains(name) && pictures.at(name) == bytes)
           << name << " differs with " << threads << " threads";
   }
+  // No frame makes them again: the one before was drawn, or a view that no scene has was missed.
+  for (const char* picture : {"out1/diverged_view0.png", "out1/diverged_culprit_slice.png"}) {
+    const auto again = neve({"render", picture});
+    EXPECT_EQ(again.exit_code, app::exit_invalid_scene) << again.errors;
+    EXPECT_TRUE(contains(again.errors, "is a picture of a divergence")) << again.errors;
+    EXPECT_TRUE(contains(neve({"info", picture}).output, "step        "));
+  }
 }
 
 }  // namespace

@@ -339,6 +339,23 @@ TEST_F(Dump, ARunIsDumpedFromTheMomentsThatItKeeps) {
   EXPECT_TRUE(contains(set.errors, "a run has the scene it was made from")) << set.errors;
 }
 
+/// At the end of a frame they were those of the step before.
+TEST_F(Dump, TheNextStepHasTheValuesThatCurvesGiveIt) {
+  folder.write("scene.toml", std::string(tiny_scene) + R"(
+[[curve]]
+parameter = "solver.dt"
+interpolation = "step"
+keyframes = [{ time = 0, value = 1e-3 }, { time = 0.125, value = 5e-4 }]
+)");
+  const auto dump = [&](const std::string& at, std::vector<std::string> words) {
+    words.insert(words.begin(), {"--at", at, "--set", "solver.time_step=fixed"});
+    return json(words);
+  };
+  EXPECT_NEAR(dump("0.1", {})["dt"], 1e-3, 1e-6);
+  EXPECT_NEAR(dump("0.125", {})["dt"], 5e-4, 1e-6);
+  EXPECT_NEAR(dump("0.125", {"--stage", "grid_velocities"})["dt"], 5e-4, 1e-6);
+}
+
 TEST_F(Dump, HistogramsCountAllNodesOrParticles) {
   const app::Json dump = json({"--at", "0.05s", "--histogram"});
   ASSERT_FALSE(dump["histograms"].empty());

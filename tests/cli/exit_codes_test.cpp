@@ -268,6 +268,13 @@ TEST_F(Cli, ARunMayGoBackAndTryHalfTheStep) {
   EXPECT_EQ(run["status"], "ok");
   ASSERT_FALSE(run["retries"].empty());
   EXPECT_EQ(run["retries"][0]["dt_scale"], 0.5);
+  // One of a later frame is of the run, too, whatever is drawn of the earlier ones.
+  app::Json longer = run;
+  longer["retries"].push_back(longer["retries"].back());
+  folder.write("out/scene/run.json", longer.dump());
+  const auto again = neve({"render", "out/scene", "--view", "smoke", "--frames", "0-1"});
+  EXPECT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(json_of("out/scene/run.json")["retries"], longer["retries"]);
   // The files of the diverged run are gone.
   EXPECT_FALSE(exists("out/scene/incident.json"));
   EXPECT_FALSE(exists("out/scene/diverged_culprit_slice.png"));

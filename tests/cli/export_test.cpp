@@ -400,6 +400,27 @@ TEST_F(Export, ColumnsThatNoFileHasAreRefusedWithTheNearest) {
   EXPECT_TRUE(contains(located("carried = [\"weight\", \"weight\"]"), "named twice"));
 }
 
+/// They had the shapes of the start.
+TEST_F(Export, AStageHasTheShapesThatAForkGivesCollidersAlsoAfterAResume) {
+  folder.write("post.toml", std::string(tiny_scene) +
+                                "[[export]]\nformat = \"usda\"\n[[collider]]\nname = \"post\"\n"
+                                "shape = { sphere = { center = [0.5, 0.1, 0], radius = 0.1 } }\n");
+  const auto render = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--no-movie", "--quiet"});
+    words.insert(words.begin(), "render");
+    const auto made = neve(words);
+    EXPECT_EQ(made.exit_code, 0) << made.errors;
+  };
+  render({"post.toml", "--frames", "0-2", "--out", "a"});
+  for (const char* out : {"whole", "parts"})
+    render({"a", "--from", "0.05s", "--set", "collider.post.shape.sphere.radius=0.03125",
+            "--frames", out[0] == 'w' ? "2-3" : "2", "--out", out});
+  render({"parts", "--resume", "--frames", "2-3"});
+  const std::string stage = read_text(folder / "whole/exports/usda.usda");
+  EXPECT_TRUE(contains(stage, "0.03125")) << stage;
+  EXPECT_EQ(stage, read_text(folder / "parts/exports/usda.usda"));
+}
+
 /// Where they are follows from no time of the scene.
 TEST_F(Export, TheStageOfCollidersThatWaitIsTheSameAfterAResume) {
   folder.write("waits.toml",
@@ -516,6 +537,21 @@ TEST_F(Export, FilesAndListsThatItHasNotMadeAreNotReplacedInSilence) {
   folder.write("a/export.json", begun.dump());
   json_of_export(into("a"));
   EXPECT_EQ(read_text(folder / "a/export.json"), list);
+  // What it has made stays in no sequence of another simulation, and goes with a word only.
+  begun["begun"] = {"csv/0000.csv", "csv/0001.csv", "csv/0002.csv", "csv/0003.csv"};
+  folder.write("a/export.json", begun.dump());
+  folder.write("a/csv/0003.csv", "of the export that was cut off");
+  const std::string why = "it would replace csv/0003.csv";
+  expect_refused(into("a"), app::exit_usage, why);
+  expect_refused(
+      {"scene.toml", "--format", "csv", "--out", "a", "--frames", "0-3", "--set", "seed=3"},
+      app::exit_usage, "this export of another simulation of the scene");
+  json_of_export({"scene.toml", "--format", "ply", "--frames", "0", "--out", "a"});
+  expect_refused(into("a"), app::exit_usage, why);
+  json_of_export(into("a", {"--replace"}));
+  EXPECT_FALSE(exists("a/csv/0003.csv"));
+  EXPECT_TRUE(exists("a/ply/0000.ply"));
+  EXPECT_FALSE(json_of("a/export.json").contains("begun"));
 }
 
 /// Moments are numbered from 0, whatever they are.

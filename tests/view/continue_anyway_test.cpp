@@ -125,7 +125,8 @@ TEST_F(ContinueAnywayByScript, TheButtonIsBelowTheExplanation) {
   folder.write("scene.toml", bursting_scene);
   folder.write("clicks.json", R"([
     {"click": "Run"}, {"wait_for": "label Continue anyway"}, {"wait": 5},
-    {"screenshot": "stopped.png"},
+    {"screenshot": "stopped.png"}, {"click": "Objects"}, {"wait": 3},
+    {"click": "Find the parameter"}, {"wait_for": "label solver.dt", "within": 10},
     {"click": "Continue anyway"}, {"wait": 60},
     {"screenshot": "burst.png"}, {"key": "space"}, {"wait": 10}])");
   const auto result = neve({"view", "scene.toml", "--replay", "clicks.json", "--out", "out"});

@@ -10,6 +10,7 @@
 #include "app/scene/params.h"
 #include "app/scene/read.h"
 #include "app/support/text.h"
+#include "app/view/frontend/imgui_input.h"
 #include "app/view/panels/labels.h"
 #include "app/view/panels/orbit.h"
 #include "app/view/panels/slider_scale.h"
@@ -20,6 +21,7 @@
 #include "app/view/panels/words.h"
 #include "tests/cli/run_neve.h"
 #include "tests/view/panels.h"
+#include "tests/view/view_support.h"
 
 namespace neve::app {
 namespace {
@@ -378,6 +380,37 @@ TEST(Plots, SharesOfPhasesAreOfAllOfThem) {
   app::view::session::LiveFrame live;
   live.phases = {1, 2, 4, 8, 16, 32, 64};
   EXPECT_EQ(live.phases.total(), 127);
+}
+
+/// ";" is shift and "," on many keyboards: it was a step of the run.
+TEST(Keys, ASignIsWhatIsTypedOnceForEachPress) {
+  const test::TemporaryFolder folder;
+  view::session::Workbench bench = test::bench_for(folder, test::tiny_scene);
+  view::panels::ViewerState state{.bench = bench};
+  state.live = bench.session().latest();
+  Panels panels;
+  ClipboardFrontend front;
+  view::frontend::ImGuiInput input(front);
+  const auto play = [&](std::vector<view::frontend::InputEvent> events) {
+    input.push(std::move(events));
+    for (bool is_more = true; is_more;) {
+      is_more = input.feed();
+      panels.frame([&] { view::panels::use_keys(state); });
+    }
+  };
+  const auto wait_for_stage = [&](sim::Stage stage) {
+    const auto live = test::wait_for(bench.session(), [&](const view::session::LiveFrame& shown) {
+      return shown.stage && shown.stage->stage == stage;
+    });
+    EXPECT_EQ(live->steps, 0u);
+  };
+  const view::frontend::Modifiers shift{.shift = true};
+  play({press(',', shift), text(";")});
+  play({text(";")});  // it is held
+  wait_for_stage(sim::Stage{});
+  play({release(',', shift)});
+  play({text(";")});  // of a phone
+  wait_for_stage(static_cast<sim::Stage>(1));
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <thread>
 
 #include "app/scene/read.h"
 #include "app/setup/seed_scene.h"
@@ -395,6 +398,53 @@ TEST(Samples, ForcesAreUnknownInsideAFrameAndKnownAtItsEnd) {
   ASSERT_GT(samples.list()->size(), 1u);
   for (const view::session::RunSample& sample : *samples.list())
     EXPECT_EQ(std::isnan(sample.max_force), sample.time < run.simulation().time()) << sample.time;
+}
+
+/// A hand that drags asks far more often than a session can do what it is asked for.
+TEST(Mailbox, ARequestTakesThePlaceOfTheOneOfItsKindThatWaits) {
+  using Kind = view::session::Mailbox::Kind;
+  view::session::Mailbox mailbox;
+  std::string done;
+  const auto ask = [&](char name, Kind kind) {
+    mailbox.ask([&done, name] { done += name; }, kind);
+  };
+  ask('a', Kind::start);
+  ask('b', Kind::views);
+  ask('c', Kind::start);
+  ask('d', Kind::frame);
+  ask('e', Kind::once);
+  ask('f', Kind::frame);
+  ask('g', Kind::frame);
+  for (const auto& waiting : mailbox.wait([] { return true; })) waiting.request();
+  EXPECT_EQ(done, "bcdeg");
+}
+
+/// Attempts that broke a rule stayed in the plots.
+TEST(Session, PlotsHaveNoMomentOfAnAttemptThatTheRunHasLeft) {
+  std::string text = tiny_scene;
+  text.replace(text.find("[solver]"), 8,
+               "[material.snow]\nhardening = 30\n[solver]\ntime_step = \"fixed\"\ndt = 2.4e-3\n"
+               "on_divergence = \"retry\"");
+  text.replace(text.find("[0, -2, 0]"), 10, "[0, -4, 0]");
+  // Every step of the first attempts is told.
+  std::atomic<view::session::Session*> watched = nullptr;
+  view::session::Session session(scene_of(text), {}, [&] {
+    view::session::Session* const it = watched.load();
+    if (!it || it->latest()->returns > 1) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(31));
+    it->taken(it->latest()->number);
+  });
+  watched = &session;
+  session.next_frame();
+  const auto live = rest_at(session, 1);
+  EXPECT_EQ(live->returns, 2u);
+  ASSERT_GT(live->samples->size(), 2u);
+  for (const view::session::RunSample& sample : *live->samples) {
+    EXPECT_LT(sample.max_speed, 20) << sample.time << " s: attempts broke a rule with more";
+    if (sample.time > 0 && sample.time < 1 / 24.0) {
+      EXPECT_LT(sample.dt, 0.61e-3) << sample.time;
+    }
+  }
 }
 
 /// The run may be between two frames: the one that it passed last is kept, too.

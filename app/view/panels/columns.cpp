@@ -68,7 +68,9 @@ std::vector<frontend::ScrollPlace> scroll_places() {
 
 void draw_left_column(ViewerState& state) {
   if (!ImGui::BeginTabBar("left")) return;
-  add_tab("Parameters", [&] { draw_parameters(state); });
+  add_tab(
+      "Parameters", [&] { draw_parameters(state); },
+      std::exchange(state.go_to_parameters, false) ? ImGuiTabItemFlags_SetSelected : 0);
   add_tab("Objects", [&] { draw_objects(state); });
   const std::size_t count = state.bench.document().edits().size();
   const std::string changed =

@@ -33,7 +33,11 @@ void draw_incident(ViewerState& state) {
   if (labelled_button("Show me")) show_incident(state);
   ImGui::SameLine();
   if (!live.diagnosis->address.empty()) {
-    if (labelled_button("Find the parameter")) state.filter = live.diagnosis->address;
+    if (labelled_button("Find the parameter")) {
+      state.filter = live.diagnosis->address;
+      state.go_to_parameters = state.panels.left = true;
+      state.panels.prefers_right = false;
+    }
   }
   const bool is_ignored = live.scene->solver.on_divergence == sim::OnDivergence::ignore;
   if (!is_ignored && !sim::is_final_rule(live.divergence->rule)) {

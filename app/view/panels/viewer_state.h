@@ -25,7 +25,7 @@ struct ProbeTrace {
   std::string quantity;             ///< empty: the first one
   std::map<double, double> points;  ///< s, magnitude
   std::optional<dump::Probe> target;
-  std::uint64_t start = 0, forks = 0;  ///< of the run that they are of
+  std::uint64_t start = 0, returns = 0;  ///< of the run that they are of
 
   /// Adds the moment. Points of another run are forgotten, later ones of this run stay while an
   /// earlier moment is shown.
@@ -81,8 +81,9 @@ struct ViewerState {
   render::PicturePlace viewport{};  ///< px
   PanelSwitches panels{};
   bool is_help_open = false;
-  int tour_step = -1;  ///< of the guided tour; -1: it is over
-  int bar_rows = 1;    ///< of buttons at the top, in the last picture
+  bool is_sign_taken = false;  ///< that the key which is held has typed
+  int tour_step = -1;          ///< of the guided tour; -1: it is over
+  int bar_rows = 1;            ///< of buttons at the top, in the last picture
 
   std::string filter{};    ///< of the parameters
   std::string selected{};  ///< "body.ball", "collider.floor" or ""
@@ -102,6 +103,7 @@ struct ViewerState {
   bool wants_picture = false;
   std::size_t tab = 0;                     ///< of the right column
   std::optional<std::size_t> go_to_tab{};  ///< opens this one
+  bool go_to_parameters = false;           ///< opens that tab of the left column
   std::uint64_t errors_seen = 0;           ///< of the session
   std::uint64_t errors_told = 0;           ///< of the messages: their tab was opened for these
   bool is_divergence_told = false;

@@ -10,6 +10,24 @@
 
 namespace neve::app::view::panels {
 
+namespace {
+
+/// Whether a sign that was typed in this frame counts: a key that is held types it again and again.
+/// Phones type without keys.
+bool takes_signs(ViewerState& state) {
+  bool is_new = false, is_down = false;
+  for (int key = '!'; key <= '~'; ++key) {
+    is_new = is_new || frontend::is_key_pressed(key);
+    is_down = is_down || frontend::is_key_down(key);
+  }
+  if (is_new || !is_down) state.is_sign_taken = false;
+  const bool takes = !state.is_sign_taken;
+  if (is_down && !ImGui::GetIO().InputQueueCharacters.empty()) state.is_sign_taken = true;
+  return takes;
+}
+
+}  // namespace
+
 void use_keys(ViewerState& state) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput) return;
@@ -23,9 +41,13 @@ void use_keys(ViewerState& state) {
     return;
   }
   if (pressed(' ')) toggle_run(state);
-  if (pressed('.')) session.next_frame();
-  if (pressed(',')) session.next_step();
-  if (pressed(';')) {
+  // A sign has another key on each keyboard, some with shift: what is typed tells it.
+  const auto typed = [&, takes = takes_signs(state)](char sign) {
+    return takes && io.InputQueueCharacters.contains(static_cast<ImWchar>(sign));
+  };
+  if (typed('.')) session.next_frame();
+  if (typed(',')) session.next_step();
+  if (typed(';')) {
     session.next_stage();
     state.go_to_tab = tab::inspect;
   }
@@ -40,9 +62,8 @@ void use_keys(ViewerState& state) {
     }
   const std::vector<scene::View>& views = state.bench.document().scene()->views;
   for (std::size_t k = 0; k < std::min<std::size_t>(9, views.size()); ++k)
-    if (pressed('1' + static_cast<int>(k))) state.view = views[k].name;
-  if (pressed('/') && io.KeyShift) state.is_help_open = !state.is_help_open;
-  if (pressed('?') || pressed(frontend::key::f1)) state.is_help_open = !state.is_help_open;
+    if (typed(static_cast<char>('1' + k))) state.view = views[k].name;
+  if (typed('?') || pressed(frontend::key::f1)) state.is_help_open = !state.is_help_open;
   if (pressed(frontend::key::escape)) {
     if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
       ImGui::ClosePopupToLevel(0, true);

@@ -147,7 +147,9 @@ class Hand {
   std::string printed_by(int code) const {
     if (step_.held.ctrl || step_.held.alt || step_.held.super || code < ' ' || code > 126)
       return {};
-    if (code >= 'A' && code <= 'Z' && !step_.held.shift) code += 'a' - 'A';
+    const bool is_letter = code >= 'A' && code <= 'Z';
+    if (step_.held.shift && !is_letter) return {};  // another sign on each keyboard
+    if (is_letter && !step_.held.shift) code += 'a' - 'A';
     return std::string(1, static_cast<char>(code));
   }
 

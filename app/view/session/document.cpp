@@ -100,7 +100,7 @@ setup::Plan plan_of(const scene::Scene& scene) {
 /// available any more
 void require_room(const scene::Scene& scene, setup::Plan plan, const setup::Plan& present,
                   double coarsening) {
-  if (scene.limits.memory == 0 && !plan.is_memory_capped) plan.memory_limit += present.memory;
+  setup::count_on(present.memory, scene, plan);
   setup::check_limits(scene, plan, coarsening);
 }
 

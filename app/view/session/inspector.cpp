@@ -29,15 +29,15 @@ bool Inspector::next_stage() {
   return true;
 }
 
-void Inspector::inspect(const timeline::Timeline& timeline, bool is_running, LiveFrame& live) {
+void Inspector::inspect(timeline::Timeline& timeline, bool is_running, LiveFrame& live) {
   const auto now = Clock::now();
   const bool is_probe =
       (probe_ || histogram_) && (!is_running || now - probed_at_ > probe_interval);
   live.probed = probe_;
   const bool is_stage = stage && !live.divergence;
-  if (is_stage || is_probe) {
+  const auto look = [&](const scene::Scene& scene) {
     const dump::StepInspection inside =
-        dump::inspect_step(*live.scene, timeline.simulation(), seconds_left(timeline));
+        dump::inspect_step(scene, timeline.simulation(), seconds_left(timeline));
     if (is_stage) {
       live.stage = summarize_stage(inside, *stage);
       live.snapshot.advance = report_of(inside);
@@ -49,7 +49,13 @@ void Inspector::inspect(const timeline::Timeline& timeline, bool is_running, Liv
       if (histogram_) spread_ = read_histogram(inside, *histogram_, stage);
       probed_at_ = Clock::now();
     }
-  }
+  };
+  // Without a stage it is the state that is asked for, as the last step has left it.
+  if (is_stage)
+    timeline.look_at_next(
+        [&](bool has_other_values) { look(has_other_values ? timeline.scene() : *live.scene); });
+  else if (is_probe)
+    look(*live.scene);
   live.probe = probe_ ? reading_ : std::nullopt;
   live.histogram = histogram_ ? spread_ : std::nullopt;
 }

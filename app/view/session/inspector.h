@@ -26,12 +26,15 @@ class Inspector {
     probed_at_ = {};
   }
 
+  /// The last readings are of a moment that was left.
+  void look_again() { probed_at_ = {}; }
+
   /// Goes on to the next stage. @return false after the last one
   bool next_stage();
 
   /// Adds the stage, the probe and the histogram to a frame. A running simulation is probed four
   /// times a second.
-  void inspect(const timeline::Timeline& timeline, bool is_running, LiveFrame& live);
+  void inspect(timeline::Timeline& timeline, bool is_running, LiveFrame& live);
 
  private:
   std::optional<dump::Probe> probe_;

@@ -86,11 +86,13 @@ struct HistogramReading {
 };
 
 struct LiveFrame {
-  std::uint64_t number = 0;                   ///< number of published frames
-  std::uint64_t start = 0;                    ///< that its run began with; 0: the first one
-  std::uint64_t newest_start = 0;             ///< that was tried, `start` too if it succeeded
-  std::uint64_t forks = 0;                    ///< times that a run left later frames behind
-  int forked_at = 0;                          ///< frame where the last one did
+  std::uint64_t number = 0;        ///< number of published frames
+  std::uint64_t start = 0;         ///< that its run began with; 0: the first one
+  std::uint64_t newest_start = 0;  ///< that was tried, `start` too if it succeeded
+  std::uint64_t forks = 0;         ///< times that a run left later frames behind
+  int forked_at = 0;               ///< frame of the earliest one that readers may not know
+  std::uint64_t returns = 0;  ///< times that it left later moments behind, of a fork or an attempt
+  double returned_to = 0;     ///< s, the earliest of those that readers may not know
   std::shared_ptr<const scene::Scene> scene;  ///< that is simulated, colliders where they are
   picture::Snapshot snapshot;
   std::vector<picture::PlotSample> history;  ///< one per frame; snapshot.history shows these
@@ -122,7 +124,7 @@ struct LiveFrame {
   std::optional<ProbeReading> probe;
   std::optional<dump::Probe> probed;  ///< requested target
   std::optional<HistogramReading> histogram;
-  std::string error;         ///< why the last thing asked for was not done; empty: it was
+  std::string error;         ///< why something that was asked for was not done, the last one
   std::uint64_t errors = 0;  ///< how many there were, to tell a new one from the same
 };
 

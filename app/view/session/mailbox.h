@@ -17,11 +17,22 @@ namespace neve::app::view::session {
 class Mailbox {
  public:
   using Request = std::function<void()>;
+  /// What a request leaves nothing of, once the next one of its kind is done. Those of a hand that
+  /// drags come many times faster than they are done.
+  enum class Kind { once, start, frame, views };
 
   // For any thread.
-  void ask(Request request) {
+  /// One of a kind takes the place of the one that waits, unless others have been asked for since.
+  void ask(Request request, Kind kind = Kind::once) {
     change([&] {
-      requests_.push_back(std::move(request));
+      for (auto place = waiting_.end(); place != waiting_.begin() && kind != Kind::once;) {
+        --place;
+        if (place->kind == Kind::once) break;
+        if (place->kind != kind) continue;
+        waiting_.erase(place);
+        break;
+      }
+      waiting_.push_back({std::move(request), kind});
       has_requests_ = true;
     });
   }
@@ -45,6 +56,10 @@ class Mailbox {
   }
 
   // For the session's thread.
+  struct Waiting {
+    Request request;
+    Kind kind = Kind::once;
+  };
   bool is_ending() const { return is_ending_; }
   bool has_requests() const { return has_requests_; }
   bool is_wanted() const { return is_wanted_; }
@@ -56,11 +71,11 @@ class Mailbox {
   }
   /// Waits for requests, for the end, or until there is something else to do.
   template <class Ready>
-  std::deque<Request> wait(const Ready& is_ready) {
+  std::deque<Waiting> wait(const Ready& is_ready) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return is_ending_ || !requests_.empty() || is_ready(); });
+    changed_.wait(lock, [&] { return is_ending_ || !waiting_.empty() || is_ready(); });
     has_requests_ = is_ending_.load();
-    return std::exchange(requests_, {});
+    return std::exchange(waiting_, {});
   }
 
  private:
@@ -75,7 +90,7 @@ class Mailbox {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Request> requests_;
+  std::deque<Waiting> waiting_;
   std::shared_ptr<const LiveFrame> latest_;
   std::atomic<bool> has_requests_ = false, is_wanted_ = true, is_ending_ = false;
   std::atomic<std::uint64_t> taken_ = 0;

@@ -97,12 +97,13 @@ void Session::leave_stage() {
 }
 
 void Session::reset(std::shared_ptr<const scene::Scene> scene, std::uint64_t start_number) {
-  mailbox_.ask([this, start_number, scene = std::move(scene)] {
+  auto request = [this, start_number, scene = std::move(scene)] {
     told_.newest_start = start_number;
     start(scene, {});
     told_.start = start_number;
     goal_ = Goal::none;
-  });
+  };
+  mailbox_.ask(std::move(request), Mailbox::Kind::start);
 }
 
 void Session::apply(std::shared_ptr<const scene::Scene> scene) {
@@ -120,19 +121,19 @@ void Session::apply(std::shared_ptr<const scene::Scene> scene) {
 }
 
 void Session::show_frame(int frame) {
-  mailbox_.ask([this, frame] {
+  const auto request = [this, frame] {
     goal_ = Goal::none;
     inspector_.stage.reset();
     const auto kept = timeline_->moments().find(frame / timeline_->fps(), timeline_->fps());
     if (!kept) return;
-    const bool is_shown = !head_ && kept->steps == timeline_->here().steps;
-    if (is_shown) return;
+    if (kept->steps == timeline_->here().steps) return;  // it is shown
     if (!head_) {
       broken_ = divergence();
       head_ = timeline_->moment();
     }
     load(*kept);
-  });
+  };
+  mailbox_.ask(request, Mailbox::Kind::frame);
 }
 
 void Session::show_head() {
@@ -154,9 +155,10 @@ void Session::fork_here() {
   timeline_->fork();
   broken_.reset();
   told_.diagnosis.reset();
-  samples_.forget_after(simulation().time());
+  return_to(simulation().time());
+  steps_seen_ = 0;
   ++told_.forks;
-  told_.forked_at = timeline_->here().frame;
+  tell_earliest(timeline_->here().frame, told_.forked_at, forked_in_);
 }
 
 /// The change belongs to a step before the broken one: made again, the run passes it too.
@@ -178,10 +180,11 @@ void Session::continue_anyway(std::shared_ptr<const scene::Scene> scene) {
 
 void Session::set_views(std::vector<scene::View> views) {
   // The frame that waits for its picture may lack their fields, and then it would never be drawn.
-  mailbox_.ask([this, views = std::move(views)] {
+  auto request = [this, views = std::move(views)] {
     views_ = views;
     mailbox_.want();
-  });
+  };
+  mailbox_.ask(std::move(request), Mailbox::Kind::views);
 }
 
 void Session::set_probe(std::optional<dump::Probe> probe) {
@@ -219,18 +222,22 @@ void Session::work() {
   for (;;) {
     const auto requests =
         mailbox_.wait([&] { return may_run() || (has_news_ && mailbox_.is_wanted()); });
+    for (const auto& waiting : requests) {
+      if (mailbox_.is_ending()) return;
+      obey(waiting.request);
+    }
     if (mailbox_.is_ending()) return;
-    for (const auto& request : requests) obey(request);
     if (may_run()) obey([this] { advance(); });
     if (has_news_ && mailbox_.is_wanted()) {
-      obey([this] { publish(); });
+      tell();
       has_news_ = false;
     }
   }
 }
 
-/// Reports any error to the caller; the thread continues.
-void Session::obey(const std::function<void()>& request) {
+/// Reports any error to the caller; the thread continues. @return false after one
+bool Session::obey(const std::function<void()>& request) {
+  const std::uint64_t errors = told_.errors;
   try {
     request();
   } catch (const std::exception& error) {
@@ -239,6 +246,15 @@ void Session::obey(const std::function<void()>& request) {
     goal_ = Goal::none;
   }
   has_news_ = true;
+  return told_.errors == errors;
+}
+
+/// A moment for which memory is short is told without what was to be looked at inside it.
+bool Session::tell() {
+  if (obey([this] { publish(); })) return true;
+  inspector_ = {};
+  obey([this] { publish(); });
+  return false;
 }
 
 }  // namespace neve::app::view::session

@@ -1,6 +1,7 @@
 #pragma once
 /// A run on a thread of its own: takes requests and publishes LiveFrames.
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -25,10 +26,9 @@ struct Past {
 };
 
 struct SessionOptions {
-  int threads = 0;                ///< 0: one per core
-  double coarsening = 1;          ///< of --coarsen, for advice
-  std::uint64_t kept_budget = 0;  ///< bytes of kept moments; 0: a quarter of the free memory
-  std::optional<Past> past{};     ///< of the scene that the session begins with
+  int threads = 0;             ///< 0: one per core
+  double coarsening = 1;       ///< of --coarsen, for advice
+  std::optional<Past> past{};  ///< of the scene that the session begins with
 };
 
 /// All functions but moment(), latest() and taken() only ask: their effect shows in the frames that
@@ -95,14 +95,28 @@ class Session {
 
   // All of these run on the session's thread.
   void work();
-  void obey(const std::function<void()>& request);
+  bool obey(const std::function<void()>& request);
+  bool tell();
   void start(const std::shared_ptr<const scene::Scene>& scene, const std::optional<Past>& past);
+  std::function<void()> give_up_run();
+  std::unique_ptr<timeline::Timeline> make_timeline(
+      const scene::Scene& scene, std::vector<scene::LiveChange> changes,
+      std::shared_ptr<const setup::SeededScene> seeded, timeline::Moments moments);
   void set_goal(Goal goal);
   void load(const timeline::Moment& moment);
   void leave_older();
   void fork_here();
   void advance();
   void reach_frame();
+  void note_return(std::size_t steps);
+  void return_to(double time);
+  /// Tells a moment in the next frame, or an earlier one that nobody has seen yet.
+  /// @param number  of the frame that tells it
+  template <class T>
+  void tell_earliest(T now, T& told, std::uint64_t& number) {
+    told = mailbox_.taken() < number ? std::min(now, told) : now;
+    number = told_.number + 1;
+  }
   void require_room() const;
   bool after_step();
   bool waits_for_picture() const;
@@ -115,6 +129,7 @@ class Session {
   SessionOptions options_;
   std::unique_ptr<timeline::Timeline> timeline_;
   std::uint64_t memory_limit_ = 0;        ///< bytes of a simulation whose broken rules are ignored
+  std::uint64_t planned_ = 0;             ///< bytes that were planned for it
   std::optional<timeline::Moment> head_;  ///< where the run is, while an older frame is shown
   /// The rule that the run broke where it is, once an older frame was shown: a simulation that goes
   /// back to a saved state does not know it any more.
@@ -127,7 +142,10 @@ class Session {
   bool has_news_ = true;
   LiveFrame told_;  ///< the parts of a frame that stay until they change: number, speed, errors
   Clock::time_point published_at_{}, measured_at_{};
-  double measured_time_ = 0;  ///< s, simulated then
+  double measured_time_ = 0;                       ///< s, simulated then
+  std::size_t steps_seen_ = 0;                     ///< of the run, when it was looked at last
+  double begun_at_ = 0;                            ///< s, where what is simulated now began
+  std::uint64_t returned_in_ = 0, forked_in_ = 0;  ///< numbers of the frames that tell of the last
   Mailbox mailbox_;
   std::thread thread_;
 };

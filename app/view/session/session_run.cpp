@@ -23,36 +23,76 @@ constexpr double speed_interval = 0.25;  ///< s
 
 }  // namespace
 
+std::unique_ptr<timeline::Timeline> Session::make_timeline(
+    const scene::Scene& scene, std::vector<scene::LiveChange> changes,
+    std::shared_ptr<const setup::SeededScene> seeded, timeline::Moments moments) {
+  return std::make_unique<timeline::Timeline>(
+      scene, std::move(changes), std::move(seeded), options_.threads, std::move(moments),
+      timeline::Watch{[this](double) { return after_step(); }});
+}
+
 void Session::start(const std::shared_ptr<const scene::Scene>& scene,
                     const std::optional<Past>& past) {
-  const setup::Plan plan =
+  const std::uint64_t held =
+      timeline_ ? simulation().memory_bytes() + timeline_->moments().bytes() : 0;
+  setup::Plan plan =
       setup::make_plan(*scene, {0, scene->frames}, setup::Quality::preview, options_.threads);
+  const bool is_bounded = scene->limits.memory > 0 || plan.is_memory_capped;
+  const bool fits_beside =
+      plan.memory <= usable_memory() && (!is_bounded || plan.memory + held <= plan.memory_limit);
+  setup::count_on(std::max(held, planned_), *scene, plan);
   setup::check_limits(*scene, plan, options_.coarsening);
-  timeline::Moments moments(options_.kept_budget > 0 ? options_.kept_budget
-                                                     : available_memory() / 4);
+  // A cap is for the run and the frames that are kept of it together.
+  std::uint64_t budget = (available_memory() + held) / 4;
+  if (plan.is_memory_capped) budget = std::min(budget, plan.memory_limit - plan.memory);
+  timeline::Moments moments(std::max<std::uint64_t>(1, budget));
   if (past) moments.add_run(past->run);
   // A later start has a run before it, and perhaps pictures of that which are being written.
   std::optional<NothingToKeep> reading;
   if (!timeline_) reading.emplace();
   auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(*scene));
-  auto next = std::make_unique<timeline::Timeline>(
-      *scene, past ? past->changes : std::vector<scene::LiveChange>{}, std::move(seeded),
-      options_.threads, std::move(moments),
-      timeline::Watch{[this](double) { return after_step(); }});
-  reading.reset();
-  next->keep();
-  if (past && past->newest) next->restore(*past->newest);
-  // From here on nothing fails: the old run may go.
-  timeline_ = std::move(next);
+  const std::function<void()> bring_back = fits_beside ? nullptr : give_up_run();
+  try {
+    auto next = make_timeline(*scene, past ? past->changes : std::vector<scene::LiveChange>{},
+                              std::move(seeded), std::move(moments));
+    next->keep();
+    if (past && past->newest) next->restore(*past->newest);
+    reading.reset();
+    // From here on nothing fails: the old run may go.
+    timeline_ = std::move(next);
+  } catch (const std::exception&) {
+    if (bring_back) bring_back();
+    throw;
+  }
   memory_limit_ = plan.memory_limit;
+  planned_ = plan.memory;
   head_.reset();
   broken_.reset();
   inspector_.stage.reset();
   samples_.begin(past ? past->frames : std::vector<record::FrameRecord>{});
   samples_.note(*timeline_);
   told_.diagnosis.reset();
-  told_.error.clear();
   told_.speed = 0;
+  steps_seen_ = 0;
+}
+
+/// Gives back the memory of the run, where another has no room beside it. @return makes it again
+/// where it was; of its kept frames the one that it is at
+std::function<void()> Session::give_up_run() {
+  if (!timeline_) return nullptr;
+  broken_ = divergence();
+  auto last = std::make_shared<const timeline::Moment>(head_ ? *std::exchange(head_, std::nullopt)
+                                                             : timeline_->moment());
+  const std::uint64_t budget = timeline_->moments().budget();
+  auto make = [this, budget, last, start = timeline_->start(), changes = timeline_->changes(),
+               seeded = timeline_->shared_seeded()] {
+    timeline_ = make_timeline(start, changes, seeded, timeline::Moments(budget));
+    timeline_->keep();
+    timeline_->restore(*last);
+    if (last->is_frame_end()) timeline_->keep();
+  };
+  timeline_.reset();
+  return make;
 }
 
 void Session::set_goal(Goal goal) {
@@ -102,6 +142,8 @@ void Session::require_room() const {
 /// @return whether to stop. A run that may return to the beginning of its frame is not stopped
 /// inside the frame.
 bool Session::after_step() {
+  bool is_told = true;
+  note_return(simulation().steps() - 1);
   if (mailbox_.is_wanted() && !is_recording_ && Clock::now() - published_at_ > publish_interval) {
     if (const double wall = seconds_since(measured_at_); wall > speed_interval) {
       told_.speed = (simulation().time() - measured_time_) / wall;
@@ -109,19 +151,38 @@ bool Session::after_step() {
       measured_time_ = simulation().time();
     }
     samples_.note_if_cheap(*timeline_);
-    publish();
+    is_told = tell();  // an error here would lose the steps of the frame so far
+    published_at_ = Clock::now();
   }
   const bool may_go_back =
       timeline_->here().scene->solver.on_divergence == sim::OnDivergence::retry;
-  return mailbox_.is_ending() || (mailbox_.has_requests() && !may_go_back);
+  return mailbox_.is_ending() || ((mailbox_.has_requests() || !is_told) && !may_go_back);
+}
+
+/// Steps of an attempt that broke a rule, and of the rehearsal of a single step, are none of the
+/// run. @param steps  that the run has before what follows
+void Session::note_return(std::size_t steps) {
+  if (steps < steps_seen_) return_to(begun_at_);
+  steps_seen_ = simulation().steps();
+}
+
+/// What was told of moments after this one is of a run that was left.
+void Session::return_to(double time) {
+  samples_.forget_after(time);
+  inspector_.look_again();
+  tell_earliest(time, told_.returned_to, returned_in_);
+  ++told_.returns;
 }
 
 void Session::advance() {
   const int before = timeline_->here().frame;
+  begun_at_ = simulation().time();
+  steps_seen_ = simulation().steps();
   if (goal_ == Goal::step)
     timeline_->advance_step();
   else
     timeline_->advance_frame();
+  note_return(simulation().steps());
   const bool is_at_end = timeline_->here().frame > before;
   const std::optional<sim::Divergence>& divergence = simulation().divergence();
   if (divergence || goal_ == Goal::step || is_at_end) samples_.note(*timeline_);
@@ -150,8 +211,8 @@ std::shared_ptr<const scene::Scene> Session::shown_scene() const {
 }
 
 void Session::publish() {
-  ++told_.number;
   auto live = std::make_shared<LiveFrame>(told_);
+  ++live->number;
   const timeline::Moment& here = timeline_->here();
   live->scene = shown_scene();
   live->snapshot =
@@ -181,6 +242,7 @@ void Session::publish() {
   live->simd = simulation().simd();
   inspector_.inspect(*timeline_, live->is_running, *live);
   published_at_ = Clock::now();
+  told_.number = live->number;
   mailbox_.publish(live);
   if (wake_) wake_();
 }

@@ -329,11 +329,15 @@ void Workbench::reset() {
   session_->reset(document_.scene(), next);
 }
 
-/// Takes the live changes that waited because the run had diverged too.
-void Workbench::continue_from_here() {
-  session_->continue_from_here();
+/// The live changes that waited because the run had diverged.
+void Workbench::take_waiting() {
   for (const std::string& address : waiting_for_reset())
     if (effect_of(address) == Effect::live) put(newest_start().running, address, document_.edits());
+}
+
+void Workbench::continue_from_here() {
+  session_->continue_from_here();
+  take_waiting();
   apply_running();
 }
 
@@ -341,8 +345,8 @@ void Workbench::continue_anyway() {
   const std::string address = "solver.on_divergence";
   try {
     document_.set(address, "\"ignore\"");
-    Start& start = newest_start();
-    put(start.running, address, document_.edits());
+    take_waiting();
+    const Start& start = newest_start();
     session_->continue_anyway(start.document.scene_with(start.running));
   } catch (const std::exception& error) {
     say(Message::Kind::error, text_of(error));

@@ -144,6 +144,7 @@ class Workbench {
   void take_over(const std::vector<scene::Override>& before);
   std::vector<std::string> changed_while_running() const;
   std::string changes_too_early(const std::string& what) const;
+  void take_waiting();
   void apply_running();
   bool waits_with_its_object(const std::string& address) const;
   bool lacks_its_object(const std::vector<scene::Override>& edits,
