@@ -9,6 +9,7 @@
 #include "app/output/sequence.h"
 #include "app/picture/mosaic.h"
 #include "app/picture/shutter.h"
+#include "app/support/text.h"
 #include "app/timeline/timeline.h"
 #include "render/image/mean_image.h"
 
