@@ -4,11 +4,13 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <thread>
 
 #include "app/scene/read.h"
+#include "app/setup/plan.h"
 #include "app/setup/seed_scene.h"
 #include "app/timeline/timeline.h"
 #include "app/view/panels/viewer_state.h"
@@ -290,6 +292,26 @@ TEST(Session, SessionReportsRefusalsAndContinues) {
   EXPECT_EQ(live->start, 0u);
   session.next_frame();
   EXPECT_EQ(rest_at(session, 1)->frame, 1);
+}
+
+/// Two runs of it, or its kept frames beside it, are more than the cap.
+TEST(Session, AResetHasTheMemoryOfTheRunThatItEnds) {
+  const auto scene = scene_of(tiny_scene);
+  const std::uint64_t planned =
+      setup::make_plan(*scene, {0, scene->frames}, setup::Quality::preview, 0).memory;
+  const std::uint64_t spare = 64 << 10;
+  ::setenv("NEVE_MAX_MEMORY", std::to_string(planned + spare).c_str(), 1);
+  view::session::Session session(scene, {}, {});
+  session.run();
+  EXPECT_LE(rest_at(session, 4)->kept_budget, spare);
+  session.reset(scene, 1);
+  const auto live =
+      wait_for(session, [](const view::session::LiveFrame& frame) { return frame.start == 1; });
+  EXPECT_EQ(live->errors, 0u) << live->error;
+  EXPECT_EQ(live->state_hash, undisturbed(*scene, 0));
+  session.run();
+  EXPECT_EQ(rest_at(session, 4)->state_hash, undisturbed(*scene, 4));
+  ::unsetenv("NEVE_MAX_MEMORY");
 }
 
 TEST(Session, ARunWhoseLastFrameIsLoweredBehindItStops) {
