@@ -20,8 +20,8 @@
 #include "app/setup/auto_ranges.h"
 #include "app/setup/curves.h"
 #include "app/support/text.h"
-#include "sim/files/height_reader.h"
 #include "sim/laws/law.h"
+#include "sim/shapes/height_field.h"
 #include "sim/shapes/placed_points.h"
 #include "sim/shapes/solid.h"
 
@@ -318,7 +318,7 @@ std::optional<Idle> idle_in_collider(const scene::Scene& scene, const scene::Col
   if (const auto* terrain = std::get_if<sim::shapes::Terrain>(&collider.shape.form);
       terrain &&
       is_one_of(key, {"shape.terrain.spacing", "shape.terrain.low", "shape.terrain.high"}) &&
-      !sim::files::takes_scale(terrain->file))
+      !sim::shapes::takes_scale(*terrain))
     return Idle{"it is for a PNG, and the file is a grid, which says its own spacing and heights",
                 "remove it; the numbers of the grid have to be metres"};
   return std::nullopt;

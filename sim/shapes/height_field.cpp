@@ -153,6 +153,10 @@ std::shared_ptr<const HeightField> height_field(const Terrain& terrain) {
   });
 }
 
+bool takes_scale(const Terrain& terrain) {
+  return files::takes_scale(terrain.file);
+}
+
 double memory_to_read(const Terrain& terrain) {
   // What a run has read has its room.
   static Recent<double> recent;

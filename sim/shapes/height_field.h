@@ -95,6 +95,9 @@ std::shared_ptr<const HeightField> height_field(const Terrain& terrain);
 /// known.
 double memory_to_read(const Terrain& terrain);
 
+/// Whether spacing, low and high are for its file; a grid has its own.
+bool takes_scale(const Terrain& terrain);
+
 /// East, north and up of the middle of a file, in whole metres. @throws ShapeError
 Vec3d middle_of(const Terrain& terrain);
 

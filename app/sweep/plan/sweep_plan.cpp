@@ -198,7 +198,7 @@ const Run* other_snow_among(const std::vector<Corner>& corners, const SceneMaker
 /// steps of one kind, and of a length that is right for all of them.
 forecast::FastLook take_fast_look(const SweepOptions& options, const SceneMaker& maker,
                                   const scene::Scene& base, read::Sweep& sweep) {
-  constexpr std::size_t most_corners = 8;
+  constexpr std::size_t max_corners = 8;
   std::vector<std::string> chosen = scene::addresses_of(sweep.fixed);
   std::vector<int> sizes;
   for (const read::Axis& axis : sweep.axes) {
@@ -218,7 +218,7 @@ forecast::FastLook take_fast_look(const SweepOptions& options, const SceneMaker&
   for (const std::size_t k : coarse_first(places, sizes)) {
     scene::Scene scene = maker.make(runs[k].settings);
     cfl = std::min(cfl, forecast::fast_cfl(scene));
-    if (corners.size() < most_corners && known.insert(run::simulation_text(scene)).second)
+    if (corners.size() < max_corners && known.insert(run::simulation_text(scene)).second)
       corners.push_back({&runs[k], std::move(scene)});
   }
   const auto last_of = [&](const scene::Scene& scene) {
