@@ -31,7 +31,7 @@ MosaicLayout layout_of(const scene::Scene& scene, const scene::Mosaic& mosaic, i
 int caption_lines(const scene::Scene& scene, bool has_words);
 
 /// Of captions of any run.
-inline constexpr int most_caption_lines = 3;
+inline constexpr int max_caption_lines = 3;
 
 /// @param caption_lines  as for layout_of
 scene::PictureSize size_of(const scene::Scene& scene, const scene::Mosaic& mosaic,

@@ -52,7 +52,7 @@ std::vector<scene::PictureSize> picture_sizes(const scene::Scene& scene) {
   std::vector<scene::PictureSize> sizes;
   for (const scene::View& view : scene.views) sizes.push_back(size_of(scene, view));
   for (const scene::Mosaic& mosaic : scene.mosaics)
-    sizes.push_back(size_of(scene, mosaic, most_caption_lines));
+    sizes.push_back(size_of(scene, mosaic, max_caption_lines));
   return sizes;
 }
 

@@ -266,7 +266,7 @@ TEST(Mosaic, ItsHeightIsKnownBeforeTheRun) {
   scene.title = "fall";
   EXPECT_EQ(setup::caption_lines(scene, false), 2);
   scene.solver.on_divergence = sim::OnDivergence::ignore;
-  EXPECT_EQ(setup::caption_lines(scene, false), setup::most_caption_lines);
+  EXPECT_EQ(setup::caption_lines(scene, false), setup::max_caption_lines);
 }
 
 TEST(Mosaic, MosaicMayNameBuiltInViews) {
