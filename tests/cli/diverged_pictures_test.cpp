@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/support/errors.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::test {
