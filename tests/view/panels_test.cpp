@@ -360,18 +360,18 @@ TEST(ProbeTrace, ProbeTraceHasAllMomentsOfTheRunInTheOrderOfTime) {
   using Points = std::map<double, double>;
   EXPECT_EQ(trace.points, (Points{{at(1), 1}, {at(2), 2}, {at(3), 3}, {at(4), 4}}));
   auto forked = probed(at(3), 5);  // continued from frame 2
-  forked.forks = 1;
-  forked.forked_at = 2;
+  forked.returns = 1;
+  forked.returned_to = at(2);
   trace.take(forked);
   EXPECT_EQ(trace.points, (Points{{at(1), 1}, {at(2), 2}, {at(3), 5}}));
   auto other = probed(at(2), 9);
   other.probed = app::dump::Probe(std::size_t{8});
-  other.forks = 1;
+  other.returns = 1;
   trace.take(other);
   EXPECT_EQ(trace.points.size(), 3u) << "of another particle";
   auto again = probed(0, 6);  // after a Reset
   again.start = 1;
-  again.forks = 1;
+  again.returns = 1;
   trace.take(again);
   EXPECT_EQ(trace.points, (Points{{0, 6}}));
 }
