@@ -134,10 +134,10 @@ std::set<std::string> Target::files_to_come(const setup::FrameRange& frames) con
 }
 
 /// Files of others in the place of those to come.
-void Target::refuse_foreign(const Json& earlier, const setup::FrameRange& frames) const {
+void Target::refuse_foreign(const record::FileHashes& made, const setup::FrameRange& frames) const {
   if (replaces_) return;
   std::set<std::string> listed;
-  for (const auto& [name, hash] : record::files_made(out_, earlier)) listed.insert(name);
+  for (const auto& [name, hash] : made) listed.insert(name);
   const std::vector<std::string> files = record::foreign_files(out_, files_to_come(frames), listed);
   if (files.empty()) return;
   throw UsageError(
@@ -148,13 +148,13 @@ void Target::refuse_foreign(const Json& earlier, const setup::FrameRange& frames
 }
 
 /// A comparison that is made again loses nothing.
-void Target::refuse_loss(const Json& earlier, const setup::FrameRange& frames) const {
+void Target::refuse_loss(const Json& earlier, record::FileHashes lost,
+                         const setup::FrameRange& frames) const {
   if (replaces_) return;
   const bool is_of_others =
       earlier.is_object() && earlier.contains("a") &&
       !(is_same_run(earlier["a"], a_) && is_same_run(earlier.value("b", Json()), b_));
   const std::set<std::string> to_come = files_to_come(frames);
-  record::FileHashes lost = record::files_made(out_, earlier);
   if (!is_of_others)
     std::erase_if(lost, [&](const auto& file) { return to_come.contains(file.first); });
   const std::vector<std::string> gone = record::unchanged_files(out_, lost);
@@ -176,9 +176,10 @@ void Target::begin(const setup::FrameRange& frames) {
   output::make_folder(out_);
   lock_.emplace(out_, "neve compare");
   const Json earlier = record::read_json(output::comparison_list_path(out_));
-  refuse_loss(earlier, frames);
-  refuse_foreign(earlier, frames);
-  record::remove_listed(out_, record::files_made(out_, earlier));
+  const record::FileHashes made = record::files_made(out_, earlier);
+  refuse_loss(earlier, made, frames);
+  refuse_foreign(made, frames);
+  record::remove_listed(out_, made);
   // If this one is killed, the next one knows which files were to be its own.
   write_list(false, files_to_come(frames));
   for (const Mode mode : modes_)

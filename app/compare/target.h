@@ -11,6 +11,7 @@
 #include "app/output/file_hash.h"
 #include "app/output/folder_lock.h"
 #include "app/output/movie.h"
+#include "app/record/run_json.h"
 #include "app/support/json.h"
 #include "render/image/image.h"
 
@@ -57,8 +58,10 @@ class Target {
  private:
   std::filesystem::path folder_of(Mode mode) const;
   std::set<std::string> files_to_come(const setup::FrameRange& frames) const;
-  void refuse_loss(const Json& earlier, const setup::FrameRange& frames) const;
-  void refuse_foreign(const Json& earlier, const setup::FrameRange& frames) const;
+  /// @param lost  files of the earlier one
+  void refuse_loss(const Json& earlier, record::FileHashes lost,
+                   const setup::FrameRange& frames) const;
+  void refuse_foreign(const record::FileHashes& made, const setup::FrameRange& frames) const;
   void write_list(bool is_whole, const std::set<std::string>& begun) const;
 
   std::filesystem::path out_;

@@ -8,6 +8,7 @@
 
 #include "app/forecast/forecast.h"
 #include "app/scene/coarsen.h"
+#include "app/scene/override.h"
 #include "app/scene/toml/value.h"
 #include "app/setup/coarse_run.h"
 #include "app/setup/curves.h"
@@ -197,12 +198,10 @@ std::vector<std::string> longer_steps(const scene::Scene& scene,
 }
 
 std::vector<std::string> FastLook::risks() const {
-  std::vector<std::string> addresses;
-  for (const std::string& change : overrides) {
-    const std::string address = change.substr(0, change.find('='));
-    if (address.ends_with(".max_hardening") || (is_implicit && address == "solver.beta"))
-      addresses.push_back(address);
-  }
+  std::vector<std::string> addresses = scene::addresses_of(scene::parse_overrides(overrides));
+  std::erase_if(addresses, [&](const std::string& address) {
+    return !address.ends_with(".max_hardening") && !(is_implicit && address == "solver.beta");
+  });
   return addresses;
 }
 
