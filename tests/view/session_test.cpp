@@ -460,7 +460,8 @@ TEST(Session, PlotsHaveNoMomentOfAnAttemptThatTheRunHasLeft) {
   session.next_frame();
   const auto live = rest_at(session, 1);
   EXPECT_EQ(live->returns, 2u);
-  ASSERT_GT(live->samples->size(), 2u);
+  // A third attempt may be shorter than the pause between samples; a frame always samples its end.
+  ASSERT_GE(live->samples->size(), 2u);
   for (const view::session::RunSample& sample : *live->samples) {
     EXPECT_LT(sample.max_speed, 20) << sample.time << " s: attempts broke a rule with more";
     if (sample.time > 0 && sample.time < 1 / 24.0) {
