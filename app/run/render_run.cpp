@@ -190,12 +190,12 @@ void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   ledger_.add_to(*earlier);
   frames_ = frames_without_gaps(job_, record());
   for (const auto& [frame, steps] : output::checkpoint_steps(job_.folder))
-    newest_checkpoint_ = std::max(newest_checkpoint_, frame);
+    inherited_.newest_checkpoint = std::max(inherited_.newest_checkpoint, frame);
   result_.is_addition = true;
   const std::string status = earlier->json.value("status", "");
-  was_cut_off_ = status != record::name(record::RunStatus::ok) &&
-                 status != record::name(record::RunStatus::diverged);
-  result_.has_checkpoint = newest_checkpoint_ >= 0;
+  inherited_.was_cut_off = status != record::name(record::RunStatus::ok) &&
+                           status != record::name(record::RunStatus::diverged);
+  result_.has_checkpoint = inherited_.newest_checkpoint >= 0;
   keep_warnings(earlier, [](const std::string& text) { return !text.starts_with(no_movie); });
 }
 
@@ -227,8 +227,8 @@ void RenderRun::keep_warnings(const std::optional<EarlierRun>& earlier,
 void RenderRun::keep_step_warnings(const EarlierRun& earlier) {
   const std::vector<record::FrameRecord>& frames = earlier.pictures.frames;
   if (frames.empty()) return;
-  reached_before_ = scene::frame_of(job_.scene, frames.back().frame);
-  steps_before_ = texts_of(earlier.json, "step_warnings");
+  inherited_.reached = scene::frame_of(job_.scene, frames.back().frame);
+  inherited_.step_warnings = texts_of(earlier.json, "step_warnings");
 }
 
 /// States that an earlier command of the same simulation has listed at its end.
@@ -270,7 +270,7 @@ timeline::StatesFolder RenderRun::states_folder(const std::optional<EarlierRun>&
 }
 
 bool RenderRun::is_done(int frame) const {
-  return ledger_.is_made(frame) && !(was_cut_off_ && timeline_.moments().wants(frame));
+  return ledger_.is_made(frame) && !(inherited_.was_cut_off && timeline_.moments().wants(frame));
 }
 
 void RenderRun::note_states() {
@@ -344,13 +344,14 @@ void RenderRun::make_frames() {
 
 bool RenderRun::checkpoint_is_due(int frame) const {
   const int every = job_.options.checkpoint_every;
-  return every > 0 && frame > newest_checkpoint_ &&
+  return every > 0 && frame > inherited_.newest_checkpoint &&
          (frame == frames_.last || (frame > 0 && frame % every == 0));
 }
 
 /// Pictures and run.json first: what a checkpoint says was reached is on disk.
 void RenderRun::write_checkpoint() {
-  if (job_.options.checkpoint_every == 0 || timeline_.here().frame <= newest_checkpoint_) return;
+  if (job_.options.checkpoint_every == 0 || timeline_.here().frame <= inherited_.newest_checkpoint)
+    return;
   timeline_.moments().settle();
   note_states();
   ledger_.bring_to_disk();
@@ -481,9 +482,9 @@ void RenderRun::note_undrawn(int frame) {
 void RenderRun::note_warnings() {
   record::RunRecord& record = ledger_.record();
   const sim::Simulation& simulation = timeline_.simulation();
-  const bool is_further = timeline_.here().frame > reached_before_ || simulation.divergence();
+  const bool is_further = timeline_.here().frame > inherited_.reached || simulation.divergence();
   record.step_warnings =
-      is_further ? step_warnings(*timeline_.here().scene, simulation) : steps_before_;
+      is_further ? step_warnings(*timeline_.here().scene, simulation) : inherited_.step_warnings;
   record.warnings = job_.warnings;
   record.warnings.insert(record.warnings.end(), record.step_warnings.begin(),
                          record.step_warnings.end());

@@ -31,6 +31,14 @@ struct RenderResult {
   std::optional<health::Diagnosis> diagnosis;  ///< of a run that diverged
 };
 
+/// What an earlier command has left in the folder, where this one adds to its run.
+struct Inherited {
+  int newest_checkpoint = -1;                ///< its frame, counted from 0
+  bool was_cut_off = false;                  ///< the command
+  int reached = -1;                          ///< the last frame that it made, counted from 0
+  std::vector<std::string> step_warnings{};  ///< up to that frame
+};
+
 class RenderRun {
  public:
   /// @param job       with a resolved scene; must outlive the run, like the others
@@ -101,12 +109,9 @@ class RenderRun {
   Drawing drawing_;
   std::optional<sim::checks::Watch> laws_;  ///< of --validate
   RenderResult result_;
-  setup::FrameRange frames_;               ///< to draw, counted from 0
-  int newest_checkpoint_ = -1;             ///< of an earlier command that this one adds to
-  bool was_cut_off_ = false;               ///< that command
-  std::vector<std::string> told_before_;   ///< warnings of that command, but for those of its steps
-  std::vector<std::string> steps_before_;  ///< these, up to `reached_before_`
-  int reached_before_ = -1;                ///< the last frame of that command, counted from 0
+  setup::FrameRange frames_;  ///< to draw, counted from 0
+  Inherited inherited_;
+  std::vector<std::string> told_before_;  ///< warnings of that command, but for those of its steps
   std::size_t retries_told_ = 0;
   double seconds_ = 0;         ///< that the simulation of the frame took
   bool is_continued_ = false;  ///< from a checkpoint or a fork

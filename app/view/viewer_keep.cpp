@@ -9,6 +9,7 @@
 #include "app/output/temporary.h"
 #include "app/record/run_json.h"
 #include "app/support/errors.h"
+#include "app/timeline/times.h"
 #include "app/view/viewer.h"
 
 namespace neve::app::view {
@@ -168,12 +169,13 @@ void Viewer::keep_recording() {
 /// some pictures of the one before, and mix with the rest.
 void Viewer::follow_run() {
   const session::LiveFrame& live = *state_.live;
-  if (take_.start == live.start && take_.forks == live.forks) return;
-  const int common = take_.start == live.start ? live.forked_at : -1;
+  if (take_.start == live.start && take_.returns == live.returns) return;
+  const int common =
+      take_.start == live.start ? timeline::frame_at(live.returned_to, live.scene->fps) : -1;
   if (std::erase_if(take_.frames, [&](const auto& file) { return file.second > common; }) > 0)
     take_.has_others = true;
   take_.start = live.start;
-  take_.forks = live.forks;
+  take_.returns = live.returns;
 }
 
 /// In another folder, with the frames that both runs have.

@@ -89,10 +89,8 @@ struct LiveFrame {
   std::uint64_t number = 0;        ///< number of published frames
   std::uint64_t start = 0;         ///< that its run began with; 0: the first one
   std::uint64_t newest_start = 0;  ///< that was tried, `start` too if it succeeded
-  std::uint64_t forks = 0;         ///< times that a run left later frames behind
-  int forked_at = 0;               ///< frame of the earliest one that readers may not know
-  std::uint64_t returns = 0;  ///< times that it left later moments behind, of a fork or an attempt
-  double returned_to = 0;     ///< s, the earliest of those that readers may not know
+  std::uint64_t returns = 0;       ///< times that a run left later moments behind
+  double returned_to = 0;          ///< s, the earliest of those that readers may not know
   std::shared_ptr<const scene::Scene> scene;  ///< that is simulated, colliders where they are
   picture::Snapshot snapshot;
   std::vector<picture::PlotSample> history;  ///< one per frame; snapshot.history shows these

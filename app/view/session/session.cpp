@@ -157,8 +157,6 @@ void Session::fork_here() {
   told_.diagnosis.reset();
   return_to(simulation().time());
   steps_seen_ = 0;
-  ++told_.forks;
-  tell_earliest(timeline_->here().frame, told_.forked_at, forked_in_);
 }
 
 /// The change belongs to a step before the broken one: made again, the run passes it too.

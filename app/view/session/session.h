@@ -1,7 +1,6 @@
 #pragma once
 /// A run on a thread of its own: takes requests and publishes LiveFrames.
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/setup/plan.h"
 #include "app/timeline/timeline.h"
 #include "app/view/session/inspector.h"
 #include "app/view/session/live_frame.h"
@@ -29,6 +29,22 @@ struct SessionOptions {
   int threads = 0;             ///< 0: one per core
   double coarsening = 1;       ///< of --coarsen, for advice
   std::optional<Past> past{};  ///< of the scene that the session begins with
+};
+
+/// Simulated seconds for each second of the clock.
+class Pace {
+ public:
+  void begin(double time) {
+    at_ = Clock::now();
+    time_ = time;
+  }
+  /// Measures it once enough time has passed, and begins again.
+  /// @param pace  set then
+  void measure(double time, double& pace);
+
+ private:
+  Clock::time_point at_{};
+  double time_ = 0;  ///< s, simulated then
 };
 
 /// All functions but moment(), latest() and taken() only ask: their effect shows in the frames that
@@ -110,13 +126,6 @@ class Session {
   void reach_frame();
   void note_return(std::size_t steps);
   void return_to(double time);
-  /// Tells a moment in the next frame, or an earlier one that nobody has seen yet.
-  /// @param number  of the frame that tells it
-  template <class T>
-  void tell_earliest(T now, T& told, std::uint64_t& number) {
-    told = mailbox_.taken() < number ? std::min(now, told) : now;
-    number = told_.number + 1;
-  }
   void require_room() const;
   bool after_step();
   bool waits_for_picture() const;
@@ -128,8 +137,7 @@ class Session {
   std::function<void()> wake_;
   SessionOptions options_;
   std::unique_ptr<timeline::Timeline> timeline_;
-  std::uint64_t memory_limit_ = 0;        ///< bytes of a simulation whose broken rules are ignored
-  std::uint64_t planned_ = 0;             ///< bytes that were planned for it
+  setup::Plan plan_;  ///< its limit of memory holds where broken rules are ignored
   std::optional<timeline::Moment> head_;  ///< where the run is, while an older frame is shown
   /// The rule that the run broke where it is, once an older frame was shown: a simulation that goes
   /// back to a saved state does not know it any more.
@@ -141,11 +149,11 @@ class Session {
   bool is_recording_ = false;
   bool has_news_ = true;
   LiveFrame told_;  ///< the parts of a frame that stay until they change: number, speed, errors
-  Clock::time_point published_at_{}, measured_at_{};
-  double measured_time_ = 0;                       ///< s, simulated then
-  std::size_t steps_seen_ = 0;                     ///< of the run, when it was looked at last
-  double begun_at_ = 0;                            ///< s, where what is simulated now began
-  std::uint64_t returned_in_ = 0, forked_in_ = 0;  ///< numbers of the frames that tell of the last
+  Clock::time_point published_at_{};
+  Pace pace_;
+  std::size_t steps_seen_ = 0;     ///< of the run, when it was looked at last
+  double begun_at_ = 0;            ///< s, where what is simulated now began
+  std::uint64_t returned_in_ = 0;  ///< number of the frame that tells of the last return
   Mailbox mailbox_;
   std::thread thread_;
 };

@@ -1,10 +1,10 @@
 /// The part of a session that moves its run and publishes it.
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
 #include "app/health/diagnosis.h"
-#include "app/setup/plan.h"
 #include "app/support/interrupt.h"
 #include "app/support/machine.h"
 #include "app/support/text.h"
@@ -23,6 +23,13 @@ constexpr double speed_interval = 0.25;  ///< s
 
 }  // namespace
 
+void Pace::measure(double time, double& pace) {
+  const double wall = seconds_since(at_);
+  if (wall <= speed_interval) return;
+  pace = (time - time_) / wall;
+  begin(time);
+}
+
 std::unique_ptr<timeline::Timeline> Session::make_timeline(
     const scene::Scene& scene, std::vector<scene::LiveChange> changes,
     std::shared_ptr<const setup::SeededScene> seeded, timeline::Moments moments) {
@@ -40,7 +47,7 @@ void Session::start(const std::shared_ptr<const scene::Scene>& scene,
   const bool is_bounded = scene->limits.memory > 0 || plan.is_memory_capped;
   const bool fits_beside =
       plan.memory <= usable_memory() && (!is_bounded || plan.memory + held <= plan.memory_limit);
-  setup::count_on(std::max(held, planned_), *scene, plan);
+  setup::count_on(std::max(held, plan_.memory), *scene, plan);
   setup::check_limits(*scene, plan, options_.coarsening);
   // A cap is for the run and the frames that are kept of it together.
   std::uint64_t budget = (available_memory() + held) / 4;
@@ -64,8 +71,7 @@ void Session::start(const std::shared_ptr<const scene::Scene>& scene,
     if (bring_back) bring_back();
     throw;
   }
-  memory_limit_ = plan.memory_limit;
-  planned_ = plan.memory;
+  plan_ = plan;
   head_.reset();
   broken_.reset();
   inspector_.stage.reset();
@@ -102,8 +108,7 @@ void Session::set_goal(Goal goal) {
     if (divergence()) return;
     if (goal == Goal::end && timeline_->here().frame >= scene::last_frame(*timeline_->here().scene))
       return;
-    measured_at_ = Clock::now();
-    measured_time_ = simulation().time();
+    pace_.begin(simulation().time());
   }
   goal_ = goal;
 }
@@ -133,10 +138,10 @@ void Session::leave_older() {
 /// Snow that bursts spreads over ever more of the grid.
 void Session::require_room() const {
   if (simulation().warnings().rules_ignored == 0) return;
-  if (simulation().memory_bytes() <= memory_limit_) return;
+  if (simulation().memory_bytes() <= plan_.memory_limit) return;
   throw std::runtime_error("stopped: the snow that bursts takes " +
                            bytes_text(simulation().memory_bytes()) + " of memory, more than the " +
-                           bytes_text(memory_limit_) + " allowed");
+                           bytes_text(plan_.memory_limit) + " allowed");
 }
 
 /// @return whether to stop. A run that may return to the beginning of its frame is not stopped
@@ -145,11 +150,7 @@ bool Session::after_step() {
   bool is_told = true;
   note_return(simulation().steps() - 1);
   if (mailbox_.is_wanted() && !is_recording_ && Clock::now() - published_at_ > publish_interval) {
-    if (const double wall = seconds_since(measured_at_); wall > speed_interval) {
-      told_.speed = (simulation().time() - measured_time_) / wall;
-      measured_at_ = Clock::now();
-      measured_time_ = simulation().time();
-    }
+    pace_.measure(simulation().time(), told_.speed);
     samples_.note_if_cheap(*timeline_);
     is_told = tell();  // an error here would lose the steps of the frame so far
     published_at_ = Clock::now();
@@ -170,7 +171,10 @@ void Session::note_return(std::size_t steps) {
 void Session::return_to(double time) {
   samples_.forget_after(time);
   inspector_.look_again();
-  tell_earliest(time, told_.returned_to, returned_in_);
+  // Nobody may have seen the frame that was to tell of the last one.
+  const bool is_told = mailbox_.taken() >= returned_in_;
+  told_.returned_to = is_told ? time : std::min(time, told_.returned_to);
+  returned_in_ = told_.number + 1;
   ++told_.returns;
 }
 
