@@ -10,7 +10,7 @@
 
 namespace neve::app::advice {
 
-/// Where a word was written.
+/// The place where a word was written.
 struct Context {
   std::string name;                ///< in words.txt; empty: only the spelling counts
   std::vector<std::string> known;  ///< names that are right there

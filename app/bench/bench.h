@@ -43,7 +43,7 @@ std::vector<BenchRow> bench_scenes(const BenchOptions& options, Progress& progre
 /// `neve bench sim`: the common case in all variants against the naive code, spray, scaling.
 /// @throws Error when the case diverges, the codes disagree or memory does not suffice
 std::vector<BenchRow> bench_sim(const BenchOptions& options, Progress& progress);
-/// Its --curve: throughput from a thousand particles to the most that fit.
+/// `neve bench sim --curve`: throughput from a thousand particles to the most that fit.
 std::vector<BenchRow> bench_curve(const BenchOptions& options, Progress& progress);
 
 /// `neve bench surface`: makes the mesh of a ball on a slab from 4000 to a million particles, and

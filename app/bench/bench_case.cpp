@@ -17,7 +17,7 @@ struct MethodInfo {
   sim::Transfer transfer;
   sim::Kernel kernel;
 };
-/// In the order of BenchMethod.
+/// The methods, in the order of BenchMethod.
 constexpr MethodInfo methods[] = {{"mls_quadratic", sim::Transfer::mls, sim::Kernel::quadratic},
                                   {"flip_cubic", sim::Transfer::flip, sim::Kernel::cubic},
                                   {"apic_cubic", sim::Transfer::apic, sim::Kernel::cubic},

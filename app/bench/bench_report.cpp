@@ -28,7 +28,7 @@ std::vector<Cells> figures(const std::vector<BenchRow>& rows) {
   return table;
 }
 
-/// Empty when no row has phases. Explicit steps have no solve.
+/// Returns the table of phases; empty when no row has any. Explicit steps have no solve.
 std::vector<Cells> phase_figures(const std::vector<BenchRow>& rows) {
   std::vector<Phase> taken;
   for (const Phase& phase : phases)

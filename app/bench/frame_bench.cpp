@@ -114,7 +114,7 @@ class FrameBench {
   std::vector<BenchRow> rows_;
 };
 
-/// One row: the same thing in every round.
+/// Adds a row that measures the same thing in every round.
 template <class Measure>
 void FrameBench::measure(const std::string& name, const std::string& unit, const Measure& once) {
   std::vector<double> samples;

@@ -212,7 +212,7 @@ void NaiveSnow::grid_to_particles_flip(double dt) {
   }
 }
 
-/// The same for MLS: C is the gradient too.
+/// Steps 7, 8 and 10 for MLS: C is the gradient too.
 void NaiveSnow::grid_to_particles_mls(double dt) {
   const double h = settings_.cell_size;
   for (Particle& p : particles_) {

@@ -27,7 +27,7 @@ class NaiveSnow {
   /// One step of the paper's section 4.1, explicit, without colliders.
   void step(double dt);
 
-  /// In the order they came in.
+  /// Returns the particles in the order they came in.
   sim::ParticleArrays particles() const;
 
  private:

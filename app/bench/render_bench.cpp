@@ -120,7 +120,7 @@ void RenderBench::measure_all_layers(render::Frame& frame) {
   const std::string name = std::string("all_layers_") + main_size;
   change_state(frame);
   draw(name, frame);
-  // As in a view that turns.
+  // The camera moves as in a view that turns.
   frame.camera.eye.x += 1e-3f;
   draw(name + "_same_state", frame);
   change_state(frame);

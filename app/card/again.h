@@ -10,7 +10,7 @@
 
 namespace neve::app::card {
 
-/// As of a picture of the first scene, with the scenes of all cards.
+/// Returns the texts of a picture of the first scene, with the scenes of all cards.
 render::PngText texts_of(const std::vector<Source>& sources);
 
 /// Whether a file is a picture made by neve card.

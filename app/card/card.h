@@ -21,7 +21,7 @@ struct Card {
 std::vector<Card> make_cards(const std::vector<Subject>& subjects, int threads,
                              const std::function<void()>& done = {});
 
-/// Its numbers; strains and shares are not percentages, units are those of SI.
+/// Writes the numbers of a card; strains and shares are not percentages, units are those of SI.
 Json to_json(const Card& card);
 
 }  // namespace neve::app::card

@@ -75,7 +75,7 @@ Experiment column(const Subject& subject) {
     e.y.push_back(pile.radius);
     heights.push_back(pile.height);
     const sim::Summary now = simulation.summary();
-    // What swings stands still where it turns.
+    // A pile that swings stands still where it turns.
     calm = std::sqrt(2 * now.kinetic_energy / now.mass) < at_rest ? calm + 1 : 0;
     if (k >= fewest && calm >= swing) break;
   }

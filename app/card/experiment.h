@@ -1,5 +1,5 @@
 #pragma once
-/// What a material is asked on its card, and what it answers.
+/// Experiments on a material for its card, and their results.
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace neve::app::card {
 
-/// In the order in which they are shown.
+/// The experiments, in the order in which they are shown.
 enum class Kind { press, tear, shear, drop, tilt, column };
 inline constexpr Kind kinds[] = {Kind::press, Kind::tear, Kind::shear,
                                  Kind::drop,  Kind::tilt, Kind::column};
@@ -48,12 +48,12 @@ struct Experiment {
   std::vector<Measure> measures;
   std::vector<std::string> words;  ///< what it found, for the picture: a line or two
   std::string failure;             ///< why it ended early, a sentence; empty: it did not
-  /// For the picture: a scene that has only what is seen, and the state that is shown.
+  /// The scene of the picture, which has only what is seen, and the state that is shown.
   scene::Scene stage;
   setup::SeededScene seeded;
   picture::Snapshot shown;
 
-  /// Nothing where there is no measure of this name.
+  /// Returns the value of a measure; nothing where no measure has this name.
   std::optional<double> value(const std::string& name) const;
 };
 

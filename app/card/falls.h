@@ -11,12 +11,12 @@ Experiment drop(const Subject& subject);
 Experiment tilt(const Subject& subject);
 Experiment column(const Subject& subject);
 
-/// How many samples of a fall, 1 to 60, an elastic swing of the snow takes.
+/// Returns the number of samples of a fall, 1 to 60, that an elastic swing of the snow takes.
 /// @param period  s, of the swing
 /// @param sample  s, from one to the next
 int swing_samples(double period, double sample);
 
-/// Of the last samples: the middle about which snow swings, and the end of what has come to rest.
+/// Returns the mean of the last samples: the middle of a swing, or the place of snow at rest.
 double mean_of_last(const std::vector<double>& values, int samples);
 
 }  // namespace neve::app::card

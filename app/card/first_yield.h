@@ -1,5 +1,5 @@
 #pragma once
-/// Where a law yields first, and what it bears until then: the formulas beside the measures.
+/// The first yield of a law, and the stress before it: the formulas beside the measures.
 
 #include <functional>
 #include <optional>

@@ -42,8 +42,8 @@ bool is_elastic_at_first(const std::optional<double>& yield) {
   return !yield || *yield > no_elasticity;
 }
 
-/// Strains whose slope is the modulus. What yields at once has a slope, too, over the strains of
-/// all others; no formula has it.
+/// Returns the strain up to which the slope is the modulus. Snow that yields at once has a slope,
+/// too, over the strains of all others; no formula has it.
 double linear_up_to(const std::optional<double>& yield) {
   return yield && is_elastic_at_first(yield) ? std::min(linear, 0.6 * *yield) : linear;
 }
@@ -73,11 +73,11 @@ double free_height(const sim::SolverSettings& solver) {
   return Plates::height + (solver.is_contact_at_particles() ? -0.55 : 1.74) * Plates::cell;
 }
 
-/// By which a block is pressed at most before it is sheared.
+/// The largest strain by which a block is pressed before it is sheared.
 constexpr double max_pressed = 0.05;
 
-/// The strain at which the plates bear so much; max_pressed where they bear less there. Of what
-/// yields before, no formula tells it, but a block that is pressed.
+/// Returns the strain at which the plates bear so much; max_pressed where they bear less there. No
+/// formula tells it for snow that yields before: a block is pressed to measure it.
 double strain_under(const Subject& subject, double pressure, Experiment& e) {
   const sim::Material& m = subject.material;
   double low = 0, high = max_pressed;
@@ -174,7 +174,7 @@ Experiment tear(const Subject& subject) {
   const bool has_strength = strength > nothing * m.youngs_modulus;
   if (!has_strength) strength = strain_there = work = 0;
   const bool tears = !e.y.empty() && e.y.back() < 0.5 * strength;
-  // What does not tear bears more than was pulled: its strength and work are not known.
+  // Snow that does not tear bears more than was pulled: its strength and work are not known.
   const bool has_ended = e.failure.empty(), is_known = tears || (!has_strength && has_ended);
   e.measures = {{"strength", is_known ? strength : NAN,
                  formula(elastic_stress(m, stretched(yield.value_or(0)))(1, 1))},
@@ -231,8 +231,8 @@ Experiment shear(const Subject& subject) {
     ++at_last;
   }
   plates.show();
-  // What never yields bears more the further it is sheared: the stress at the end is no strength,
-  // and no friction.
+  // Snow that never yields bears more the further it is sheared: the stress at the end is no
+  // strength, and no friction.
   const bool is_known = yield && e.failure.empty(), is_pressed = !e.x.empty();
   e.measures = {{"strength", is_known ? strength : NAN}, {"pressure", is_pressed ? pressure : NAN}};
   if (is_elastic_at_first(yield))

@@ -21,8 +21,8 @@ struct PlateMotion {
 struct PlateSample {
   sim::Vec3d moved{0, 0, 0};   ///< m, by the upper plate
   sim::Vec3d stress{0, 0, 0};  ///< Pa, of the upper half of the block on the lower one
-  /// Of the middle half of the block, which does not feel the plates: the change of the vector
-  /// between its ends, over its length at first.
+  /// The strain of the middle half of the block, which does not feel the plates: the change of the
+  /// vector between its ends, over its length at first.
   sim::Vec3d strain{0, 0, 0};
 };
 
@@ -40,7 +40,7 @@ class Plates {
   bool next(PlateSample& sample);
   /// Keeps the present state for the picture.
   void show();
-  /// Then what was measured is no verdict: snow bursts before the watch says so.
+  /// True if it has diverged. Its measures are no verdict: snow bursts before the watch says so.
   bool has_diverged() const { return simulation_->divergence().has_value(); }
 
  private:

@@ -17,7 +17,7 @@ void add_body(scene::Scene& stage, const sim::shapes::Shape& shape,
 void add_plane(scene::Scene& stage, const std::string& name, const sim::Vec3d& point,
                const sim::Vec3d& normal, sim::shapes::Contact contact);
 
-/// On one thread: experiments share the cores.
+/// Makes a simulation on one thread: experiments share the cores.
 sim::Simulation simulation_of(const scene::Scene& stage);
 
 /// Advances to a time. @return whether it got there; otherwise the experiment says why not

@@ -21,10 +21,10 @@ namespace neve::app::card {
 
 namespace {
 
-/// More of them are no card, but a sweep.
+/// More materials make a sweep, and not a card.
 constexpr std::size_t max_materials = 8;
 
-/// Those that bodies and emitters have; all of a scene without them.
+/// Returns the materials that bodies and emitters have; all of a scene without them.
 std::vector<std::string> used_materials(const scene::Scene& scene) {
   const auto is_used = [&](const std::string& name) {
     const auto has_it = [&](const auto& item) { return item.material == name; };
@@ -54,7 +54,7 @@ void add_sources(const timeline::Origin& origin, const std::string& title,
   }
 }
 
-/// What these edits give a value: changes of a run do not take it back.
+/// Returns the addresses that these edits set: changes of a run do not take them back.
 std::vector<std::string> set_by(const std::vector<std::string>& overrides) {
   std::vector<std::string> set = scene::addresses_of(scene::parse_overrides(overrides));
   for (std::size_t k = 0, count = set.size(); k < count; ++k)
@@ -80,7 +80,7 @@ timeline::Origin origin_of(scene::Preset preset, const CardOptions& options) {
   return origin;
 }
 
-/// Where a scene is named.
+/// Refuses the name of a preset in the place of a scene. @throws UsageError
 void refuse_preset(const std::string& named) {
   std::error_code error;
   if (scene::value_named<scene::Preset>(named) && !std::filesystem::exists(named, error))

@@ -22,7 +22,7 @@ struct Source {
 Subject subject_at_start(const scene::Scene& scene, const std::string& material,
                          const std::string& title);
 
-/// Of scenes, then of presets. @throws SceneError, UsageError, IoError, Error
+/// Lists the sources of scenes, then of presets. @throws SceneError, UsageError, IoError, Error
 std::vector<Source> sources_of(const CardOptions& options);
 
 }  // namespace neve::app::card

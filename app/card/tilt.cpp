@@ -46,7 +46,7 @@ double way_of(const std::vector<Vec3d>& now, const std::vector<Vec3d>& first) {
   return sum / count;
 }
 
-/// What way_of() an elastic layer makes under its own weight, m: shear that grows linearly with
+/// Returns the way_of() an elastic layer under its own weight, m: shear that grows linearly with
 /// depth, over the modulus, in the mean of the upper half. It swings about that way.
 double elastic_way(const sim::Material& m, double angle) {
   const double shear = m.density * gravity_at(angle).x() * depth;
@@ -60,7 +60,7 @@ double squeezed_by_weight(const sim::Material& m) {
   return m.density * gravity_at(0).norm() * depth / (lame.lambda + 2 * lame.mu);
 }
 
-/// What the slope bears.
+/// The balance of the slope: its angle, and the angle at which its forces act.
 class Balance {
  public:
   void add(double angle, const Vec3d& impulse) {
@@ -74,7 +74,7 @@ class Balance {
     for (std::size_t k = impulse_.size() - window; k < impulse_.size(); ++k) sum += impulse_[k];
     return degrees(std::atan2(sum.x(), -sum.y()));
   }
-  /// Of the slope over the same time, degrees.
+  /// Mean angle of the slope over the same time, degrees.
   double angle() const { return 0.5 * (angle_[angle_.size() - window] + angle_.back()) - turn / 2; }
 
  private:

@@ -74,7 +74,7 @@ Json check_json(const health::Check& check, const run::RenderJob& job,
                               {"limit", sim::name(frame.limit)}});
   const forecast::Cost steps = check.foreseen.steps(), seconds = check.seconds();
   const double frames = std::max<double>(1, static_cast<double>(check.foreseen.frames.size()));
-  // What is not known is null, and not a run that takes no time.
+  // An unknown number is null: 0 would be a run that takes no time.
   const bool has_steps = !check.foreseen.frames.empty(),
              has_time = has_steps && check.seconds_per_step > 0;
   const auto known = [](bool is_known, const Json& value) { return is_known ? value : Json(); };

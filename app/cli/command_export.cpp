@@ -13,7 +13,7 @@ int run_export(const ExportCommand& command) {
   for (const scene::ExportFormat format : command.formats) {
     options.exports.push_back(command.common);
     options.exports.back().format = format;
-    // As those of a scene file have that are given none.
+    // An export without a name has its number, as in a scene file.
     options.exports.back().name = std::to_string(options.exports.size());
   }
   const run::ExportJob job = run::make_export_job(options);

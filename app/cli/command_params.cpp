@@ -31,7 +31,7 @@ std::string nearest_filter(const std::string& filter, const std::vector<scene::P
   return advice::nearest_name(filter, names);
 }
 
-/// Of "how do I make it sticky" the words that a wish has, of "motion blur" what its flag is; "".
+/// Finds the words of a wish in "how do I make it sticky", or the flag of "motion blur"; "".
 std::string advice_on_sentence(const std::string& filter) {
   std::string flag = "--" + filter;
   std::replace(flag.begin(), flag.end(), ' ', '-');

@@ -207,7 +207,7 @@ bool is_sweep_file(const std::string& file) {
          scene::toml::parse_toml(scene::read_toml_file(file), file).find("sweep") != nullptr;
 }
 
-/// What a sweep takes and a search does not. @throws UsageError
+/// Refuses what a sweep takes and a search does not. @throws UsageError
 void check_axes(const std::string& file, const std::vector<std::string>& axes) {
   if (axes.empty() && is_sweep_file(file)) pick::refuse_sweep(file);
   if (axes.empty())
@@ -259,7 +259,7 @@ int run_pick(const PickCommand& command) {
     std::cerr << "nothing was chosen; the same command continues from here\n";
     return exit_ok;
   }
-  // What the pair would plan takes a second, and nobody waits for it any more.
+  // The plan of the pair takes a second, and nobody waits for it after an interrupt.
   if (options.refines && is_interrupted()) {
     std::cerr << "neve: interrupted; the same command continues from here\n";
     return exit_resumable;

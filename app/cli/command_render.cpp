@@ -239,7 +239,7 @@ void warn_about_start(run::RenderJob& job, const setup::SeededScene& seeded, Pro
                                     rough_text(360 * job.shutter))});
   if (!job.passes.empty()) check_passes(job, findings);
   check_movie_sides(job, findings);
-  // Of the command, not of the run: a sweep says it once for all of its runs.
+  // Idle settings belong to the command, not to the run: a sweep reports them once for all runs.
   std::vector<health::Finding> idle;
   health::check_idle(job.scene, scene::addresses_of(scene::parse_overrides(job.options.overrides)),
                      idle);
@@ -353,7 +353,7 @@ std::string states_text(const run::RenderJob& job, const Json& states) {
       shell_path(job.folder.string()));
 }
 
-/// What films of a run show that was drawn before: all pictures of their views.
+/// Says which films have pictures of earlier commands, too; "" where none has.
 std::string films_text(const run::RenderJob& job, const run::RenderRun& run,
                        const run::RenderResult& result) {
   if (!result.is_addition || result.movies.empty()) return {};
@@ -447,7 +447,7 @@ int run_render(const run::RenderOptions& options) {
   check_picture_sizes(job, renderer.max_size());
   run::check_plates(job);
   if (!job.lut.empty()) run::read_lut(job.lut);
-  // Before anything else of the run: another one may be writing there.
+  // The lock comes before anything else of the run: another one may be writing there.
   const output::FolderLock lock(job.folder, "neve render");
 
   const auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(job.scene));

@@ -241,7 +241,7 @@ void warn_of_equal_runs(const sweep::plan::SweepPlan& plan, Progress& progress) 
     for (const scene::Override& setting : item.run.settings)
       if (first->second->run.setting(setting.address) != setting.value)
         differing += (differing.empty() ? "" : ", ") + setting.address;
-    // One that is given twice is told already.
+    // A value that is given twice is told already.
     if (differing.empty() || ++warnings > 5) continue;
     progress.warning(fmt::format(
         "runs {} and {} are the same: {}", first->second->run.index, item.run.index,
@@ -319,7 +319,7 @@ void note_redrawn(const sweep::store::Redrawn& redrawn, const std::vector<int>& 
           : fmt::format("; --keep-states keeps them, in about {}", bytes_text(bytes))));
 }
 
-/// Of a plan that has lost some of its runs: the copies of the points that are left.
+/// Keeps the copies of the points that are left in a plan that has lost some of its runs.
 void keep_copies_of_runs(sweep::plan::SweepPlan& plan) {
   const auto seeds = static_cast<std::size_t>(plan.sweep.runs_per_point());
   std::map<std::size_t, std::size_t> places;  // of the first run that is left, by the point
@@ -356,7 +356,7 @@ std::vector<int> unfinished_runs(const sweep::plan::SweepOptions& options,
   return indices;
 }
 
-/// What is left to do.
+/// The runs and the copies that are left to do.
 struct Left {
   std::vector<std::size_t> runs;                           ///< places in the plan, in order
   std::vector<const sweep::plan::PlannedVariant*> copies;  ///< of their points
@@ -528,7 +528,7 @@ int run_sweep(const sweep::plan::SweepOptions& options) {
   sweep::store::Redrawn redrawn;
   sweep::store::Manifest manifest = sweep::store::prepare_sweep(plan, &redrawn);
   note_redrawn(redrawn, wanted_runs(options, manifest), plan, progress);
-  // Those at full resolution are not chosen yet.
+  // Runs at full resolution are not chosen yet.
   if (!refinement.is_wanted()) note_left_out(plan.folder, manifest, progress);
   const double foreseen_seconds = foresee_runs(options, plan, cores, manifest, progress);
   if (plan.source) sweep::jobs::take_beginning(plan, *manifest.beginning, cores, progress);

@@ -109,7 +109,7 @@ Findings verify_sweep_folder(const fs::path& folder) {
     const fs::path place = sweep::store::beginning_folder("", beginning);
     if (!fs::exists(folder / place, error)) continue;
     const sweep::store::RunStatus status = sweep::store::read_status(folder / place);
-    // One that was refused, say, wrote none.
+    // A beginning that was refused, for example, wrote no record.
     if (sweep::store::has_failed(status.state) && !sweep::store::has_record(status)) continue;
     for (const record::Flaw& flaw : verify_whole_run(folder / place).flaws)
       findings.flaws.push_back({(place / flaw.file).generic_string(), flaw.what});
@@ -156,12 +156,12 @@ void print_json(const std::string& folder, const Findings& findings) {
   std::cout << to_text(json) << "\n";
 }
 
-/// Of states and checkpoints, which --resume does not make again: all else follows from the scene.
+/// True for states and checkpoints: --resume makes all else again, since it follows from the scene.
 bool is_of_kept_file(const record::Flaw& flaw) {
   return flaw.file.ends_with(".ckpt");
 }
 
-/// What neve export has begun in the folder of a run, and --resume of the run does not end.
+/// True for the list of a neve export in the folder of a run: --resume of the run does not end it.
 bool is_of_export_list(const record::Flaw& flaw) {
   return fs::path(flaw.file).filename() == output::export_list_path({}).filename();
 }

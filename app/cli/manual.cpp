@@ -131,7 +131,7 @@ std::string bash_completion(const Entry& program) {
 }
 
 std::string zsh_completion(const Entry& program) {
-  // Without its quotes.
+  // Quotes a text for zsh, without the quotes around it.
   const auto plain = [](std::string text) {
     std::replace(text.begin(), text.end(), ':', ' ');
     std::replace(text.begin(), text.end(), '[', '(');

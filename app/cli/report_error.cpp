@@ -126,13 +126,13 @@ std::string words_of(const Report& report, const ErrorOutput& output) {
   return to_text(event, -1);
 }
 
-/// Of the command that runs; null: none.
+/// The answer of the command that runs; null: none.
 Json& kept_answer() {
   static Json answer;
   return answer;
 }
 
-/// What the command has answered, and that it failed.
+/// Returns what the command has answered, and that it failed.
 Json with_answer(Json error) {
   Json json = std::exchange(kept_answer(), {});
   if (!json.is_object()) return error;

@@ -56,7 +56,7 @@ std::string longer_flag(const std::string& word, const std::vector<std::string>&
   return longer.size() == 1 ? longer.front() : "";
 }
 
-/// What an unknown flag is here, and how to write it.
+/// Tells what an unknown flag is here, and how to write it.
 /// @param word   "--motion-blur", without a value
 /// @param flags  of the command
 std::string flag_advice(const std::string& word, const std::vector<std::string>& flags,

@@ -124,7 +124,7 @@ class PairRun {
     return moment_of(frame, pair_.a.job.scene, pair_.a.job.run_frames, pair_.b.job.run_frames);
   }
 
-  /// As pictures have them.
+  /// Returns frames with the numbers that pictures have.
   setup::FrameRange numbers_of(const setup::FrameRange& frames) const {
     return {scene::number_of(pair_.a.job.scene, frames.first),
             scene::number_of(pair_.a.job.scene, frames.last)};
@@ -169,7 +169,7 @@ class PairRun {
     }
   }
 
-  /// At the first frame the mode is refused, later it ends: its pictures so far are right.
+  /// Refuses the mode at the first frame, and ends it later: its pictures so far are right.
   void follow_births(const std::optional<UsageError>& problem, int frame) {
     if (!problem) return;
     if (result_.moments.empty() || target_.kind() != TargetKind::folder)

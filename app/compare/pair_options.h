@@ -21,7 +21,7 @@ enum class Mode {
   mass,          ///< snow that only one run has, as red and blue smoke
   metrics        ///< curves over time
 };
-/// In the order in which they are listed everywhere.
+/// Names of the modes, in the order in which they are listed everywhere.
 constexpr auto names(Mode) {
   using enum Mode;
   return std::array{scene::Name{beside, "beside"}, scene::Name{wipe, "wipe"},

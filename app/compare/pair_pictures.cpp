@@ -21,7 +21,7 @@ constexpr double cells_of_range = 10;
 /// Share of the density of packed snow at which a difference is all red or all blue: the opacity
 /// says how much it is.
 constexpr double full_color = 0.05;
-/// As a factor of that of snow: differences are thinner.
+/// Opacity of differences as a factor of that of snow: they are thinner.
 constexpr float opacity = 3;
 
 bool has_mode(const std::vector<Mode>& modes, Mode mode) {

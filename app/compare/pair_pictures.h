@@ -60,7 +60,7 @@ struct StripWords {
   std::string values;  ///< "hardening = 5"
 };
 
-/// Of the picture that with_strip() makes of so many images of this size.
+/// Returns the size of the picture that with_strip() makes of so many images of this size.
 scene::PictureSize size_with_strip(const scene::PictureSize& image, int count);
 
 /// @param images  of one size: two beside each other, or one that shows both
@@ -74,7 +74,7 @@ render::Image with_strip(const std::vector<render::Image>& images,
 /// @param share  of the width that is from the left one, 0 to 1
 render::Image wiped(const render::Image& left, const render::Image& right, double share);
 
-/// Without alpha: over a plain colour.
+/// Takes alpha out: the image is laid over a plain colour.
 render::Image opaque(render::Image image);
 
 }  // namespace neve::app::compare

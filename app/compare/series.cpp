@@ -56,7 +56,7 @@ constexpr PairMetric pair_metrics[] = {
     {"body_height", "lowest body", "m",
      [](const FrameRecord& f) { return record::lowest(f.bodies).value_or(none); }, true}};
 
-/// Those of bodies only where there are some.
+/// Returns the metrics to list: those of bodies only where some have values.
 std::vector<std::size_t> listed_metrics(const std::vector<PairMoment>& moments) {
   const auto is_told = [&](std::size_t k) {
     for (const PairMoment& moment : moments)
@@ -196,7 +196,7 @@ render::Image draw_series(const std::vector<PairMoment>& moments, const std::str
   const int head = 4 * panel_font, width = panel_columns * panel_width,
             height = head + rows * each + panel_font / 2;
   std::vector<render::Tile> tiles;
-  // From the lowest row up: each covers the empty part of the one below.
+  // Panels are laid from the lowest row up: each covers the empty part of the one below.
   for (int k = static_cast<int>(listed.size()) - 1; k >= 0; --k)
     tiles.push_back({(k % panel_columns) * panel_width,
                      head + (k / panel_columns) * each - panel_top,

@@ -22,7 +22,7 @@ struct Displacement {
 };
 Displacement displacement(const sim::ParticleArrays& a, const sim::ParticleArrays& b);
 
-/// For each point of one run the distance to the particle of its id in the other, m; points that
+/// Gives each point of one run its distance to the particle of its id in the other, m. Points that
 /// the other run does not have are taken away.
 void color_by_displacement(const sim::ParticleArrays& other, double range, render::Points& points);
 
@@ -34,7 +34,7 @@ struct MassDifference {
 /// @param a, b  of simulations with one cell size; their lattices begin at one origin
 MassDifference mass_difference(const picture::FieldSamples& a, const picture::FieldSamples& b);
 
-/// Both runs at one frame.
+/// The numbers of both runs at one frame.
 struct PairMoment {
   int frame = 0;                               ///< its number in A
   double time = 0;                             ///< s

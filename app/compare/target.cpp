@@ -24,7 +24,8 @@ std::optional<output::MovieFormat> movie_format_of(const fs::path& out) {
   return suffix.empty() ? std::nullopt : output::movie_format_named(suffix.substr(1));
 }
 
-/// That of --movie, or that of the file's suffix. @throws UsageError where they are not the same
+/// Returns the style of --movie, with the format of the file's suffix where none is named.
+/// @throws UsageError where the two formats are not the same
 output::MovieStyle movie_for(const PairOptions& options, TargetKind kind) {
   output::MovieStyle movie = options.movie;
   if (kind != TargetKind::movie) return movie;

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the comparison of two runs goes: a folder, or one file.
+/// The target of the comparison of two runs: a folder, or one file.
 
 #include <filesystem>
 #include <optional>
@@ -29,12 +29,12 @@ class Target {
   Target& operator=(const Target&) = delete;
 
   TargetKind kind() const { return kind_; }
-  /// That are to be made; all where none is named and the target is a folder.
+  /// Modes that are to be made; all where none is named and the target is a folder.
   const std::vector<Mode>& modes() const { return modes_; }
   bool has(Mode mode) const;
   void leave_out(Mode mode);
 
-  /// Before the pictures, see available_movie().
+  /// Chooses the format of movies before the pictures, see available_movie().
   /// @param fps  of the scenes @throws IoError, UsageError where movies cannot be made as asked for
   void check_movies(double fps) { movie_ = output::available_movie(movie_, fps); }
   /// Takes the folder and removes the files that an earlier comparison wrote there.

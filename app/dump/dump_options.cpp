@@ -25,7 +25,7 @@ std::string stage_meant(const std::string& text, const std::vector<std::string>&
   return longer.size() == 1 ? longer.front() : advice::meant_name(text, {"stage", names});
 }
 
-/// What was expected, or --field where the value of another option names a quantity.
+/// Returns what was expected, or --field where the value of another option names a quantity.
 std::string or_field(const std::string& text, bool is_nothing_nearer, const std::string& expected) {
   const std::string advice = is_nothing_nearer ? field_advice(text) : "";
   return advice.empty() ? expected : advice;

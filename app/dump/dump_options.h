@@ -29,7 +29,7 @@ struct DumpOptions {
   std::string file;  ///< empty: standard output; of several times each has its number in the name
 };
 
-/// Where a word that names a quantity belongs: "J_P is a quantity: --field J_P"; "": it names none.
+/// Says that a word is a quantity: "J_P is a quantity: --field J_P"; "" if it names none.
 /// @param is_histogram  of a word beside --histogram, which is right with every quantity
 std::string field_advice(const std::string& word, bool is_histogram = false);
 

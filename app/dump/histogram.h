@@ -26,7 +26,7 @@ struct Histogram {
 
   /// Lower end of a bin; of the one behind the last it is `high`.
   double edge(std::size_t bin) const;
-  /// Where a value is between the ends, 0 to 1: beyond them at the nearer one.
+  /// Returns the place of a value between the ends, 0 to 1; beyond them that of the nearer one.
   double share_of(double value) const;
   std::size_t bin_of(double value) const;
   bool is_outside_expected(std::size_t bin) const;  ///< as a whole
@@ -39,7 +39,7 @@ inline constexpr std::size_t histogram_bins = 24;
 Histogram histogram_of(const Listing& listing, const Quantity& quantity,
                        std::size_t bins = histogram_bins);
 
-/// Of all quantities but ids and nodes.
+/// Returns the histograms of all quantities but ids and nodes.
 std::vector<Histogram> histograms_of(const Listing& listing);
 
 /// "5 % below 0.9, half below 1, 5 % above 1.2; 3 outside 0.6 to 20, no number: 1"
@@ -48,7 +48,7 @@ std::string spread_text(const Histogram& histogram);
 /// A title, and a bar of '#' for each bin; '!' before those outside the expected range.
 std::vector<std::string> histogram_lines(const Histogram& histogram);
 
-/// Those of histograms_of: name, unit, ends of bins, counts, quantiles.
+/// Writes histograms_of() as JSON: name, unit, ends of bins, counts, quantiles.
 Json histograms_json(const Listing& listing);
 
 }  // namespace neve::app::dump

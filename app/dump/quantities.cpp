@@ -95,7 +95,7 @@ std::vector<double> ids(const sim::ParticleArrays& p) {
   return out;
 }
 
-/// They are left out while all are 1.
+/// Fills factors up with ones: the state omits them while all are 1.
 std::vector<double> factors(std::vector<double> of_particles, std::size_t count) {
   of_particles.resize(count, 1.0);
   return of_particles;

@@ -11,7 +11,7 @@ namespace neve::app::dump {
 
 namespace {
 
-/// Of a run in single precision; its places are of double precision all the same.
+/// True if all values fit single precision, as in such a run. Places are doubles in any run.
 bool is_single(const Quantity& q) {
   return q.name != "x" && std::all_of(q.values.begin(), q.values.end(), [](double value) {
            return std::isnan(value) || static_cast<double>(static_cast<float>(value)) == value;

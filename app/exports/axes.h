@@ -1,5 +1,5 @@
 #pragma once
-/// From the simulation's metres, y up, to the units and the axes of a file.
+/// Conversion of the simulation's metres, y up, to the units and the axes of a file.
 
 #include "app/scene/read.h"
 #include "app/scene/scene.h"

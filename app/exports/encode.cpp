@@ -103,7 +103,7 @@ std::string encode_csv(const ExportMoment& moment) {
   for (const Column& column : table.columns)
     for (int c = 0; c < column.components; ++c)
       text += (text.empty() ? "" : ",") + component_name(column, c);
-  // As a column: a comment is a line too much for most readers of such files.
+  // A column tells the axes: a comment is a line too much for most readers of such files.
   std::string axes;
   if (moment.spec.up == scene::UpAxis::z || moment.spec.scale != 1) {
     text += moment.spec.up == scene::UpAxis::z ? ",up_z_units_per_metre" : ",up_y_units_per_metre";

@@ -26,8 +26,8 @@ struct ExportMoment {
 /// Format.
 std::string encode_ply(const ExportMoment& moment);
 
-/// A line of names, then a line per particle; every number reads as the same bits. Where it is
-/// turned or scaled, the last column has the units per metre, and its name the axis that is up.
+/// A line of names, then a line per particle; every number reads as the same bits. The last column
+/// of a file that is turned or scaled has the units per metre, and its name the axis that is up.
 std::string encode_csv(const ExportMoment& moment);
 
 /// A zip archive of arrays, uncompressed: one per attribute, and time, frame, fps, scale, up.
@@ -45,7 +45,7 @@ std::string vtp_text(const Table& table, const std::string& time = "");
 std::string encode_vti(const ExportMoment& moment);
 
 /// OpenVDB: mass, density and velocity of the nodes that carry mass; with the surface, its signed
-/// distance as a level set. In single precision.
+/// distance as a level set. Numbers are in single precision.
 std::string encode_vdb(const ExportMoment& moment);
 
 /// Houdini's classic binary geometry, version 5, which has single precision only.
@@ -58,7 +58,7 @@ std::string encode_bgeo(const ExportMoment& moment);
 std::string encode_usda(const ExportMoment& moment);
 
 /// Wavefront text: vertices in single precision with normals, triangles, and a point per particle
-/// of the spray. Only for surfaces.
+/// of the spray. It is for surfaces only.
 std::string encode_obj(const ExportMoment& moment);
 
 std::string encode(const ExportMoment& moment);

@@ -21,7 +21,7 @@ using Corners = std::array<Vec3d, 3>;
 /// Voxels on either side of the mesh that have their distance; others have the background.
 constexpr int band_voxels = 3;
 
-/// Voxels near a triangle get their distance to it, where that is less. In voxels, squared.
+/// Gives voxels near a triangle their squared distance to it, in voxels, where that is less.
 void lower_distances(const Corners& t, VdbLeaves& leaves) {
   const Vec3d low = t[0].cwiseMin(t[1]).cwiseMin(t[2]).array() - band_voxels;
   const Vec3d high = t[0].cwiseMax(t[1]).cwiseMax(t[2]).array() + band_voxels;

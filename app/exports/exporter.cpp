@@ -58,7 +58,7 @@ bool are_as_in(const scene::Scene& scene, const std::vector<PlacedShape>& collid
       });
 }
 
-/// Exact: a run that is resumed writes the same stage.
+/// Writes exact numbers: a run that is resumed writes the same stage.
 Json places_json(const Sample& sample) {
   Json list = Json::array();
   for (const PlacedShape& placed : sample.colliders) {
@@ -72,7 +72,7 @@ Json places_json(const Sample& sample) {
   return list;
 }
 
-/// The inverse. @throws std::exception
+/// Reads a shape of places_json(). @throws std::exception
 PlacedShape placed_shape(const Json& json) {
   PlacedShape placed{json.at("collider").get<std::string>(), {}, json.at("time").get<double>()};
   placed.pose.point = output::vector_of(json.at("position"));
@@ -87,7 +87,7 @@ PlacedShape placed_shape(const Json& json) {
   return placed;
 }
 
-/// What a list of files or frames says of a sample, beside its number and its time.
+/// Adds what a list of files or frames says of a sample, beside its number and its time.
 void add_places(const Sample& sample, Json& json) {
   if (sample.is_elsewhere) json["colliders"] = places_json(sample);
   for (const auto& [name, moved] : sample.followed)
@@ -96,7 +96,7 @@ void add_places(const Sample& sample, Json& json) {
     json["snow"] = {output::vector_json(sample.snow->min), output::vector_json(sample.snow->max)};
 }
 
-/// The inverse. @throws std::exception
+/// Reads a sample with the places of add_places(). @throws std::exception
 Sample sample_of(const Json& json, const scene::Scene& scene) {
   const double time = json.at("time").get<double>();
   Sample sample{whole_number<int>(json.at("number")), time, placed_at(scene.colliders, time)};
@@ -156,7 +156,7 @@ std::optional<setup::Box> box_around(const std::vector<sim::Vec3d>& places) {
   return box.max.x() >= box.min.x() ? std::optional(box) : std::nullopt;
 }
 
-/// In the order of their numbers, in the place of the one of the same number.
+/// Puts a sample in the order of the numbers, in the place of the one with its number.
 void put(std::vector<Sample>& samples, Sample sample) {
   const auto at = std::ranges::lower_bound(samples, sample.number, {}, &Sample::number);
   if (at != samples.end() && at->number == sample.number)

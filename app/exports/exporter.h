@@ -55,7 +55,7 @@ class Exporter {
   /// Takes the files of a run that is resumed from the list of its run.json.
   void resume(const Json& list, int last_number);
 
-  /// For run.json and export.json. @param below  put in front of paths: "exports/"
+  /// Lists exports for run.json and export.json. @param below  put in front of paths: "exports/"
   Json to_json(const std::string& below) const;
 
  private:
@@ -76,7 +76,7 @@ class Exporter {
   void take_later_shapes(const Json& list);
 
   scene::Scene scene_;
-  /// Those of the scene, then those that came later, and all with another shape.
+  /// Colliders of the scene, then those that came later, and all with another shape.
   std::vector<scene::Collider> colliders_;
   Json later_shapes_ = Json::array();  ///< how to make all but the first ones of the scene
   std::filesystem::path folder_;

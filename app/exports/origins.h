@@ -21,7 +21,7 @@ class Origins {
 
   /// Bodies, then emitters.
   const std::vector<std::string>& names() const { return names_; }
-  /// For each body the id after its last particle.
+  /// The id after the last particle of each body.
   const std::vector<std::size_t>& body_end() const { return body_end_; }
   /// Number of the body in the scene, from 0; emitters are counted after the bodies.
   int body_of(std::uint32_t id) const;

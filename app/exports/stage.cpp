@@ -22,8 +22,8 @@ namespace {
 using sim::Mat3d;
 using sim::Vec3d;
 
-/// What a camera may see of a collider: a box about its point and in its axes. Of a plane this is
-/// the square that a stage has.
+/// The part of a collider that a camera may see: a box about its point and in its axes. For a plane
+/// it holds the square that a stage has.
 struct SeenCollider {
   std::string name;
   std::size_t shape;  ///< of those that it has had
@@ -33,7 +33,7 @@ struct SeenCollider {
 
 constexpr double height = 24;  // tenths of a unit, as film has millimetres
 
-/// What a camera has moved by with what it follows, linear between samples.
+/// Returns how far a camera has moved with the thing it follows, linear between samples.
 Vec3d followed_at(const std::vector<Sample>& samples, const std::string& name, double time) {
   const auto next = std::ranges::upper_bound(samples, time, {}, &Sample::time);
   const Sample& after = next == samples.end() ? samples.back() : *next;
@@ -116,8 +116,8 @@ Mat3d looking(const Vec3d& forward, const Vec3d& up) {
   return rotation;
 }
 
-/// Its clipping range has the snow and the colliders of all samples, with room for what is between:
-/// USD's own starts at 1 unit, farther than a small scene.
+/// Writes a camera. The clipping range has the snow and the colliders of all samples, with room for
+/// what is between: USD's own starts at 1 unit, farther than a small scene.
 std::string usd_camera(const scene::Scene& scene, const StageCamera& camera, const Axes& axes,
                        const std::vector<Sample>& samples,
                        const std::vector<SeenCollider>& colliders) {
@@ -140,7 +140,7 @@ std::string usd_camera(const scene::Scene& scene, const StageCamera& camera, con
          usd_placed(scene, axes, path_of(samples, place_at)) + "        }\n";
 }
 
-/// Empty if no camera has a place yet.
+/// Writes the cameras; "" if none has a place yet.
 std::string usd_cameras(const scene::Scene& scene, const Axes& axes,
                         const std::vector<Sample>& samples,
                         const std::vector<SeenCollider>& colliders) {
@@ -220,7 +220,7 @@ std::string usd_point_property(const scene::Scene& scene, const Axes& axes,
   return usd_property(scene, declared, values);
 }
 
-/// Empty for a collider that has this shape at every sample.
+/// Writes the visibility of a shape; "" for a collider that has it at every sample.
 std::string usd_visibility(const scene::Scene& scene, const std::string& collider,
                            std::size_t shape, const std::vector<Sample>& samples) {
   const auto is_there = [&](const Sample& s) { return s.find(collider, shape) != nullptr; };
@@ -323,7 +323,7 @@ std::vector<StageCamera> stage_cameras(const scene::Scene& scene) {
   }
   std::set<std::string> names{"camera"};
   for (const scene::View& view : scene.views) {
-    // Those that neve found frame the snow for a slice or another shape of pictures.
+    // Cameras that neve found frame the snow for a slice or another shape of pictures.
     if (!view.camera || !setup::has_place(*view.camera) ||
         view.camera->found == scene::FoundCamera::camera)
       continue;

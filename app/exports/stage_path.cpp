@@ -20,7 +20,7 @@ using sim::Vec3d;
 /// a turn; the point of a thing that moves on a circle stays near it with smaller ones.
 constexpr double largest_turn = std::numbers::pi / 4;
 
-/// What turns faster than 32 times in a frame is a blur in any picture.
+/// A thing that turns faster than 32 times in a frame is a blur in any picture.
 constexpr int max_pieces = 256;
 
 int pieces_of(double turn) {
@@ -171,7 +171,7 @@ std::string usd_property(const scene::Scene& scene, const std::string& declared,
 
 std::string usd_placed(const scene::Scene& scene, const Axes& axes,
                        const std::vector<Place>& path) {
-  // In double, unlike usd_tuple(). Adding 0 turns -0 into 0.
+  // These numbers are doubles, unlike those of usd_tuple(). Adding 0 turns -0 into 0.
   const auto tuple = [](std::initializer_list<double> numbers) {
     std::string text;
     for (const double x : numbers) text += (text.empty() ? "(" : ", ") + usd_number(x + 0.0);

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the things of a USD stage are at its times. USD interpolates a matrix element by element,
+/// Places of the things of a USD stage at its times. USD interpolates a matrix element by element,
 /// which shrinks what turns: a path is a translation and a quaternion, and turns by little from one
 /// of its places to the next.
 

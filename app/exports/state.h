@@ -29,7 +29,7 @@ struct State {
   std::uint64_t hash = 0;
   sim::ParticleArrays particles;      ///< id order
   std::vector<sim::Mat3d> kirchhoff;  ///< Pa; empty unless an export has stress
-  /// By the bodies that exports with the grid name: none for all snow.
+  /// Nodes by the bodies that exports with the grid name: none for all snow.
   std::map<std::vector<std::string>, sim::RasterizedNodes> nodes;
   /// Emitters that have waited for room. Their clock stands still while snow is in their way:
   /// births are late from then on, each by what it had waited.

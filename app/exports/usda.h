@@ -35,7 +35,7 @@ std::string usd_world(const scene::Scene& scene, const scene::Export& spec);
 /// Prims of the snow in a layer: the particles are points, a surface is a mesh.
 enum class UsdPrim { points, mesh };
 
-/// With their names, below the root.
+/// Returns the prims of an export, with their names below the root.
 std::vector<std::pair<UsdPrim, std::string>> usd_prims(const scene::Export& spec);
 
 inline const char* usd_type(UsdPrim prim) {

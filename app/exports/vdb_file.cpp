@@ -18,7 +18,7 @@ constexpr std::uint64_t vdb_magic = 0x56444220;  // "VDB "
 constexpr std::uint32_t vdb_version = 224, library_major = 10, library_minor = 0;
 constexpr std::uint32_t only_active_values = 2;
 
-/// Which values of a node follow its masks.
+/// Bytes that tell which values of a node follow its masks.
 constexpr char active_values = 0, all_values = 6;
 
 /// Voxels along the sides of the nodes above a leaf: 16 leaves, and 32 of these.

@@ -29,13 +29,13 @@ constexpr double hardening_ceiling = 20;
 /// change more than 0.85 does, too, and take a seventh less work at impacts: less gain suffices.
 constexpr double fast_beta = 0.5, fast_max_dt = 1e-3, worth_another_step = 0.5,
                  worth_after_longest_steps = 0.57;
-/// Beyond, relative, the snow of a copy presses on colliders or is packed and torn in another way.
+/// Relative change above which a copy presses on colliders or packs and tears its snow differently.
 constexpr double alike = 0.1;
 /// A few hundred particles, so that the forecasts take tenths of a second and not longer than a
 /// small scene itself.
 constexpr ForecastBudget forecast_budget{1e9, 3e6, 400};
 
-/// What the coarse copy of a scene tells.
+/// Results of the coarse copy of a scene.
 struct Copied {
   double work = 0;   ///< in explicit steps of packed snow
   double force = 0;  ///< N, the peak on a collider

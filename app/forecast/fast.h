@@ -17,8 +17,8 @@ struct FastLook {
   /// diverges.
   std::optional<double> work, work_before;
   bool is_implicit = false;
-  /// Of the peak force on a collider of the copy, relative: with the overrides, and with a ceiling
-  /// on hardening where it is not taken because of that.
+  /// Relative change of the peak force on a collider of the copy: with the overrides, and with a
+  /// ceiling on hardening where it is not taken because of that.
   double force_change = 0;
   std::optional<double> force_under_cap;
   /// Why settings stay that this scene bears: other scenes that are compared with it do not.

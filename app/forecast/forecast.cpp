@@ -205,7 +205,7 @@ CopyRun run_copy(const scene::Scene& scene, double particle_count, int last, dou
   const auto start = Clock::now();
   FrameForecast frame_forecast =
       foresee_frame(now, coarse_now, 1, simulation.step_limits(), {}, {});
-  // Where few particles lie far apart, or meet meshes, a step costs far more than they do.
+  // A step with few particles that lie far apart, or meet meshes, costs far more than they do.
   constexpr double min_work_of_step = 400, max_steps_of_frame = 1e15;
   double seconds = 0, packed_steps = 0;
   bool is_over = false;

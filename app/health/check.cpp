@@ -28,7 +28,7 @@ namespace {
 /// Two copies of about a second each. The time matters only where a machine is busy or snow is
 /// spread out, so that a forecast is the same every time.
 constexpr forecast::ForecastBudget coarse_budget{8, 3e7, 1500, 3e7};
-/// Above this many particles seeding alone takes too long for a look.
+/// Above this number of particles, seeding alone takes too long for a check.
 constexpr double max_seeded = 3e6;
 
 /// Step of the first emitted snow, for a scene that starts empty.

@@ -31,11 +31,11 @@ double usual_sound_speed() {
   return sim::sound_speed(sim::Material{});
 }
 
-/// Beyond these a diagnosis sees a cause: in the last steps and the settings, and in the state that
-/// the run started from.
+/// Returns the limit on settings and last steps beyond which a diagnosis sees a cause.
 double cause(Law law) {
   return limits_of(law).cause;
 }
+/// Returns that limit on the state that the run started from.
 double at_start(Law law) {
   return limits_of(law).at_start;
 }
@@ -66,7 +66,7 @@ struct Case {
     for (const sim::StepRecord& step : d.last_steps) longest = std::max(longest, step.dt);
     return longest;
   }
-  /// Of the law of energy, which knows no particle, any material may be the cause.
+  /// The rule of energy names no particle: any material of the snow may be the cause.
   template <class Badness>
   sim::Material worst(const Badness& badness) const {
     if (d.rule != "energy") return material;
@@ -453,8 +453,8 @@ Hypothesis doubts_of_the_law(const Case& c) {
   return Diagnosis{Cause::law, doubts.front().what, doubts.front().hint, doubts.front().address};
 }
 
-/// Single precision: F_E is known to 6e-8, which is a stress. Where that is as large as what moves
-/// the snow, steps make energy out of rounding.
+/// Single precision: F_E is known to 6e-8, which is a stress. Steps make energy out of rounding if
+/// that is as large as what moves the snow.
 Hypothesis rounding(const Case& c) {
   if (c.scene.solver.precision != sim::Precision::single) return std::nullopt;
   constexpr double epsilon = 6e-8, notable = 0.1;
@@ -473,8 +473,8 @@ Hypothesis rounding(const Case& c) {
       "solver.precision = \"double\", or softer snow", "solver.precision"};
 }
 
-/// Weights reach two cells. Of what is thinner forces and transfers are coarse, and where there is
-/// nothing else, they make notable energy.
+/// Weights reach two cells. Forces and transfers of a thinner body are coarse, and may make notable
+/// energy.
 Hypothesis thin(const Case& c) {
   constexpr double reach = 2, resolved = 6;  // cells
   if (c.d.rule != "energy" || c.scene.bodies.empty()) return std::nullopt;

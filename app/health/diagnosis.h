@@ -51,7 +51,7 @@ struct Diagnosis {
 Diagnosis diagnose(const scene::Scene& scene, const sim::Divergence& divergence,
                    double coarsening = 1);
 
-/// For people: step, what the rule saw, evidence and remedy.
+/// Writes for people: step, what the rule saw, evidence and remedy.
 std::string sentence(const sim::Divergence& divergence, const Diagnosis& diagnosis);
 
 }  // namespace neve::app::health

@@ -30,7 +30,7 @@ using sim::Vec3d;
 using sim::health::Law;
 using sim::health::limits_of;
 
-/// Beyond it, the check warns.
+/// Returns the value of a law beyond which the check warns.
 double line(Law law) {
   return limits_of(law).check_warning;
 }
@@ -166,7 +166,7 @@ void check_body_overlaps(const scene::Scene& scene, const setup::SeededScene& se
 void check_fixed_steps(const sim::SolverSettings& s, double impact, const Check& check,
                        std::vector<Finding>& findings) {
   const double h = s.cell_size;
-  // As an explicit step would feel it.
+  // Semi-implicit steps bear faster sound: it counts as the slower one of an explicit step.
   const double sound_speed = check.start.max_sound_speed / sim::acoustic_stretch(s);
   // One step that keeps both limits: the advice of either finding is enough.
   const double holds = std::min(line(Law::acoustic_cfl) * h / std::max(1e-9, sound_speed),
@@ -222,7 +222,7 @@ void check_implicit_steps(const sim::SolverSettings& s, const Check& check,
          "try more iterations, or a smaller dt"});
 }
 
-/// What a camera sees of the particles of a moment.
+/// A camera's view of the particles of a moment.
 struct Seen {
   double outside = 0;  ///< share of them that it does not see
   double height = 0;   ///< of all that is before it, as a share of the picture's
@@ -249,7 +249,7 @@ Seen seen_by(const scene::CameraSettings& camera, double aspect,
           0.5 * std::max(high - low, wide - left)};
 }
 
-/// Where a camera that turns about its target is at a time.
+/// Moves a camera that turns about its target to its place at a time, but not one with keyframes.
 scene::CameraSettings moved(scene::CameraSettings camera, double time, double duration) {
   if (!camera.keyframes.empty()) return camera;
   const setup::CameraPlace place = setup::camera_at(camera, time, duration);
@@ -346,7 +346,7 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
                       hint});
 }
 
-/// By more than rounding, as of 3 cells of 0.07 m and 0.21 m.
+/// True if a shape is thinner by more than rounding, as of 3 cells of 0.07 m and 0.21 m.
 bool is_thinner(const sim::shapes::Shape& shape, double length) {
   return thickness(shape) < (1 - 1e-9) * length;
 }

@@ -31,7 +31,7 @@ double thickness(const sim::shapes::Shape& shape);
 /// @param coarsening the N of --coarsen, for advice
 void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening = 1);
 
-/// What the law of a material doubts about its numbers.
+/// Returns the doubts of the law of a material about its numbers.
 std::vector<Finding> law_findings(const sim::Material& m);
 
 /// Numbers that mean something else than they seem to: gravity in g, thresholds in thousandths,

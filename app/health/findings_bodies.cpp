@@ -32,13 +32,13 @@ std::vector<Vec3d> places_in_solid(const sim::shapes::Shape& shape) {
   return sim::shapes::is_rigid_solid(shape) ? places_in(shape) : std::vector<Vec3d>{};
 }
 
-/// Those that touch have no place of one in the other; what is joined may overlap, and does not
-/// meet what it overlaps.
+/// Warns of a body that overlaps a collider at the start. Things that touch have no place of one in
+/// the other; joined things may overlap, and do not meet.
 void check_starts(const scene::Scene& scene, const Collider& body, std::vector<Finding>& findings) {
   if (body.body.joint != Joint::none) return;
   const std::vector<Vec3d> places = places_in(body.shape);
   for (const Collider& other : scene.colliders) {
-    // Of two bodies the first one tells.
+    // The first of two bodies reports both.
     if (other.name == body.name || (other.body.moves() && &other < &body) ||
         other.body.joint != Joint::none)
       continue;
@@ -56,7 +56,7 @@ void check_starts(const scene::Scene& scene, const Collider& body, std::vector<F
 }
 
 void check_density(const Collider& body, std::vector<Finding>& findings) {
-  // From foam to gold, with some room; a gas or a star is a mistake of units.
+  // The range has foam and gold, with some room; a gas or a star is a mistake of units.
   constexpr double lightest = 10, heaviest = 23000, grams_per_cm3 = 1000;
   const double volume = sim::rigid::mass_properties(body.shape, 1).mass;
   const double density = body.body.mass > 0 ? body.body.mass / volume : body.body.density;

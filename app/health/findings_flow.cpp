@@ -28,7 +28,7 @@ double largest_natural_rate(const scene::Scene& scene, const sim::seeding::Emitt
   });
 }
 
-/// What withholds snow however much room there is; nothing where the rate is not too large.
+/// Finds what withholds snow in spite of all room; nothing where the rate is not too large.
 std::optional<std::string> rate_problem(const scene::Scene& scene,
                                         const sim::seeding::Emitter& emitter) {
   const sim::Material& material = scene.materials[setup::material_index(scene, emitter.material)];

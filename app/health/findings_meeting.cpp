@@ -33,12 +33,12 @@ constexpr int min_looks = 24, max_looks = 240;
 
 using Box = sim::shapes::Bounds;
 
-/// From face to face; 0 where they overlap.
+/// Returns the distance from face to face of two boxes; 0 where they overlap.
 double distance_of_boxes(const Box& a, const Box& b) {
   return (b.min - a.max).cwiseMax(a.min - b.max).cwiseMax(Vec3d::Zero()).norm();
 }
 
-/// What gravity does to whatever falls freely; a curve gives it another value in each frame.
+/// Free fall by gravity, to which a curve gives another value in each frame.
 class Fall {
  public:
   explicit Fall(const scene::Scene& scene) : frame_(never_met) {

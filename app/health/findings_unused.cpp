@@ -214,7 +214,7 @@ std::optional<Idle> idle_in_transfer(const scene::Scene& scene, const std::strin
   return std::nullopt;
 }
 
-/// Of a setting of the solver that other settings switch off.
+/// Finds why a setting of the solver is idle: other settings, or the snow, switch it off.
 std::optional<Idle> idle_in_solver(const scene::Scene& scene, const std::string& key) {
   const sim::SolverSettings& s = scene.solver;
   const bool is_fixed = s.time_step == sim::TimeStep::fixed,
@@ -282,7 +282,7 @@ std::optional<Idle> idle_in_material(const scene::Scene& scene, const sim::Mater
       "neve params --wishes names parameters by what they do"};
 }
 
-/// Of a body whose file says the same.
+/// Finds why a setting of a body is idle: the points of its file take its place.
 std::optional<Idle> idle_in_body(const sim::seeding::Body& body, const std::string& key) {
   const auto* points = std::get_if<sim::shapes::Points>(&body.shape.form);
   if (!points) return std::nullopt;
@@ -295,7 +295,7 @@ std::optional<Idle> idle_in_body(const sim::seeding::Body& body, const std::stri
   return std::nullopt;
 }
 
-/// Of a collider whose other settings switch it off.
+/// Finds why a setting of a collider is idle: its other settings, or its file, switch it off.
 std::optional<Idle> idle_in_collider(const scene::Scene& scene, const scene::Collider& collider,
                                      const std::string& key) {
   using sim::shapes::Joint;
@@ -324,7 +324,7 @@ std::optional<Idle> idle_in_collider(const scene::Scene& scene, const scene::Col
   return std::nullopt;
 }
 
-/// Where no snow sheds dust, drag of spray acts, and so does what moves its air.
+/// Finds why a setting of dust is idle: no snow sheds it. Drag of spray and its air need no dust.
 std::optional<Idle> idle_in_dust(const scene::Scene& scene, const std::string& key) {
   const bool is_of_air = key == "wind" || key == "air_cell" || key == "speed";
   if (key == "spray_drag" || scene::dusty_material(scene) ||

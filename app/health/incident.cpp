@@ -79,7 +79,7 @@ std::optional<scene::View> culprit_slice(const scene::Scene& scene,
   constexpr double half_angle = 0.5 * 3.14159265358979323846 / 180;
   const double distance = 0.5 * cells_shown * h / std::tan(camera.fov * half_angle);
   if (std::abs(view.slice.normal.y()) > 0.5) camera.up = Vec3d(0, 0, -1);
-  // Between the caption and the legends.
+  // The culprit appears between the caption and the legends.
   const Vec3d right = camera.up.cross(view.slice.normal);
   camera.target = divergence.x - 0.12 * cells_shown * h * right;
   camera.eye = *camera.target + distance * view.slice.normal;

@@ -63,7 +63,7 @@ void check_nesting(const MeshReading& reading, bool is_even_odd, const std::stri
 
 void check_repairs(const MeshReading& reading, const std::string& at, const std::string& name,
                    std::vector<Finding>& findings) {
-  // Where all parts are wound inward, one convention differs from another and nothing is in doubt.
+  // A mesh with all parts wound inward follows another convention, and nothing is in doubt.
   const std::size_t turned = reading.turned_parts;
   if (turned > 0 && turned < reading.parts)
     findings.push_back({Severity::warning, at,
@@ -116,8 +116,8 @@ void check_shape(const sim::shapes::Shape& shape, const std::string& address,
   check_openness(*read, mesh->fill, address + ".shape.mesh.fill", name, findings);
 }
 
-/// Far from the origin, the spacing of numbers in single precision reaches the size of cells. What
-/// a file says is in such numbers; of other snow only pictures are, where less shows.
+/// Far from the origin, the spacing of numbers in single precision reaches the size of cells. Files
+/// hold such numbers. Other snow has them in pictures alone, where less shows.
 void check_distance(const scene::Scene& scene, const sim::shapes::Shape& shape,
                     const std::string& address, const std::string& name, bool is_snow,
                     std::vector<Finding>& findings) {
@@ -153,7 +153,7 @@ void check_distance(const scene::Scene& scene, const sim::shapes::Shape& shape,
        "coordinates = \"world\" takes the offset of a map out, and exports put it back"});
 }
 
-/// To a thousandth of the range, a decimal place at least.
+/// Rounds a height to three digits of the range, or to a decimal place if that is finer.
 std::string height_text(double height, double range) {
   const double digit =
       std::pow(10, std::min(-1.0, std::floor(std::log10(std::max(range, 1e-9))) - 2));

@@ -71,7 +71,7 @@ double density_where_they_lie(const sim::ParticleArrays& particles, std::size_t 
   return (weighted - alone) / mass / (h * h * h);
 }
 
-/// What check_range_of_packing() says of a number in the scene, of the points' own.
+/// Checks the J_P of points as check_range_of_packing() checks a number in the scene.
 void check_packing_of_points(const scene::Scene& scene, const sim::seeding::Body& body,
                              std::span<const double> J_P, std::vector<Finding>& findings) {
   const sim::Material& m = scene.materials[setup::material_index(scene, body.material)];
@@ -95,7 +95,7 @@ void check_packing_of_points(const scene::Scene& scene, const sim::seeding::Body
            : "grains are never packed: give them a J_P of 1"});
 }
 
-/// What the scene may not say of material.variation, of the points' own factors.
+/// Checks the factors of points, which have the limits of material.variation in a scene.
 void check_thresholds_of_points(const scene::Scene& scene, const sim::seeding::Body& body,
                                 std::span<const double> threshold, std::vector<Finding>& findings) {
   const sim::Material m = sim::laws::in_cells(

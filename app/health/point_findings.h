@@ -19,8 +19,7 @@ double particles_in_cell(const sim::seeding::Body& body, double cell_size);
 void check_point_distance(const sim::seeding::Body& body, double cell_size, double coarsening,
                           std::vector<Finding>& findings);
 
-/// What the points of all bodies are beside their materials: their density, and how packed they
-/// are.
+/// Compares the points of all bodies with their materials: density, packing and thresholds.
 void check_points(const scene::Scene& scene, const setup::SeededScene& seeded,
                   std::vector<Finding>& findings);
 

@@ -43,7 +43,7 @@ std::string times_text(double times) {
   return times < 100 ? rough_text(times) : about_count_text(times);
 }
 
-/// One whose default takes longer steps.
+/// Names a parameter whose default takes longer steps.
 Slow below_default(const std::string& address, double value, double usual, double factor) {
   return {
       address, usual / value,
@@ -71,7 +71,7 @@ void add_of_packed(const scene::Scene& scene, std::vector<Slow>& slow) {
   add("emitter", scene.emitters);
 }
 
-/// What makes sound fast: density, moduli, lumps that are stiffer, snow that starts packed.
+/// Adds what makes sound fast: density, moduli, lumps that are stiffer, snow that starts packed.
 void add_of_sound(const scene::Scene& scene, std::vector<Slow>& slow) {
   const sim::Material usual;
   const double c0 = sim::sound_speed(usual);
@@ -115,14 +115,14 @@ double duration_of(const scene::Scene& scene, const Check& check) {
   return static_cast<double>(check.foreseen.frames.size()) / scene.fps;
 }
 
-/// What moves so fast that its speed sets the steps, not sound. Snow that bursts moves without
+/// Adds things so fast that their speed sets the steps, not sound. Snow that bursts moves without
 /// anything that throws it: nothing is named then.
 void add_of_motion(const scene::Scene& scene, const Check& check, std::vector<Slow>& slow) {
   const double of_sound = check.start.dt[static_cast<std::size_t>(sim::DtLimit::acoustic)];
   const double mean = duration_of(scene, check) / check.foreseen.steps().expected;
   const double times = of_sound / mean;
   if (!(times < 1e300)) return;
-  // Where it is slower than that the steps have another reason.
+  // Slower things are not the reason of the steps.
   const double telling = 0.25 * scene.solver.cfl * scene.solver.cell_size / mean;
   const auto add = [&](const std::string& address, double speed) {
     if (speed < telling) return;
@@ -141,7 +141,7 @@ void add_of_motion(const scene::Scene& scene, const Check& check, std::vector<Sl
     const double speed = sim::shapes::largest_speed(collider);
     add("collider." + collider.name + fastest_part(collider, speed), speed);
   }
-  // Its own speed counts before what gravity adds: of equal ones the first is named.
+  // A speed of the scene counts before what gravity adds: the first of equal ones is named.
   add("solver.gravity", check.impact_speed);
 }
 
@@ -179,7 +179,7 @@ void add_of_steps(const scene::Scene& scene, const Check& check, std::vector<Slo
   }
 }
 
-/// What makes each step dear.
+/// Adds what makes each step dear.
 void add_of_cost(const scene::Scene& scene, const Check& check, std::vector<Slow>& slow) {
   const auto add = [&](const std::string& address, double per_cell) {
     constexpr double usual = 8;

@@ -1,5 +1,5 @@
 #pragma once
-/// What makes a run slow, and the value that would not.
+/// Notes on what makes a run slow, and on the values that would not.
 
 #include <vector>
 

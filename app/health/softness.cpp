@@ -40,7 +40,7 @@ double stiffness_that_holds(const sim::Material& written, const sim::SolverSetti
 
 namespace {
 
-/// Of the snow that is packed to the highest density now; of the first snow where none is left.
+/// Returns the material of the densest snow now; of the first snow where none is left.
 const sim::Material& densest_material(const scene::Scene& scene,
                                       const sim::ParticleArrays& particles) {
   const sim::Material* densest = nullptr;

@@ -40,8 +40,8 @@ std::string evidence_text(const DenseBirth& birth);
 /// "emitter.jet.J_P = 1 ..."
 std::string advice_text(const DenseBirth& birth);
 
-/// For a run whose snow was packed to the limit and yielded on, or is denser than ice. Empty if
-/// none was, and if the run diverged: its diagnosis says more.
+/// Warns of a run whose snow was packed to the limit and yielded on, or is denser than ice. Returns
+/// nothing if none was, or if the run diverged: its diagnosis says more.
 std::optional<std::string> softness_warning(const scene::Scene& scene,
                                             const sim::Simulation& simulation);
 

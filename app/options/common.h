@@ -22,7 +22,7 @@ void describe_caps(Command& visit, setup::CapTexts& caps);
 void describe_movie(Command& visit, output::MovieStyle& movie);
 /// --progress and --log
 void describe_progress(Command& visit, ProgressOptions& progress);
-/// Of --json, where a command has one result.
+/// Help of --json, for a command that has one result.
 inline constexpr const char* json_help = "Print the result, or the error, as JSON";
 /// --quiet, and --verbose where it has a help
 void describe_verbosity(Command& visit, Verbosity& verbosity, const char* verbose = nullptr,

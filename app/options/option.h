@@ -35,7 +35,7 @@ struct Language {
 
 /// A flag of a command, or an argument.
 struct Option {
-  /// As typed, the usual one first: {"-p", "--parameter"}; of an argument {"SCENE"}.
+  /// Names as typed, the usual one first: {"-p", "--parameter"}; of an argument {"SCENE"}.
   std::vector<std::string> names;
   std::string type, example, help;
   std::string alone;  ///< value where it is given without one; otherwise after "=" only
@@ -61,11 +61,11 @@ struct Option {
   /// The default, as a list for several; "" if there is none.
   std::string default_text() const;
 
-  /// One value, although the member holds several.
+  /// Lets the option have one value, although the member holds several.
   Option& once() { return is_repeatable = false, *this; }
   Option& required() { return is_required = true, *this; }
   Option& with_default() { return shows_default = true, *this; }
-  /// Without a value it has this one.
+  /// Gives the value that the option has if it is given without one.
   Option& or_alone(const std::string& value) { return alone = value, *this; }
   Option& excludes(const std::vector<std::string>& flags, const std::string& hint);
   Option& needs(const std::string& flag, const std::string& message, const std::string& hint) {
@@ -80,8 +80,8 @@ struct Command {
   /// Advice where a file cannot be written, see or_other_place().
   std::string other_place = usual_other_place;
   std::vector<std::function<void()>> checks;  ///< called when all words have been read
-  /// What to write instead of a word that no option takes, or that a flag without a value was given
-  /// as one; "": nothing is known.
+  /// Advice on a word that no option takes, or that a flag without a value was given as one; "":
+  /// nothing is known.
   std::function<std::string(const Command&, const std::string& word)> word_advice{};
 
   void about(const std::string& command, const std::string& sentence);
@@ -103,7 +103,7 @@ struct Command {
 
   /// "neve sweep run"
   std::string full_name() const { return name.empty() ? "neve" : "neve " + name; }
-  /// By any of its names; null if there is none.
+  /// Finds an option by any of its names; null if there is none.
   Option* find(const std::string& name);
   const Option* find(const std::string& name) const {
     return const_cast<Command*>(this)->find(name);

@@ -211,7 +211,7 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
     throw UnreadableError(path.string() + ": cannot read: " + std::strerror(reason), path.string());
   };
   struct stat status {};
-  // Before it is opened: a pipe waits for its writer, and a device may do anything.
+  // The type is known before opening: a pipe waits for its writer, and a device may do anything.
   if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     fail_reading("not a regular file");
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));

@@ -15,8 +15,8 @@ namespace neve::app::output {
 /// Durability of written bytes: synced bytes survive a power cut after the call returns.
 enum class Durability { cached, synced };
 
-/// Writes a temporary file in the same folder, then renames. For names that the program chooses:
-/// a link, device or folder of that name is refused.
+/// Writes a temporary file in the same folder, then renames it. The program chooses these names: a
+/// link, device or folder of that name is refused.
 /// @throws IoError with path, bytes and the system's reason; nothing is left behind
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
                 Durability durability = Durability::cached);
@@ -39,7 +39,7 @@ void write_together(const std::vector<FileToWrite>& files);
 /// Sets up a temporary file before it replaces another one. @return 0 or errno
 using Prepare = std::function<int(int fd)>;
 
-/// As write_file, without a look at the file that is replaced.
+/// Writes as write_file() does, but does not refuse a link or a device of that name.
 void replace_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
                   Durability durability, const Prepare& prepare = {});
 

@@ -55,7 +55,7 @@ std::string file_name(const Checkpoint& c) {
   return fmt::format("{:06}-{:012}.ckpt", c.frame, c.steps);
 }
 
-/// That a file is named after; -1 for other names.
+/// Returns the frame that a file is named after; -1 for other names.
 int frame_of(const fs::path& file) {
   int frame = -1;
   const std::string stem = file.stem().string();
@@ -63,7 +63,7 @@ int frame_of(const fs::path& file) {
   return end.ec == std::errc() && frame >= 0 && frame <= max_frame ? frame : -1;
 }
 
-/// Newest first. Behind a link they are another's.
+/// Lists checkpoints, the newest first; none behind a link, where they are another's.
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error, ignored;
@@ -172,7 +172,7 @@ Checkpoint parse_checkpoint(std::vector<std::uint8_t> bytes) {
   c.steps = whole_number<std::size_t>(json.at("steps"));
   if (c.frame < 0 || c.frame > max_frame) refuse("has an invalid frame number");
   c.progress = json.at("progress");
-  // Not twice in memory: it may be most of what there is.
+  // The state is not copied: it may take most of the memory.
   bytes.resize(body);
   bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(json_start + length));
   c.state = std::move(bytes);
@@ -203,7 +203,7 @@ FoundCheckpoint find_checkpoint(const fs::path& folder, int before) {
 
 std::uint64_t write_state(const fs::path& folder, const Checkpoint& checkpoint) {
   make_own_folder(states_folder(folder));
-  // Its checksum tells one that a power cut left unfinished.
+  // Its checksum marks a file that a power cut left unfinished.
   const std::vector<std::uint8_t> bytes = encode_checkpoint(checkpoint);
   write_file(state_path(folder, checkpoint.frame), bytes);
   return bytes.size();
@@ -303,7 +303,7 @@ void remove_checkpoints(const fs::path& folder) {
   std::error_code error;
   for (const fs::path& file : list(folder)) fs::remove(file, error);
   remove_abandoned(folder_of(folder));
-  // Only a folder, and only when nothing else is in it.
+  // This removes a folder only, and only when nothing else is in it.
   ::rmdir(folder_of(folder).c_str());
 }
 

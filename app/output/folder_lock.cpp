@@ -37,7 +37,7 @@ constexpr std::size_t longest_holder = 400;
                     : or_other_place());
 }
 
-/// What write_holder() wrote, or nothing: another process may just be writing it.
+/// True for text of write_holder(), or none: another process may just be writing it.
 bool is_ours(int fd) {
   char bytes[longest_holder];
   const ssize_t count = ::pread(fd, bytes, sizeof bytes, 0);
@@ -72,14 +72,14 @@ void write_holder(const fs::path& file, int fd, const std::string& holder) {
   if (reason != 0) fail_writing(file, "cannot write", reason);
 }
 
-/// Empty where there is no such file, or no text in it.
+/// Returns the first line of a file; "" where no such file exists, or no text is in it.
 std::string first_line(const fs::path& file) {
   std::string text;
   try {
     const std::vector<std::uint8_t> bytes = read_file(file, longest_holder);
     text.assign(bytes.begin(), bytes.end());
   } catch (const std::exception&) {
-    // It is no text of ours.
+    // Another program may have written the file.
   }
   text.resize(std::min(text.size(), text.find('\n')));
   return text;
@@ -121,7 +121,7 @@ bool FolderLock::is_held(const fs::path& folder) {
 
 std::string FolderLock::holder_of(const fs::path& folder, const char* name) {
   std::string text = first_line(folder / name);
-  // One that has just got the lock writes its name at once.
+  // A process that has just got the lock writes its name at once.
   for (int look = 0; text.empty() && look < looks; ++look) {
     std::this_thread::sleep_for(between_looks);
     text = first_line(folder / name);

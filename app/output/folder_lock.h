@@ -26,7 +26,7 @@ class FolderLock {
   FolderLock(const std::filesystem::path& folder, const std::string& holder,
              Kind kind = Kind::alone);
 
-  /// As above; nothing when another process has it.
+  /// Locks as the constructor does; nothing when another process has the lock.
   static std::optional<FolderLock> try_lock(const std::filesystem::path& folder,
                                             const std::string& holder, Kind kind = Kind::alone,
                                             const char* name = default_name);
@@ -34,7 +34,7 @@ class FolderLock {
   /// Whether a process has it now. Changes nothing.
   static bool is_held(const std::filesystem::path& folder);
 
-  /// Who has or had it last: "neve render, process 4711 on snow, since 2026-01-31 12:00:00".
+  /// Names its last holder: "neve render, process 4711 on snow, since 2026-01-31 12:00:00".
   static std::string holder_of(const std::filesystem::path& folder,
                                const char* name = default_name);
 

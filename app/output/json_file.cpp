@@ -7,8 +7,8 @@ namespace neve::app::output {
 
 namespace {
 
-/// Of memory for each byte of a text: its own, 16 for a value of two characters, "0,", and as much
-/// again while their list grows. Objects of one short key, the next worst, take 20.
+/// Bytes of memory for each byte of a text: its own, 16 for a value of two characters, "0,", and as
+/// much again while their list grows. Objects of one short key, the next worst, take 20.
 constexpr double bytes_of_values = 25;
 
 }  // namespace

@@ -17,7 +17,7 @@ inline constexpr std::uint64_t max_json = std::uint64_t{128} << 20;
 std::vector<std::uint8_t> read_json_bytes(const std::filesystem::path& file,
                                           std::uint64_t limit = max_json);
 
-/// The same, read. @throws nlohmann::json::exception, too
+/// Reads those bytes as JSON. @throws nlohmann::json::exception, too
 Json read_json(const std::filesystem::path& file, std::uint64_t limit = max_json);
 
 }  // namespace neve::app::output

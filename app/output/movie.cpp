@@ -178,7 +178,7 @@ std::string unreadable_picture(const MovieRequest& request) {
   } catch (const UnreadableError& error) {
     return error.what();
   } catch (const IoError&) {
-    // It is not there.
+    // The picture is missing.
   }
   return {};
 }
@@ -187,12 +187,12 @@ std::string unreadable_picture(const MovieRequest& request) {
 
 namespace {
 
-/// With numbers from 0 on.
+/// Makes the movie of pictures whose numbers are not negative.
 MovieResult write_counted(const fs::path& ffmpeg, const MovieRequest& request) {
   const fs::path temporary = temporary_name(request.file);
   try {
     require_regular(request.file);
-    // Whether the folder takes a file at all: ffmpeg would not say why in a way that can be told.
+    // This tells whether the folder takes a file at all: ffmpeg would not say why it does not.
     replace_file(temporary, {}, Durability::cached);
   } catch (const IoError& error) {
     return {MovieOutcome::unwritable, error.what()};
@@ -249,7 +249,7 @@ void require_gif_rate(const MovieStyle& style, double fps) {
                 "--movie", "add --movie-fps 50, or use --movie webp");
 }
 
-/// Those that this ffmpeg has an encoder for.
+/// Returns the formats that this ffmpeg has an encoder for.
 std::vector<MovieFormat> formats_of(const fs::path& ffmpeg) {
   const ProcessResult listed = run_process(ffmpeg, {"-v", "error", "-encoders"}, "/", 60);
   std::vector<MovieFormat> formats(all_movie_formats.begin(), all_movie_formats.end());

@@ -41,7 +41,7 @@ MovieResult write_movie(const MovieRequest& request);
 
 /// The style that can be made here, known before the first picture: the format that was asked for,
 /// or, where nobody named one, the first of h264, vp9, prores and gif that this ffmpeg makes.
-/// Without ffmpeg the style as it is: pictures alone are what most want then.
+/// Without ffmpeg the style stays unchanged: pictures alone are what most want then.
 /// @param fps  of the scene
 /// @throws IoError where ffmpeg or the encoder of what was asked for is missing, Error for too fast
 ///         a GIF
@@ -58,13 +58,13 @@ void append_words(std::vector<std::string>& arguments, const std::string& text);
 /// Frames per second of the movie.
 double movie_fps(const MovieRequest& request);
 
-/// Those that make the movie, to be run in the folder of the pictures.
+/// Returns the arguments that make the movie, to be run in the folder of the pictures.
 /// @param palette  of a GIF, made before
 std::vector<std::string> movie_arguments(const MovieRequest& request,
                                          const std::filesystem::path& target,
                                          const std::filesystem::path& palette);
 
-/// Those that find the colours of a GIF: one palette for all of its frames.
+/// Returns the arguments that find the colours of a GIF: one palette for all of its frames.
 std::vector<std::string> palette_arguments(const MovieRequest& request,
                                            const std::filesystem::path& palette);
 

@@ -27,7 +27,7 @@ void append_frames(const MovieRequest& request, FfmpegWords& arguments) {
   arguments.push_back(std::to_string(request.last_frame - request.first_frame + 1));
 }
 
-/// Of WebM, QuickTime and WebP.
+/// True for WebM, QuickTime and WebP.
 bool keeps_alpha(MovieFormat format) {
   return format == MovieFormat::vp9 || format == MovieFormat::prores || format == MovieFormat::webp;
 }

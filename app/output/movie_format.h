@@ -17,7 +17,7 @@ inline constexpr std::array all_movie_formats{MovieFormat::h264, MovieFormat::h2
 struct MovieFormatInfo {
   const char *name, *suffix, *encoder;  ///< of ffmpeg
 };
-/// In their order. The first of a suffix is the format of files that are only named by it.
+/// Formats in their order. The first of a suffix is the format of files that are only named by it.
 inline constexpr std::array<MovieFormatInfo, all_movie_formats.size()> movie_format_infos{
     {{"h264", ".mp4", "libx264"},
      {"h265", ".mp4", "libx265"},
@@ -33,7 +33,7 @@ constexpr const char* name(MovieFormat format) {
   return info_of(format).name;
 }
 
-/// Of a name, or of the suffix of a file without its point: "mp4" is h264.
+/// Finds the format of a name, or of the suffix of a file without its point: "mp4" is h264.
 inline std::optional<MovieFormat> movie_format_named(const std::string& word) {
   for (const MovieFormat format : all_movie_formats)
     if (name(format) == word || info_of(format).suffix == "." + word) return format;
@@ -46,7 +46,7 @@ constexpr bool is_video(MovieFormat format) {
   return format != MovieFormat::gif && format != MovieFormat::webp;
 }
 
-/// How a movie is to be made.
+/// Settings of a movie.
 struct MovieStyle {
   MovieFormat format = MovieFormat::h264;
   int quality = 80;         ///< 1 to 100

@@ -38,7 +38,7 @@ std::optional<int> open_file_named(const fs::path& path) {
   return number_of<int>(path.filename().string());
 }
 
-/// Where the links of a path lead; the file itself need not be there.
+/// Finds the file to which the links of a path lead; it need not exist.
 Target follow_links(fs::path path) {
   for (int links = 0; links < max_links; ++links) {
     std::error_code error;

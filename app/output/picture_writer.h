@@ -45,7 +45,7 @@ class PictureWriter {
   /// Waits until everything is written. @throws the error of a picture
   void finish();
 
-  /// Those that were written since the last call.
+  /// Returns the files that were written since the last call.
   std::vector<WrittenFile> take_written();
 
  private:

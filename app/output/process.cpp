@@ -43,7 +43,7 @@ struct Pipe {
   }
 };
 
-/// Until then, for poll(): -1 where there is no end, and a second at most.
+/// Returns the wait of poll() for a time: -1 where there is no end, and a second at most.
 int milliseconds_until(const std::optional<Clock::time_point>& end) {
   if (!end) return -1;
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(*end - Clock::now()).count();
@@ -91,7 +91,7 @@ void set_streams(const StartOptions& options) {
   for (int stream = 0; stream < 3; ++stream) ::dup2(files[stream], stream);
 }
 
-/// Between fork and exec: only calls that are safe there. @return errno of the call that failed
+/// Makes only calls that are safe between fork and exec. @return errno of the call that failed
 int become(const char* folder, char* const* argv, const StartOptions& options, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -164,7 +164,7 @@ ProcessResult run_process(const std::filesystem::path& program,
   if (longest < 1e9)
     end = Clock::now() + std::chrono::ceil<Clock::duration>(std::chrono::duration<double>(longest));
   result.is_too_slow = !drain(out.read_end, err.read_end, end, result);
-  // Its group is its own: what it started in turn ends too.
+  // The child has a group of its own: what it started in turn ends too.
   if (result.is_too_slow) ::kill(-child, SIGKILL);
   result.exit_code = wait_for(child);
   return result;

@@ -12,7 +12,7 @@
 
 namespace neve::app::output {
 
-/// What decode() makes of the bytes of a file, whose errors then name it.
+/// Returns what decode() makes of the bytes of a file. Its errors then name the file.
 /// @throws Error with the advice, for bytes that are no whole picture; LimitError for one that
 /// becomes more than memory_room()
 template <class Decode>

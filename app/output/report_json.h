@@ -13,7 +13,7 @@ namespace neve::app::output {
 /// "[x, y, z]"; a number that is not finite is null, and the other way round.
 Json vector_json(const sim::Vec3d& v);
 sim::Vec3d vector_of(const Json& json);
-/// Its rows.
+/// The rows of a matrix.
 Json matrix_json(const sim::Mat3d& matrix);
 /// The inverse of number_or_null.
 double number_or_nan(const Json& json);

@@ -39,7 +39,7 @@ std::filesystem::path free_path(const std::filesystem::path& folder, const std::
                                 const std::string& suffix);
 /// The list of the files that `neve export` wrote into a folder.
 std::filesystem::path export_list_path(const std::filesystem::path& folder);
-/// That of the files that `neve compare` wrote into a folder.
+/// The list of the files that `neve compare` wrote into a folder.
 std::filesystem::path comparison_list_path(const std::filesystem::path& folder);
 
 }  // namespace neve::app::output

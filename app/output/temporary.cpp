@@ -29,7 +29,7 @@ constexpr std::size_t longest_name = 255, longest_host = 32, random_digits = 8;
 constexpr std::string_view suffix = ".tmp";
 constexpr auto abandoned_elsewhere = std::chrono::hours(24);
 
-/// Without dots, which separate the parts of a name.
+/// Returns the name of the host without dots, which separate the parts of a name.
 std::string plain_host() {
   std::string host = host_name().substr(0, longest_host);
   for (char& c : host)
@@ -78,7 +78,7 @@ std::string_view take_part(std::string_view& name) {
   return part;
 }
 
-/// Whose temporary file this is; nothing for other names.
+/// Returns the process that a temporary file belongs to; nothing for other names.
 std::optional<Owner> owner_of(std::string_view name) {
   if (!name.starts_with('.') || !name.ends_with(suffix)) return std::nullopt;
   name.remove_suffix(suffix.size());

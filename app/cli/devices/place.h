@@ -30,7 +30,7 @@ struct Place {
   view::web::WebFrontend* web = nullptr;
   std::unique_ptr<view::replay::RecordingFrontend> recording;  ///< with --record
 
-  /// That input comes from.
+  /// Returns the frontend that input comes from.
   view::frontend::Frontend& shown() { return recording ? *recording : *front; }
   void set_title(const std::string& title);
 };

@@ -12,8 +12,8 @@ class TerminalLines {
   /// True if the standard input is a terminal.
   static bool is_there();
 
-  /// The next line, for which it waits at most so many seconds. Nothing without one, and for a
-  /// program in the background, whose terminal is another's.
+  /// Returns the next line, for which it waits at most so many seconds. Returns nothing without a
+  /// line, and in the background, where the terminal is another program's.
   std::optional<std::string> next(double seconds);
   bool is_at_end() const { return is_at_end_; }
 
