@@ -41,7 +41,7 @@ class Renderer {
                     ReadBackWay read_back = ReadBackWay::automatic);
   ~Renderer();
 
-  /// Same frame, same driver: same bytes.
+  /// Draws a frame: the same frame and driver give the same bytes.
   /// @param times if not null, takes the phases; then the driver has to finish each before the next
   Image draw(const Frame& frame, std::vector<PhaseTime>* times = nullptr);
 
@@ -70,7 +70,7 @@ class Renderer {
   /// @param x, y  px, lower left corner of the place
   void copy_picture(unsigned framebuffer, int x, int y, int width, int height);
 
-  /// That of particles drawn as spheres. Never automatic.
+  /// Returns the path of particles drawn as spheres, which is never automatic.
   ParticlePath particle_path() const;
 
   /// Lays only caption, legends, plots and marks of the frame over an RGB picture of its size.

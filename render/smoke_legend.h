@@ -1,5 +1,5 @@
 #pragma once
-/// What a picture says of its smoke: how dense it has to be to look so white, and what is missing.
+/// Legend of the smoke in a picture: the density that looks so white, and smoke that is left out.
 
 #include <cstddef>
 
@@ -8,7 +8,7 @@
 namespace neve::render {
 
 /// A bar from no mass to twice that of packed snow: the grey that white smoke of this density has
-/// through some cells, before a dark background. Where the bar still rises, twice the mass shows.
+/// through some cells, before a dark background. Twice the mass shows where the bar still rises.
 /// @param full_density  kg/m3, see Smoke
 Legend smoke_legend(float full_density, float density_scale);
 

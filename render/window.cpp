@@ -207,7 +207,7 @@ class GlfwWindow final : public Window {
     height_ = h;
   }
 
-  /// px per unit of window coordinates
+  /// Returns px per unit of window coordinates.
   std::pair<double, double> pixels() const {
     int w = 0, h = 0;
     glfwGetWindowSize(window_, &w, &h);
@@ -303,7 +303,7 @@ void GlfwWindow::listen() {
 }
 
 void GlfwWindow::listen_to_keys() {
-  // When the window loses the focus, GLFW lets go of what is held by itself.
+  // GLFW lets go of held keys by itself when the window loses the focus.
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int) {
     if (action == GLFW_REPEAT) return;  // who needs repeats makes them
     const int printed = printed_key(key, scancode);

@@ -63,7 +63,7 @@ class Window {
   /// Width of the picture, px; at least 1.
   virtual int width() const = 0;
   virtual int height() const = 0;
-  /// px per point
+  /// Returns px per point.
   virtual float scale() const = 0;
 
   /// False if the window is minimised.

@@ -7,7 +7,7 @@
 namespace neve::sim {
 
 double max_dust_memory(const DustSettings& settings) {
-  // In the cloud, in its arrays and in their copy for a picture.
+  // Each mote is in the cloud, in its arrays and in their copy for a picture.
   constexpr double mote = sizeof(dust::Mote) + 2 * (2 * sizeof(Vec3d) + 3 * sizeof(double));
   return settings.particles * mote + dust::max_air_cells * dust::bytes_of_air_cell;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What the dust of a run may need, for plans.
+/// Memory and steps that the dust of a run may need, for plans.
 
 #include "sim/types/dust.h"
 

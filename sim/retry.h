@@ -17,7 +17,7 @@ struct Retry {
   std::string rule, sentence;
 };
 
-/// At most so often for one frame: a sixteenth of the dt.
+/// Number of retries of one frame at most: down to a sixteenth of the dt.
 inline constexpr int max_retries = 4;
 
 /// advance_to, and where it breaks a rule back to the state it started from with half the dt; after

@@ -35,7 +35,7 @@ class Simulation {
              int threads = 0, const Vec3i& lattice_origin = Vec3i::Zero(),
              const seeding::Flow& flow = {});
 
-  /// For functions that inspect a simulation.
+  /// Returns the stepper, for functions that inspect a simulation.
   const engine::Stepper& stepper() const { return *stepper_; }
 
   double time() const { return stepper_->progress().time; }
@@ -87,7 +87,7 @@ class Simulation {
   void apply(const SolverSettings& settings, const std::vector<Material>& materials,
              const std::vector<shapes::Collider>& colliders);
 
-  /// As they are now: pose_at(collider, time()) is where each of them is.
+  /// Returns colliders as they are now: pose_at(collider, time()) is the place of each of them.
   std::vector<shapes::Collider> colliders() const { return stepper_->colliders(); }
 
   /// The dt that the settings would choose now, and the limit that rules it.
@@ -96,7 +96,7 @@ class Simulation {
   /// The dt that each limit would allow now, also with fixed steps, and why.
   StepLimits step_limits() const { return stepper_->step_limits(); }
 
-  /// Set once a rule of a healthy run was broken.
+  /// Returns the divergence, set once a rule of a healthy run was broken.
   const std::optional<Divergence>& divergence() const { return stepper_->divergence(); }
   const Warnings& warnings() const { return stepper_->progress().warnings; }
   /// Report of the last step, if it was semi-implicit.
@@ -126,13 +126,13 @@ class Simulation {
   /// materials and colliders that restores them takes the same steps to the bit.
   std::vector<std::uint8_t> save() const { return stepper_->save(); }
 
-  /// Whether this program saves states in the way of the bytes: builds from other sources may not.
+  /// True if this program saves states in the way of the bytes: builds from other sources may not.
   static bool can_read(std::span<const std::uint8_t> saved);
 
   /// @throws SavedStateError for bytes that no such simulation saved; nothing has changed then
   void restore(std::span<const std::uint8_t> bytes) { stepper_->restore(bytes); }
 
-  /// As restore(), of bytes from a file: no healthy run has these numbers, however well they fit
+  /// Restores bytes from a file, unless no healthy run has their numbers, however well these fit
   /// together. A diverged state is no healthy one.
   /// @throws SavedStateError that names the number; nothing has changed then
   void restore_healthy(std::span<const std::uint8_t> bytes) {

@@ -45,8 +45,8 @@ light::LightVolume without_shadow(const light::LightVolume& light) {
   return open;
 }
 
-/// Light is linear in the strengths of sun and sky: each part is a picture without the others. What
-/// holdouts leave of the background is the same in all of them.
+/// Light is linear in the strengths of sun and sky: each part is a picture without the others.
+/// Holdouts leave the same of the background in all of them, but for those of the shadow.
 void add_light(const LitSurfaces& lit, const Request& request, float weight, LightPlanes& out) {
   const Frame& frame = lit.frame;
   const auto has = [&](Pass pass) { return request.passes.contains(pass); };

@@ -69,7 +69,7 @@ struct Request {
   std::vector<Vec3f> velocity;         ///< m/s, of each point
   std::vector<std::int32_t> body;      ///< of each point
   std::vector<Thing> meshes, grounds;  ///< one for each of the frame's
-  /// Over which light is averaged; none: the frame itself.
+  /// Frames over which light is averaged; without any, light is that of the frame itself.
   Moments moments;
 };
 

@@ -9,7 +9,7 @@
 namespace neve::render::channels {
 namespace {
 
-/// As shaders/shade.frag has it.
+/// Applies the tone mapping of shaders/shade.frag.
 float tone_mapped(float light) {
   const float c = light * light::exposure;
   const float mapped = c * (1 + c / light::white_point) / (1 + light::shoulder * c);

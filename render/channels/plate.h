@@ -10,8 +10,8 @@ namespace neve::render::channels {
 /// is no ground or no shadow. @param lit  surfaces of a transparent frame with grounds
 cpu::LinearSamples ground_shadow(const LitSurfaces& lit);
 
-/// Lays surfaces over a plate. Where there are neither surfaces nor shadows the plate stays as it
-/// is.
+/// Lays surfaces over a plate. The plate stays as it is where there are neither surfaces nor
+/// shadows.
 /// @param front   of a transparent frame without grounds
 /// @param shadow  of the same size @param plate  RGB, of the size of the frame
 Image lay_over_plate(const cpu::LinearSamples& front, const cpu::LinearSamples& shadow,

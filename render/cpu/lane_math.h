@@ -67,7 +67,7 @@ NEVE_INLINE void store_points(const Points3<V>& p, float* const (&to)[3], int at
   store_lanes(p.z, to[2] + at);
 }
 
-/// Within [low, high]; NaN becomes low.
+/// Clamps lanes to [low, high]; NaN becomes low.
 template <class V>
 NEVE_INLINE V clamp_lanes(V x, float low, float high) {
   const V raised = x > all<V>(low) ? x : all<V>(low);

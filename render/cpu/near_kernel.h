@@ -35,7 +35,7 @@ NEVE_INLINE float min_of(V v) {
   }
 }
 
-/// The nearest two of some grains, in each lane. Where several are equally near, their order is not
+/// The nearest two of some grains, in each lane. The order of several that are equally near is not
 /// sure: found() says so.
 template <class V>
 struct NearestTwo {

@@ -38,7 +38,7 @@ NEVE_INLINE float clamped(float x, float low, float high) {
 NEVE_INLINE float fraction_of(float x) {
   return x - static_cast<float>(floor_to_int(x));
 }
-/// Not infinite, where a direction has no part along an axis.
+/// Returns 1 / x, and a large number instead of infinity at 0.
 NEVE_INLINE float inverse_of(float x) {
   return 1 / (x == 0 ? 1e-7f : x);
 }
@@ -73,7 +73,7 @@ NEVE_INLINE float surface_distance(const light::SmokeJob& job, int ray_x, int ra
   return ((ray_x + ray_y) & 1) == 0 ? a : b;
 }
 
-/// From where to where a ray is in the box, along the view.
+/// Narrows z and z_end, distances along the view, to the part of a ray that is in the box.
 NEVE_INLINE void clip_to_box(const light::SmokeJob& job, Vec3f ray, float& z, float& z_end) {
   for (int axis = 0; axis < 3; ++axis) {
     const float inverse = inverse_of(ray[axis]), origin = job.grid_origin[axis];

@@ -21,7 +21,7 @@ NEVE_INLINE V forward_phase(V cosine, float g) {
   return (1 - g * g) / (apart * square_root_lanes(apart));
 }
 
-/// As the G-buffer has light that is finished: the square root of linear display light.
+/// Turns light into the finished bytes of the G-buffer: square roots of linear display light.
 template <class V>
 NEVE_INLINE MaskOf<V> finished_byte(V c) {
   c = c * light::exposure;
@@ -86,7 +86,7 @@ NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at,
   const V spark = 1.2f * smooth_step_lanes(2, 6, pixels) * larger_lanes(V{}, facing) * glint;
   const V log_sun = rough_log2(larger_lanes(sun, all<V>(1e-6f))) * contrast;
   const V up = 0.5f + 0.5f * n.y;
-  // What lies deeper between grains sees less of the sky: without a sun, that is all there is of
+  // A place deeper between grains sees less of the sky: without a sun, nothing else shows
   // grain.
   const V relief = 1 + 0.7f * strength * load_lanes<V>(job.height + at);
   const V open = sky * load_lanes<V>(job.crevice + at) * relief;

@@ -89,8 +89,8 @@ void Splatter::fill_bins(ThreadPool* pool) {
   });
 }
 
-/// Roughly front to back, equals in the order of ids: one counting sort over the bits of the
-/// inverse distance, which grow with it.
+/// Sorts a bin roughly front to back, equals in the order of ids: one counting sort over the bits
+/// of the inverse distance, which grow with it.
 void Splatter::sort_bin(int tile) {
   constexpr std::uint32_t slabs = 1024;
   const auto begin = list_.begin() + bin_start_[static_cast<std::size_t>(tile)];

@@ -14,7 +14,7 @@
 
 namespace neve::render::cpu {
 
-/// What a tile holds in place of a colour: the albedo of the point, or its index in the frame.
+/// Content of a tile in place of a colour: the albedo of the point, or its index in the frame.
 enum class Paint { albedo, index };
 
 class Splatter {

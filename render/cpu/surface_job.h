@@ -38,21 +38,21 @@ struct ShadeJob {
   light::LightCells light;
   Vec3f toward_light;
   float key_intensity, ambient_intensity;
-  /// Of the light whose share holdouts leave of the background.
+  /// Strengths of the light whose share holdouts leave of the background.
   float holdout_key_intensity, holdout_ambient_intensity;
   int is_transparent;
   const light::SmokeCover* smoke;  ///< null if there is none
   const light::GBufferTile* tile;
-  /// Where not null, samples of kind_lit have these parts of the light, each times its strength, in
-  /// place of their colour.
+  /// Parts of the light of samples of kind_lit, each times its strength, in place of their colour;
+  /// may be null.
   const light::LitTile* lit;
   float lit_sun, lit_open_sun, lit_around;
   int x, y;  ///< lower left corner of the tile
   unsigned*
       out;    ///< of that corner; sRGB and alpha, red lowest; whole rows of the tile are written
   int pitch;  ///< samples from one row to the next
-  /// Where to write linear light before the tone mapping, and cover, instead of sRGB: of the corner
-  /// too, same pitch; null: sRGB.
+  /// Output of linear light before the tone mapping, and of cover, instead of sRGB: corner and
+  /// pitch are those of `out`; null: sRGB.
   float *linear[3], *cover;
 };
 

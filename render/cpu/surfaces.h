@@ -25,7 +25,7 @@ struct SolidSamples {
   std::vector<std::uint16_t> normal_kind;  ///< four half floats each
   std::vector<std::uint32_t> albedo;       ///< four bytes each
 
-  /// With room behind the last row, as lanes read past its end.
+  /// Makes room for the samples, and some behind the last row, as lanes read past its end.
   void resize(int new_width, int new_height);
 };
 
@@ -83,10 +83,10 @@ class Surfaces {
   void shade_linear(const light::LightVolume& light, const light::SmokeCover* smoke, Parts parts,
                     LinearSamples& out) const;
 
-  /// sRGB and alpha, rows from the bottom up.
+  /// Returns sRGB and alpha, rows from the bottom up.
   const std::uint32_t* picture() const { return picture_.get(); }
   int pitch() const { return pitch_; }  ///< samples from one row to the next
-  /// As OpenGL has it, for each sample; same pitch.
+  /// Returns the depth of each sample as OpenGL has it, at the same pitch.
   const float* depth() const { return depth_.get(); }
 
  private:

@@ -196,7 +196,7 @@ struct Plot {
 struct Patch {
   float x = 0, y = 0, width = 0, height = 0;
   std::array<std::uint8_t, 4> color{8, 10, 16, 150};  ///< sRGB and opacity
-  /// Of text over it: no wider than the longest line and the rims beside it.
+  /// Text over the patch, which is no wider than the longest line and the rims beside it.
   std::vector<std::string> lines{};
   float rim = 0;  ///< px
 };
@@ -247,7 +247,7 @@ struct Frame {
   std::vector<std::string> caption;   ///< lines, UTF-8; the first one is the title
   std::string footnote;               ///< at the bottom, between plots and legends
   std::optional<ScaleBar> scale_bar;  ///< above the footnote
-  /// At the upper edge from left to right, then at the lower one; empty: none.
+  /// Words at the upper edge from left to right, then at the lower one; empty: none.
   std::array<std::string, 6> edge_words{};
   int caption_height = 0;          ///< px; above 0: the caption has a strip this high to itself
   bool has_caption_plate = false;  ///< dark behind its lines: whatever is near stays readable

@@ -6,7 +6,7 @@
 namespace neve::render {
 namespace {
 
-/// Along the grid lines: the x axis of the world laid into the plane, where it is not the normal.
+/// Returns the direction of grid lines: the x axis laid into the plane, where it is not the normal.
 Vec3f tangent_of(Vec3f normal) {
   const Vec3f axis = std::abs(normal.x) < 0.9f ? Vec3f{1, 0, 0} : Vec3f{0, 0, 1};
   return normalized(axis - dot(axis, normal) * normal);

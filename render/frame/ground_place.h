@@ -6,7 +6,7 @@
 
 namespace neve::render {
 
-/// Relative to the eye, m; see shaders/ground.frag.
+/// A ground plane relative to the eye, m; see shaders/ground.frag.
 struct GroundPlace {
   Vec3f point, normal, tangent, bitangent;
   float eye_on_grid[2];  ///< between two lines, in units of their spacing

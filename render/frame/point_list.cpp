@@ -166,8 +166,8 @@ std::array<std::uint8_t, 256> root_table() {
   return table;
 }
 
-/// Slabs of distance, front to back, for a counting sort. Of equal ratio rather than width: one far
-/// stray must not squeeze the rest into one slab.
+/// Slabs of distance, front to back, for a counting sort. They have equal ratios rather than
+/// widths: one far stray must not squeeze the rest into one slab.
 class Slabs {
  public:
   static constexpr std::size_t count = 2048;

@@ -34,9 +34,9 @@ std::vector<std::uint32_t> order_by_id(const Points& points);
 class PointColors {
  public:
   explicit PointColors(const Points& points) : points_(points) {}
-  /// sRGB
+  /// Returns the colour in sRGB.
   Rgb8 of(std::uint32_t point) const;
-  /// As the G-buffer has it: the square root of linear light in bytes, opaque, red lowest.
+  /// Returns the colour for the G-buffer: roots of linear light in bytes, opaque, red lowest.
   std::uint32_t root_albedo(std::uint32_t point) const;
 
  private:

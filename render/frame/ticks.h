@@ -11,8 +11,8 @@ struct Tick {
   std::string label;  ///< short, and different from its neighbours
 };
 
-/// About `count` multiples of 1, 2, 2.5 or 5 times a power of ten within [min, max]. One tick where
-/// the range has no width, none if it is not finite.
+/// Returns about `count` multiples of 1, 2, 2.5 or 5 times a power of ten within [min, max]. One
+/// tick where the range has no width, none if it is not finite.
 std::vector<Tick> nice_ticks(double min, double max, int count);
 
 }  // namespace neve::render

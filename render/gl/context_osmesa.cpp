@@ -12,7 +12,7 @@ namespace neve::render::gl {
 #ifdef NEVE_WITH_OSMESA
 namespace {
 
-// The library is optional at build time too: these are the few declarations of GL/osmesa.h we use.
+// The library is optional at build time too: these are the declarations of GL/osmesa.h in use.
 using OsmesaHandle = struct osmesa_context*;
 constexpr int osmesa_format = 0x22, osmesa_depth_bits = 0x30, osmesa_stencil_bits = 0x31,
               osmesa_accum_bits = 0x32, osmesa_profile = 0x33, osmesa_core_profile = 0x34,
@@ -60,7 +60,7 @@ class OsmesaContext final : public Context {
   }
 
  private:
-  // OSMesa insists on a target in memory; we draw into our own framebuffer and never look at it.
+  // OSMesa insists on a target in memory; neve draws into a framebuffer of its own.
   static constexpr int dummy_side = 16;
   std::array<unsigned char, dummy_side * dummy_side * 4> dummy_{};
   OsmesaHandle handle_;

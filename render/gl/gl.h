@@ -1,5 +1,5 @@
 #pragma once
-/// The OpenGL functions that we call, loaded from whichever library made the context. EGL and
+/// The OpenGL functions that neve calls, loaded from whichever library made the context. EGL and
 /// OSMesa can be alive side by side, so a table belongs to a context and is never global.
 
 #include <GL/glcorearb.h>

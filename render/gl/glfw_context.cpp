@@ -43,7 +43,7 @@ std::string GlfwContext::open(const std::string& title, int width, int height, b
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    // Everything is drawn into framebuffers of our own; the window only gets the result.
+    // Everything is drawn into framebuffers of neve's own; the window only gets the result.
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "neve");

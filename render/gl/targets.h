@@ -21,8 +21,8 @@ struct Targets {
   Texture picture;  ///< sRGB
   const Texture& top() const { return supersampling > 1 ? samples : picture; }
   Framebuffer gbuffer, shaded, finished;
-  /// To lay things over the shaded samples, or over the picture where each pixel has one; with
-  /// depth where nothing hides them.
+  /// Targets of things that lie over the shaded samples, or over the picture where each pixel has
+  /// one; with depth, nearer surfaces hide the things.
   Framebuffer laid_over, laid_over_with_depth;
 };
 

@@ -87,7 +87,7 @@ const void* data_of(const ExrChannel& channel) {
                     channel.numbers);
 }
 
-/// Of "HH:MM:SS:FF", or with ";" before FF where numbers are dropped.
+/// Reads "HH:MM:SS:FF", or with ";" before FF where numbers are dropped.
 Imf::TimeCode time_code(const std::string& text) {
   const auto two_digits = [&](std::size_t at) { return std::stoi(text.substr(at, 2)); };
   return {two_digits(0), two_digits(3), two_digits(6), two_digits(9), text.at(8) == ';'};

@@ -29,7 +29,7 @@ struct ExrPicture {
   /// Rows of the matrix that makes the linear light R, G, B that of the primaries of BT.709.
   std::array<std::array<float, 3>, 3> to_rec709{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-  /// Null if there is none of this name.
+  /// Returns the channel of a name; null if there is none.
   const ExrChannel* find(const std::string& name) const;
 };
 

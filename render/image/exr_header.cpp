@@ -24,7 +24,7 @@ std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at) {
   return number;
 }
 
-/// Up to the zero that ends it.
+/// Takes a word up to the zero that ends it.
 std::string take_word(std::span<const std::uint8_t>& bytes) {
   constexpr std::size_t longest = 255;
   const auto within = bytes.first(std::min(bytes.size(), longest + 1));

@@ -16,7 +16,7 @@ struct ExrAttribute {
   std::span<const std::uint8_t> bytes;
 };
 
-/// Of the first part. @throws ImageError when the bytes do not begin as a whole header
+/// Reads attributes of the first part. @throws ImageError when the bytes begin as no whole header
 std::vector<ExrAttribute> read_exr_attributes(std::span<const std::uint8_t> bytes);
 
 /// Compares the numbers of a header with the length of its file and with the room.

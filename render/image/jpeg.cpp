@@ -70,7 +70,7 @@ struct Tiff {
   }
 };
 
-/// How the camera was held, 1 to 8; 1: as the picture is stored, or nothing is said.
+/// Returns the attitude of the camera, 1 to 8; 1: as the picture is stored, or nothing is said.
 /// Source: Exif 2.32 (CIPA DC-008-2019), tag 0x0112.
 int orientation_of(std::span<const std::uint8_t> bytes) {
   constexpr std::array<std::uint8_t, 6> exif{'E', 'x', 'i', 'f', 0, 0};
@@ -119,7 +119,7 @@ Image upright(Image stored, int orientation) {
 
 }  // namespace
 
-/// By libturbojpeg: stb_image of Debian 12 reads outside of its tables where codes are damaged.
+/// Uses libturbojpeg: stb_image of Debian 12 reads outside of its tables if codes are damaged.
 Image decode_jpeg(std::span<const std::uint8_t> bytes, double room) {
   if (bytes.size() < 3 || bytes[0] != 0xff || bytes[1] != 0xd8 || bytes[2] != 0xff)
     throw ImageError("not a JPEG: it does not begin as one");

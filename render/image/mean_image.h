@@ -13,7 +13,7 @@ class MeanImage {
  public:
   /// @throws ImageError for a picture of another form than the first
   void add(const Image& image);
-  /// Rounded; equal pictures give themselves. @throws ImageError without any picture
+  /// Returns the rounded mean; equal pictures give themselves. @throws ImageError without a picture
   Image mean() const;
 
  private:

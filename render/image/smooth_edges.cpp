@@ -13,7 +13,7 @@ constexpr int edge_least = 10, edge_share_of_256 = 41;
 /// Pixels that an edge is followed to either side.
 constexpr int longest = 12;
 
-/// Of what is in RGBA, as in memory.
+/// Returns the brightness of a pixel that is RGBA in memory.
 std::uint8_t brightness_of(std::uint32_t color) {
   const auto part = [&](int bits) { return color >> bits & 0xff; };
   return static_cast<std::uint8_t>((77 * part(0) + 150 * part(8) + 29 * part(16)) >> 8);
@@ -42,13 +42,13 @@ struct Plane {
   }
 };
 
-/// How far the edge goes on to one side, and whether it steps towards this pixel there.
+/// Pixels for which the edge continues to one side, and whether it steps towards this pixel there.
 struct End {
   int distance = longest;
   bool steps = false;
 };
 
-/// What a pixel at an edge takes from the pixel across it.
+/// Share of the pixel across an edge in this pixel, and the way to that one.
 struct Blend {
   int dx = 0, dy = 0;
   float share = 0;

@@ -8,9 +8,9 @@
 
 namespace neve::render {
 
-/// Where neighbours differ by more than snow's grain does, the edge is followed to its ends, and
-/// the pixel takes from the other side what a straight edge between them would cover. Source:
-/// Lottes, FXAA, 2009. The same as shaders/smooth.frag, which is quick on graphics hardware alone.
+/// Smooths edges between neighbours that differ by more than snow's grain does. An edge is followed
+/// to its ends, and the pixel takes from the other side what a straight edge would cover. The same
+/// as shaders/smooth.frag, which is quick on graphics hardware alone. Source: Lottes, FXAA, 2009.
 class SmoothEdges {
  public:
   /// @param picture  RGBA, `pitch` pixels from row to row

@@ -55,7 +55,7 @@ struct Neighbours {
   const float *row, *below, *above, *before, *behind;
 };
 
-/// One row of bodies: the direction in which density falls, as long as we are sure of it.
+/// One row of bodies: the direction in which density falls. Its length, up to 1, is the certainty.
 /// @param count a multiple of four
 void fill_body_row(const Neighbours& at, std::size_t count, std::uint32_t* body) {
   for (std::size_t i = 1; i <= count; i += 4) {

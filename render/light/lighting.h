@@ -65,7 +65,7 @@ class Lighting {
  public:
   Lighting();
   ~Lighting();
-  /// Valid until the next call.
+  /// Returns the volume of a frame, valid until the next call.
   const LightVolume& volume(const Frame& frame, const SmokeGrid& smoke, ThreadPool* pool);
 
  private:

@@ -11,7 +11,7 @@ namespace neve::render::light {
 
 class SmokeCache {
  public:
-  /// Valid until the next call. @param pool may be null
+  /// Returns the grid of smoke, valid until the next call. @param pool may be null
   const SmokeGrid& grid(const Smoke& smoke, ThreadPool* pool);
   /// Volume of the grid requested last, which is not empty. @param light made by Lighting for that
   /// grid

@@ -125,8 +125,8 @@ NodeBox middle_box(const std::vector<NodeBox>& boxes) {
   return middle;
 }
 
-/// Around those near the middle: as far away as the coarsest texels reach that smoke takes without
-/// strays, on one side or on both, and at least half the width of the middle.
+/// Returns the box around those near the middle: as far away as the coarsest texels reach that
+/// smoke takes without strays, on one side or on both, and at least half the width of the middle.
 NodeBox without_strays(const std::vector<NodeBox>& boxes) {
   constexpr std::int64_t reach = std::int64_t{max_coarsening_for_strays} * (max_smoke_side - 3);
   const NodeBox middle = middle_box(boxes);
@@ -149,7 +149,7 @@ NodeBox without_strays(const std::vector<NodeBox>& boxes) {
   return near;
 }
 
-/// Around all smoke, or around what is left without strays where that keeps its resolution.
+/// Returns the box around all smoke, or around that without strays if this keeps its resolution.
 NodeBox drawn_box(const std::vector<NodeBox>& boxes) {
   const NodeBox all = box_around(boxes);
   if (fits(all, max_coarsening_for_strays)) return all;

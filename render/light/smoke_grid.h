@@ -43,7 +43,7 @@ float smoke_opacity(float share);
 /// Blocks of nodes with smoke that is not drawn, as it lies too far from the rest.
 std::size_t strays_of(const Smoke& smoke);
 
-/// Empty where there is nothing to see. @param pool may be null
+/// Makes the grid of smoke, empty where there is nothing to see. @param pool may be null
 SmokeGrid make_smoke_grid(const Smoke& smoke, ThreadPool* pool);
 
 }  // namespace neve::render::light

@@ -1,6 +1,6 @@
 #pragma once
-/// Smoke with the light that reaches it, as the march of shaders/smoke.frag reads it, and where on
-/// the picture it lies.
+/// Smoke with the light that reaches it, as the march of shaders/smoke.frag reads it, and its place
+/// on the picture.
 
 #include <cstdint>
 #include <vector>
@@ -39,7 +39,7 @@ inline constexpr int smoke_rays_per_tile = 8;
 /// its texels in the picture.
 int samples_per_ray(const Smoke& smoke, const SmokeGrid& grid, const View& view);
 
-/// Between which distances along the view each tile of the picture shows smoke.
+/// Distances along the view between which each tile of the picture shows smoke.
 struct SmokeSpans {
   int tile = 1, columns = 0, rows = 0;
   std::vector<float> near_far;      ///< m, two per tile; near > far: none

@@ -18,7 +18,7 @@ inline float unit_of(const ImFont& font) {
   return font.FontSize / 16;
 }
 
-/// With a shadow, so that it reads on snow as well as on the background.
+/// Draws text with a shadow, so that it reads on snow as well as on the background.
 inline void draw_text(const ImFont& font, ImVec2 at, ImU32 color, const std::string& text,
                       ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
   const float offset = std::max(1.0f, std::round(unit_of(font)));

@@ -154,7 +154,7 @@ OverlayPass::Limits OverlayPass::draw_legends(const Frame& frame) const {
   }
   const float above = (1.6f + 1.1f * static_cast<float>(lines)) * size;
   const float title_left = std::round(right - std::max(title_width, bars));
-  // Below a long title in a small picture, the bar would stand in the snow.
+  // The bar would stand in the snow below a long title in a small picture.
   const bool is_narrow = title_width > 0.25f * width;
   const float left = is_narrow ? std::round(right - bars) : title_left;
   for (std::size_t k = 0; k < count; ++k) {
@@ -227,7 +227,7 @@ void OverlayPass::draw_caption(const Frame& frame, const Limits& limits) const {
     const float line_height = std::round(1.25f * font.FontSize);
     const int room = static_cast<int>((bottom - y) / line_height);
     const int max_lines = i == 0 ? (room >= 6 ? 2 : 1) : std::max(room, 0);
-    // Only what reaches down to the legend has to keep beside it.
+    // Only a line that reaches down to the legend has to keep beside it.
     const float one_line = y + line_height;
     const bool is_above =
         has_strip || (one_line <= limits.legend_top && text_width(font, frame.caption[i]) <= above);
@@ -253,7 +253,7 @@ void OverlayPass::draw_labels(const Frame& frame, const View& view, const Limits
     const Vec3f p = view.project(label.position);
     if (!(p.z > 0)) continue;
     const float height = static_cast<float>(view.height), width = static_cast<float>(view.width);
-    // Above its place, and kept on the picture, off the legends, as long as the place itself is.
+    // A label is above its place, on the picture, off the legends, while the place is on it.
     if (p.x < 0 || p.x > width || p.y < 0 || p.y > height) continue;
     const float top = std::max(margin, height - p.y - 1.35f * font.FontSize);
     const float right = top + font.FontSize > limits.legend_top ? limits.below : width - margin;
@@ -310,7 +310,7 @@ void OverlayPass::draw_marks(const Frame& frame, const View& view) const {
   }
 }
 
-/// In the margins that all else leaves free: below the lower legends, and above the caption.
+/// Draws words in the margins that all else leaves free: below lower legends, above the caption.
 void OverlayPass::draw_edge_words(const Frame& frame) const {
   const ImFont& font = *imgui_.text_font();
   const float unit = unit_of(font), rim = std::round(12 * unit);

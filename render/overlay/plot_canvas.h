@@ -33,7 +33,7 @@ class PlotCanvas {
   /// @param note  shown where a mouse points at it, if the canvas can
   virtual void circle(Place center, float radius, Rgba color, float line,
                       const std::string& note) = 0;
-  /// What is drawn between these two shows inside the rectangle only.
+  /// Drawings between clip() and unclip() show inside the rectangle only.
   virtual void clip(Place low, Place high) = 0;
   virtual void unclip() = 0;
 };

@@ -6,8 +6,8 @@
 namespace neve::render::overlay {
 namespace {
 
-/// Over the size of a font: the height of its lines, how far down their base line is, and the width
-/// of a digit, all of DejaVu Sans as ImGui sets it.
+/// Measures of DejaVu Sans as ImGui sets it, over the size of the font: the height of a line, its
+/// base line from above, and the width of a digit.
 constexpr float line_height = 1.164f, base_line = 0.928f, digit_width = 0.636f;
 
 /// " NAME="3.0"": an attribute.

@@ -27,7 +27,7 @@ std::string svg_drawing(double width, double height, const std::string& backgrou
 class SvgCanvas : public PlotCanvas {
  public:
   using PlotCanvas::PlotCanvas;
-  /// That of digits; words are about as wide.
+  /// Returns the width of digits; words are about as wide.
   float text_width(const std::string& text) const override;
   void text(Place at, Note::Anchor anchor, Rgba color, const std::string& text) override;
   void rectangle(Place low, Place high, Rgba color) override;
@@ -36,7 +36,7 @@ class SvgCanvas : public PlotCanvas {
   void clip(Place low, Place high) override;
   void unclip() override { body_ += "</svg>\n"; }
 
-  /// What was drawn, on a dark ground.
+  /// Returns the drawing so far, on a dark ground.
   std::string drawing(double width, double height, bool is_document) const;
 
  private:

@@ -27,8 +27,8 @@ std::size_t fitting(const ImFont& font, const std::string& text, float width) {
   return end;
 }
 
-/// Where a line ends that may be as long as `longest`: at its last space, or behind its last comma
-/// or group of words (those are three spaces apart) if that leaves it long enough.
+/// Returns the end of a line that may be as long as `longest`: its last space, or its last comma or
+/// gap between groups of words (three spaces) if that leaves it long enough.
 std::size_t end_of_line(const std::string& text, std::size_t longest) {
   const std::size_t last = text.rfind(' ', longest);
   if (last == std::string::npos || last == 0) return longest;

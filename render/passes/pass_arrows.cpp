@@ -11,7 +11,7 @@ namespace neve::render::passes {
 namespace {
 
 constexpr int sides = 8;
-/// Of five triangles on each side about half are seen, of the arrow and of its rim.
+/// Vertices of an arrow, about: half of the five triangles on each side of it and its rim are seen.
 constexpr std::size_t vertices_per_arrow = 3 * 5 * sides;
 
 struct ArrowVertex {
@@ -87,8 +87,8 @@ class ArrowBuilder {
     }
   }
 
-  /// Of an arrow only the side turned to the eye, which hides the other; of the rim only the side
-  /// turned away: the arrow is before it.
+  /// Keeps only the side of an arrow that is turned to the eye, which hides the other, and only the
+  /// side of the rim that is turned away: the arrow is before it.
   void triangle(const Corner& a, const Corner& b, const Corner& c) {
     Vec3f out = cross(b.position - a.position, c.position - a.position);
     if (dot(out, a.normal + b.normal + c.normal) < 0) out = -out;

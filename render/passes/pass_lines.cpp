@@ -62,7 +62,7 @@ void LinePass::draw(const std::vector<Lines>& all, const gl::Targets& targets, c
   program_.set("depth_map", 0);
   gl_.BindVertexArray(vertex_array_.id());
   gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
-  // As wide as asked for at 720p, in proportion above.
+  // Lines are as wide as asked for up to 720p, and in proportion above.
   const float scale = samples * std::fmax(1.0f, static_cast<float>(targets.height) / 720);
   for (const Lines& lines : all) {
     const std::vector<LineInstance> instances = instances_of(lines, view.eye);

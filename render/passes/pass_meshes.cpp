@@ -12,7 +12,7 @@ struct MeshVertex {
   Vec3f position, normal;
 };
 
-/// Relative to the eye. Without normals they stay zero and the shader takes those of the faces.
+/// Returns vertices relative to the eye. Without normals the shader takes those of the faces.
 std::vector<MeshVertex> vertices_of(const TriangleMesh& mesh, Vec3f eye) {
   std::vector<MeshVertex> vertices(mesh.position.size());
   for (std::size_t i = 0; i < vertices.size(); ++i)

@@ -17,7 +17,7 @@ ParticlePass::ParticlePass(const gl::Gl& gl, const gl::ShaderLibrary& library, b
       is_software_(is_software) {
   GLfloat range[2] = {1, 1};
   gl.GetFloatv(GL_POINT_SIZE_RANGE, range);
-  // Beyond this size a quad is as fast, and drivers have been caught cutting large points short.
+  // A quad is as fast beyond this size, and drivers have been caught cutting large points short.
   max_point_size_ = std::min(range[1], 64.0f);
   gl.BindVertexArray(vertex_array_.id());
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());

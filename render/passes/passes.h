@@ -14,7 +14,7 @@
 
 namespace neve::render::passes {
 
-/// For layers over the shaded picture: hidden by nearer surfaces, blended by their alpha.
+/// Sets the state for layers over the shaded picture: nearer surfaces hide them, alpha blends them.
 void set_blended_state(const gl::Gl& gl);
 
 /// Spheres; see shaders/particles.vert.
@@ -58,7 +58,7 @@ class GroundPass {
   GroundPass(const gl::Gl& gl, const gl::ShaderLibrary& library);
   /// A plane seen from behind is not drawn.
   void draw(const Frame& frame, const View& view);
-  /// Over the shaded picture.
+  /// Draws ghosts over the shaded picture.
   void draw_ghosts(const Frame& frame, const View& view);
 
  private:
@@ -74,7 +74,7 @@ class MeshPass {
  public:
   MeshPass(const gl::Gl& gl, const gl::ShaderLibrary& library);
   void draw(const std::vector<TriangleMesh>& meshes, const View& view);
-  /// Over the shaded picture, the farthest first; see shaders/ghost.frag.
+  /// Draws ghosts over the shaded picture, the farthest first; see shaders/ghost.frag.
   void draw_ghosts(const std::vector<TriangleMesh>& meshes, Vec3f toward_light, const View& view);
 
  private:

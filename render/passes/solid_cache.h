@@ -16,7 +16,7 @@ class SolidCache {
  public:
   /// True if the samples belong to this frame.
   bool holds(const Frame& frame, const View& view) const;
-  /// To be filled with those of this frame.
+  /// Returns the samples, which now belong to this frame and have to be drawn anew.
   cpu::SolidSamples& renew(const Frame& frame, const View& view);
   const cpu::SolidSamples& samples() const { return samples_; }
   /// Number of times that the samples were drawn.

@@ -15,7 +15,7 @@ constexpr std::size_t few = 600;
 /// its own normal there, and the time does not grow with the square of their number.
 constexpr std::size_t many = 1024;
 
-/// Twice the area long.
+/// Returns the normal of a face, as long as twice its area.
 Vec3f face_normal(const std::vector<Vec3f>& position, const std::uint32_t* corner) {
   return cross(position[corner[1]] - position[corner[0]],
                position[corner[2]] - position[corner[0]]);

@@ -23,8 +23,8 @@ struct Profile {
   std::vector<Point> points;  ///< from the lower end of the axis to the upper; edges are two points
 };
 
-/// About the origin, axis y: a cylinder with round ends, a cylinder, a cone with the apex up, a
-/// ring.
+/// Profiles about the origin, axis y: a cylinder with round ends, a cylinder, a cone with the apex
+/// up, a ring.
 /// @param half half the length of the axis (of a capsule without its ends), m
 Profile capsule_profile(float half, float radius);
 Profile cylinder_profile(float half, float radius);
@@ -44,7 +44,7 @@ Lines round_lines(const Profile& profile, Vec3f center, const Rotation& rotation
 TriangleMesh creased_mesh(const std::vector<Vec3f>& position,
                           const std::vector<std::uint32_t>& index);
 
-/// Its edges: all of a few hundred triangles, the sharp ones of more.
+/// Returns the edges of a mesh: all of a few hundred triangles, the sharp ones of more.
 Lines mesh_lines(const std::vector<Vec3f>& position, const std::vector<std::uint32_t>& index);
 
 TriangleMesh moved_mesh(TriangleMesh mesh, Vec3f center, const Rotation& rotation);

@@ -11,7 +11,7 @@ namespace neve::render::snow {
 
 namespace {
 
-/// As the G-buffer has colours without light: square roots as bytes, red lowest.
+/// Encodes a colour without light for the G-buffer: square roots as bytes, red lowest.
 unsigned root_word(Vec3f color) {
   const auto byte = [](float c) {
     return static_cast<unsigned>(255 * std::sqrt(std::clamp(c, 0.0f, 1.0f)) + 0.5f);
@@ -71,7 +71,7 @@ void Batch::find_grains() {
                          second_squared_.at});
 }
 
-/// Beyond the samples, whole vectors ask for a grain too: the first one.
+/// Looks at the grains. Lanes beyond the samples take the first grain, so that vectors are whole.
 void Batch::look_at_grains() {
   if (body_.grains.grain.empty()) {
     for (int n = 0; n < count_; ++n) without_grain(n);

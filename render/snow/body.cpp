@@ -18,7 +18,7 @@ using surface::Field;
 using surface::for_ranges;
 using surface::no_block;
 
-// In particle spacings. A wider kernel loses thin sheets, a narrower one shows every particle.
+// Sizes in particle spacings. A wide kernel loses thin sheets, a narrow one shows every particle.
 constexpr float cell_share = 0.8f, kernel_share = 0.8f;
 
 /// Copies one row of nodes -1 to 9.
@@ -36,7 +36,7 @@ void pad_row(const Field& field, std::size_t b, int j, int k, float* to) {
   to[block_side + 2] = field.at(b, block_side + 1, j, k);
 }
 
-/// Which nodes of a row of a padded block are inside: bit i is that of node i, 0 to 8.
+/// Returns the nodes inside in a row of a padded block: bit i is that of node i, 0 to 8.
 unsigned inside_bits(const float* row) {
   unsigned bits = 0;
   for (int i = 0; i <= block_side; ++i) bits |= (row[i + 1] >= surface_share ? 1u : 0u) << i;
@@ -68,7 +68,7 @@ CellBox find_surface_cells(const float* padded) {
   return box;
 }
 
-/// Whether a block may have such cells: quick, and sure where it says no.
+/// True if a block may have such cells: quick, and sure where it says no.
 bool may_have_surface(const Field& field, std::size_t b) {
   const float* value = field.value.data() + b * block_nodes;
   int inside = 0;

@@ -50,7 +50,7 @@ struct Body {
 /// Share at which the surface lies.
 inline constexpr float surface_share = 0.5f;
 
-/// Same bits with any number of threads.
+/// Makes the body of the points, with the same bits at any number of threads.
 /// @param grounds  snow that lies on them ends there, without a rounded lower edge
 /// @param pool may be null
 /// Check: SnowBody.*
@@ -63,7 +63,7 @@ struct FieldPlace {
 };
 FieldPlace find_place(const Body& body, Vec3f world);
 
-/// From the corner of the block that a place is in.
+/// Returns a place in nodes from the corner of its block.
 NEVE_INLINE Vec3f node_in_block(const surface::NodePlace& place) {
   const auto along = [](int node, float rest) {
     return static_cast<float>(node & 7) + std::min(rest, 0.9999f);

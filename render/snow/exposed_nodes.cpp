@@ -24,8 +24,8 @@ NodeShare share_of(const float* padded, Vec3i node) {
   return {*at, {fall(1), fall(padded_side), fall(padded_side * padded_side)}};
 }
 
-/// Outward, unit: where snow is flat but for the bumps of single particles, without them; as it is
-/// at edges and broken faces.
+/// Returns an outward unit normal: without the bumps of single particles where snow is flat but for
+/// these; as it is at edges and broken faces.
 Vec3f without_bumps(Vec3f normal, Vec3f even) {
   constexpr float rough = 0.80f, flat = 0.95f;  // cosines of the angle between the two
   const float t = std::clamp((dot(normal, even) - rough) / (flat - rough), 0.0f, 1.0f);

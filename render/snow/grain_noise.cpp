@@ -50,7 +50,7 @@ std::vector<float> heights(int octaves) {
         }
         height[texel(i, j, k)] = sum;
       }
-  // Without a mean, so that relief neither lightens nor darkens snow.
+  // The mean is taken away, so that relief neither lightens nor darkens snow.
   const float mean =
       std::accumulate(height.begin(), height.end(), 0.0f) / static_cast<float>(height.size());
   for (float& h : height) h -= mean;

@@ -49,7 +49,7 @@ NEVE_INLINE Vec3f random_offset(std::uint64_t key) {
   return {along(0), along(16), along(32)};
 }
 
-/// From the particle, in the frame of the snow.
+/// Turns an offset from a particle as its snow has turned.
 NEVE_INLINE Vec3f turned(const Points& points, std::size_t p, Vec3f offset) {
   return points.turn.empty() ? offset : Turn(points.turn[p]).forth(offset);
 }
@@ -90,7 +90,7 @@ NEVE_INLINE float relief_in_motion(float blur, float spacing) {
 NEVE_INLINE std::uint32_t toned(std::uint32_t root_albedo, std::uint32_t seed, float relief) {
   constexpr float darkest = 0.06f;  // of the root of the albedo
   const float chance = static_cast<float>(seed >> 8) * 0x1p-24f;
-  // As light on average, however much they differ.
+  // Snow is as light on average, however much grains differ.
   const float tone = 1 - darkest * (relief * chance * chance + (1 - relief) / 3);
   std::uint32_t word = root_albedo & 0xff000000u;
   for (int shift = 0; shift < 24; shift += 8)
@@ -150,7 +150,7 @@ void add_lump(const Points& points, std::size_t p, const LumpPlace& place, Point
       std::clamp(balls_of_crumb * size * size, 1.0f, static_cast<float>(max_balls)));
   for (std::uint32_t ball = 0; ball < balls; ++ball) {
     const Vec3f random = random_offset(std::uint64_t{id} * max_balls + ball + 1);
-    // Denser in the middle.
+    // Offsets are denser in the middle.
     const Vec3f offset = random * (reach * length(random));
     spray.position.edit().push_back(place.middle + turned(points, p, offset));
     spray.id.edit().push_back(id);

@@ -1,5 +1,5 @@
 #pragma once
-/// Which particles are grains of the surface, which ones are buried, and which ones are spray.
+/// Grains of the surface: the particles that are grains, those that are buried, and the spray.
 
 #include "render/snow/body.h"
 

@@ -33,7 +33,7 @@ class Marcher {
   Vec3f place_of(std::uint32_t padded, Vec3f from_eye) const {
     return (from_eye - corner_[padded]) * (1 / body_.field.cell);
   }
-  /// Through the middle of a sample, 1 along the view.
+  /// Returns the ray through the middle of a sample, 1 along the view.
   Vec3f ray(int x, int y) const;
 
  private:

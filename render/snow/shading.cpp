@@ -44,7 +44,7 @@ float arriving_at(const LightVolume& volume, Vec3f world, int light) {
   return sum / 65535;
 }
 
-/// Well within the faces that no sun shines through to; see snow_light_kernel.h.
+/// True well within the faces that no sun shines through to; see snow_light_kernel.h.
 bool faces_sun(Vec3f normal, const SnowLight& light) {
   return dot(normal, light.toward) > 0.45f;
 }
@@ -71,8 +71,8 @@ Vec3f normal_at(const surface::Field& field, std::uint32_t b, Vec3f q) {
   const auto share = [&](float x, float y, float z) {
     return share_at(field, b, q + Vec3f{x, y, z});
   };
-  // Wide enough to leave out the bumps of single particles: grain is finer, broken faces are
-  // rougher.
+  // The step is wide enough to leave out the bumps of single particles: grain is finer, broken
+  // faces are rougher.
   constexpr float d = 1.4f;
   return normalized(Vec3f{share(-d, 0, 0) - share(d, 0, 0), share(0, -d, 0) - share(0, d, 0),
                           share(0, 0, -d) - share(0, 0, d)});

@@ -43,7 +43,7 @@ constexpr bool share_a_face(int a, int b) {
   return false;
 }
 
-/// For each edge of a cell that the surface cuts, the next one on its loop.
+/// The next edge on its loop, for each edge of a cell that the surface cuts.
 using NextEdges = std::array<int, 12>;
 
 /// Around a face, each run of corners inside has one segment, from the edge where the run begins to

@@ -65,7 +65,7 @@ struct MemoryError : std::runtime_error {
   double bytes;  ///< that it would need at least
 };
 
-/// Same bits with any number of threads. All nodes beside one whose value is not 0 exist.
+/// Makes a field, the same at any number of threads. All nodes beside one that is not 0 exist.
 /// @param max_bytes 0: no limit @param pool may be null @throws MemoryError
 GrainField make_field(const Grains& grains, const Kernel& kernel, std::uint64_t max_bytes,
                       ThreadPool* pool);

@@ -8,7 +8,7 @@ namespace neve::render::surface {
 /// A node is inside where the snow fills at least this share.
 inline constexpr float surface_share = 0.5f;
 
-/// Which nodes of a block are inside: bit 8 j + i of slice k.
+/// The nodes of a block that are inside: bit 8 j + i of slice k.
 struct InsideBits {
   std::array<std::uint64_t, block_side> slice{};
 

@@ -18,7 +18,7 @@ constexpr std::uint64_t first_column = 0x0101010101010101ull, first_row = 0xfful
 /// Nearest that a vertex comes to a node, in cells: triangles keep an area.
 constexpr float min_distance = 0.01f;
 
-/// Which corners of the cells in a slice are inside: bit 8 j + i is that of cell (i, j).
+/// The corners inside of the cells in a slice: bit 8 j + i is that of cell (i, j).
 using Corners = std::array<std::uint64_t, 8>;
 
 /// The bits of a node's next neighbour along x: of the block, and of the one beyond.
@@ -133,7 +133,7 @@ void count_block(const Cells& cells, CutBlock& cut) {
     }
 }
 
-/// Downhill, per cell.
+/// Returns the way downhill in a field, per cell.
 Vec3f fall_at(const Field& field, std::size_t b, Vec3i n) {
   const auto value = [&](int x, int y, int z) { return field.at(b, n.x + x, n.y + y, n.z + z); };
   return 0.5f * Vec3f{value(-1, 0, 0) - value(1, 0, 0), value(0, -1, 0) - value(0, 1, 0),

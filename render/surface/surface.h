@@ -18,7 +18,7 @@ struct Surface {
   std::size_t pieces = 0;            ///< bodies of connected snow
 };
 
-/// Same bits with any number of threads. @param pool may be null @throws MemoryError
+/// Makes a surface, the same at any number of threads. @param pool may be null @throws MemoryError
 /// Check: Surface.*
 Surface make_surface(const Grains& grains, const Settings& settings, ThreadPool* pool);
 

@@ -12,7 +12,7 @@ constexpr std::uint64_t mix64(std::uint64_t a, std::uint64_t b) {
   return mix64(mix64(a) ^ b);
 }
 
-/// Uniform in [0, 1) with 53 bits, from a hash.
+/// Returns a uniform number in [0, 1) with 53 bits, from a hash.
 constexpr double unit_double(std::uint64_t hash) {
   return static_cast<double>(hash >> 11) * 0x1.0p-53;
 }

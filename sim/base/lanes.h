@@ -370,7 +370,7 @@ NEVE_INLINE Lanes<ElementOf<Q>, N> spread_quad(Q q) {
   using V [[maybe_unused]] = Lanes<ElementOf<Q>, N>;
   if constexpr (N == 4) return four_of<first>(q);
 #if defined(__AVX512DQ__)
-  // In every 128 bits, the number of those 128 bits.
+  // Each 128 bits get the number of those 128 bits.
   if constexpr (N == 16 && sizeof(V) == 64)
     return reinterpret_cast<V>(
         _mm512_permutevar_ps(_mm512_broadcast_f32x4(reinterpret_cast<__m128>(q)),

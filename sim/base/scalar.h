@@ -2,9 +2,9 @@
 /// Scalar arithmetic for kernels and drawing, without standard headers.
 
 #define NEVE_INLINE inline __attribute__((always_inline))
-/// After the parameters of a lambda.
+/// Inlines a lambda: it stands after the parameters.
 #define NEVE_INLINE_BODY __attribute__((always_inline))
-/// For kernels that are worth a call: the instruction set must be among their template arguments.
+/// Marks a kernel that is worth a call: the instruction set must be among its template arguments.
 #define NEVE_NOINLINE __attribute__((noinline))
 
 namespace neve {

@@ -67,7 +67,7 @@ class ThreadPool {
     run(threads, threads < 1 ? 1 : threads, task);
   }
 
-  /// As many parts as even out the delays of threads by each other and by other processes.
+  /// Returns as many parts as even out the delays of threads by each other and by other processes.
   static int parts_for(int threads) { return threads <= 1 ? 1 : 8 * threads; }
 
   /// Splits [0, count) into contiguous ranges: body(begin, end).

@@ -40,7 +40,7 @@ class Neighbours {
     std::sort(sorted_.begin(), sorted_.end());
   }
 
-  /// Also particles further away.
+  /// Visits all particles within the width of a cell, and some that are further away.
   template <class Visit>
   void each_near(const Vec3d& place, const Visit& visit) const {
     const Vec3i middle = cell(place);

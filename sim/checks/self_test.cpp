@@ -25,7 +25,7 @@ constexpr Test tests_of_steps[] = {
     {"solve", "semi-implicit velocities satisfy their equation", self_test::solve},
     {"projection", "keeps the identity and det F, clamps the stretches", self_test::projection},
     {"hardening", "is 1 at J_P = 1 and grows by the law", self_test::hardening}};
-/// Beside the laws' own ones.
+/// Tests that follow those of the laws.
 constexpr Test tests_of_bodies[] = {
     {"initial_state", "has F_E = I, J_P = 1, no stress", self_test::initial_state},
     {"free_fall", "three steps are exact and deform nothing", self_test::free_fall},

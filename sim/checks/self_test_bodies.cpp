@@ -142,7 +142,7 @@ Vec3d weight_gradient(Kernel kernel, Transfer transfer, const Vec3d& d) {
   Vec3d N, slope;
   for (int a = 0; a < 3; ++a) {
     N[a] = spline(kernel, d[a] / cell_size);
-    // By x_p, which is subtracted.
+    // The gradient is by x_p, which is subtracted.
     slope[a] = -spline_slope(kernel, d[a] / cell_size) / cell_size;
   }
   return {slope[0] * N[1] * N[2], N[0] * slope[1] * N[2], N[0] * N[1] * slope[2]};

@@ -13,16 +13,16 @@ inline constexpr double cell_size = 0.05;
 /// Density of the bodies, kg/m3.
 inline constexpr double density = 400;
 
-/// Feels no strain: only what happens to v, C and F then shows.
+/// Returns a material that feels no strain: only what happens to v, C and F then shows.
 Material without_stiffness();
-/// With the defaults of everything else, in the order of the list.
+/// Returns materials with defaults in all but the law, in the order of the list of laws.
 std::vector<Material> one_of_each_law();
-/// Of the first law that never yields.
+/// Returns a material of the first law that never yields.
 Material elastic_material();
-/// Without gravity, and with a FLIP ratio that acts per step.
+/// Returns settings without gravity, and with a FLIP ratio that acts per step.
 SolverSettings settings_of(const SelfTestCase& test);
 
-/// Always the same numbers in [-1, 1).
+/// Numbers in [-1, 1), always the same.
 class Numbers {
  public:
   explicit Numbers(unsigned seed) : state_(seed * 0x9e3779b97f4a7c15ull + 1) {}

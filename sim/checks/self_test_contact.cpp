@@ -209,8 +209,8 @@ ParticleArrays standing_block(double height) {
   return p;
 }
 
-/// Impulses go on from step to step, so contact that answers in few passes holds a weight whole:
-/// the block does not sink into the touching distance, three eighths of a spacing.
+/// Impulses last from step to step, so contact that answers in few passes holds a weight whole: the
+/// block does not sink into the touching distance, three eighths of a spacing.
 void contact_that_lasts(const SelfTestCase& test, Measure& measure) {
   constexpr double dt = 1e-3, height = 0.3 * cell_size;
   constexpr int steps = 60;

@@ -11,8 +11,8 @@ namespace neve::sim::checks::self_test {
 
 namespace {
 
-/// So soft that a step only makes it yield: F_E has moved by 1e-12 when it does. The law as it is,
-/// and with every other name that a parameter of it may have.
+/// Returns materials so soft that a step only makes them yield: F_E has moved by 1e-12 when it
+/// does. They are the law as it is, and with every other name that a parameter of it may have.
 std::vector<Material> soft_materials(const laws::Law& law) {
   Material m;
   m.model = law.model;
@@ -33,7 +33,7 @@ ParticleArrays strained_particles(unsigned seed, double J_P) {
   Numbers number(seed);
   ParticleArrays p = isolated_particles(48);
   for (std::size_t q = 0; q < p.x.size(); ++q) {
-    // From hardly any strain to a tenth.
+    // Strains reach from hardly any to a tenth.
     const double size = 0.1 * static_cast<double>(q) / static_cast<double>(p.x.size());
     p.F_E[q] = Mat3d::Identity() + size * (number.matrix() + number() * Mat3d::Identity());
     p.J_P[q] = J_P + 0.05 * number();
@@ -42,7 +42,7 @@ ParticleArrays strained_particles(unsigned seed, double J_P) {
   return p;
 }
 
-/// What the law claims of each particle, and that |det F_E| J_P stays where J_P is a volume.
+/// Measures the claims of the law, and that |det F_E| J_P stays where J_P is a volume.
 void yield(const laws::Law& law, const Material& material, const SelfTestCase& test,
            Measure& measure) {
   constexpr double dt = 1e-6;

@@ -26,11 +26,11 @@ class Measure {
  public:
   explicit Measure(const SelfTestCase& test) : test_(test) {}
 
-  /// Something that has to be 0.
+  /// Measures a value that has to be 0.
   void zero(const char* what, double value, const Tolerance& tolerance = rounding);
-  /// Something that has to lie in a range.
+  /// Measures a value that has to lie in a range.
   void between(const char* what, double value, double least, double most);
-  /// Something that could not be computed.
+  /// Notes something that could not be computed.
   void failure(const std::string& message);
 
   /// Ratio to the tolerance; negative where nothing was measured.

@@ -14,7 +14,8 @@ namespace neve::sim::checks::self_test {
 namespace {
 
 constexpr double dt = 1e-3, seconds = 0.012;
-/// Of a cell: nothing sinks; a hundredth and more where contact takes the lid for a free body.
+/// Depth in cells to which snow may sink into a lid; contact that takes the lid for a free body
+/// lets it sink a hundredth and more.
 constexpr double deepest_in_lid = 0.005;
 
 /// Impulses are whole numbers of 2^-30 of a full cell at 1 m/s; the light body got a few 1e-3 of
@@ -47,7 +48,7 @@ shapes::Collider floating_cone(double density, double lowest) {
   return cone;
 }
 
-/// What snow loses the body gets, at its arm, and a light one does not fly away.
+/// The body gets the momentum that snow loses, at its arm, and a light one does not fly away.
 void snow_on_a_floating_body(const SelfTestCase& test, double density, Measure& measure) {
   ParticleArrays p = even_lattice();
   for (Vec3d& v : p.v) v = {0, -1, 0};

@@ -103,8 +103,8 @@ void measure_sums(const SolverSettings& settings, const ParticleArrays& p, const
   out[WatchCheck::torque] = share(turn.norm(), sum_turn);
 }
 
-/// What the stress of snow that is being compressed has beyond its law: a pressure, and no larger
-/// than the shock viscosity of the fastest compression. Pa, negative; 0 for others.
+/// Stress that snow which is being compressed has beyond its law: a pressure, and no larger than
+/// the shock viscosity of the fastest compression. Pa, negative; 0 for others.
 class ShockStress {
  public:
   ShockStress(const SolverSettings& settings, const Simulation& simulation)

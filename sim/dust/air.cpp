@@ -8,8 +8,8 @@ namespace neve::sim::dust {
 
 namespace {
 
-/// How much packed snow drags the air of its cell along: in the time in which it crosses the cell,
-/// e^-drag of the difference is left.
+/// Drag of packed snow on the air of its cell: in the time in which it crosses the cell, e^-drag of
+/// the difference is left.
 constexpr double snow_drag = 10;
 /// Sweeps of successive over-relaxation from a pressure of 0, and its factor.
 constexpr int pressure_sweeps = 24;
@@ -17,13 +17,13 @@ constexpr int pressure_sweeps = 24;
 constexpr double still = 0.01;
 constexpr float over_relaxation = 1.7f;
 
-/// False for particles of a run that has diverged and goes on: they have no part in the sums.
+/// False for particles of a run that continues after it diverged: they have no part in the sums.
 bool is_sound(const SnowGrain& grain) {
   constexpr double fastest = 1e6;  // m/s
   return grain.x.allFinite() && grain.v.cwiseAbs().maxCoeff() < fastest && grain.v.allFinite();
 }
 
-/// Trilinear, of a field whose first value lies at `offset` cells from the lower corner.
+/// Interpolates a field whose first value lies at `offset` cells from the lower corner.
 double sample(const AirBox& box, const std::vector<float>& field, const Vec3d& place,
               const Vec3d& offset, const Vec3i& last) {
   int at[3];
@@ -48,7 +48,7 @@ double sample(const AirBox& box, const std::vector<float>& field, const Vec3d& p
   return low + part[2] * (along_y(n + sz) - low);
 }
 
-/// Where component a lies in a cell, and its last place along each axis.
+/// Returns the place of component a in a cell; last_face() returns the last one along each axis.
 Vec3d face_offset(int a) {
   Vec3d offset(0.5, 0.5, 0.5);
   offset[a] = 0;
@@ -201,7 +201,7 @@ void Air::see_snow(std::span<const SnowGrain> snow, ThreadPool& pool) {
           mass > 0 ? static_cast<float>(static_cast<double>(sums_[n][a + 2]) * largest_speed / mass)
                    : 0;
   });
-  // Of neighbours with snow alone: the edge of snow is no shear.
+  // Strain rates count neighbours with snow alone: the edge of snow is no shear.
   each_cell(pool, [&](int i, int j, int k) {
     const std::size_t n = box_.index(i, j, k);
     if (!(fill_[n] > 0)) {
@@ -275,7 +275,7 @@ void Air::find_row_speeds(ThreadPool& pool) {
   });
 }
 
-/// Of the row, and of those that the speed at its faces is a mean of.
+/// Returns the largest speed in a row, and in the rows that speeds at its faces are means of.
 float Air::fastest_around(int j, int k) const {
   const int rows = box_.size.y() + 1;
   float fastest = 0;
@@ -285,7 +285,7 @@ float Air::fastest_around(int j, int k) const {
   return fastest;
 }
 
-/// Backwards along the flow.
+/// Carries velocities along the flow, which is followed backwards.
 void Air::advect(double dt, const Vec3d& wind, ThreadPool& pool) {
   for (std::vector<float>& field : next_) field.resize(box_.count());
   const double cells = dt / box_.spacing;

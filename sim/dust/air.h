@@ -21,7 +21,7 @@ namespace neve::sim::dust {
 /// Component a of the velocity lies in the middle of the lower face of a cell along axis a.
 using FaceVelocities = std::array<std::vector<float>, 3>;
 
-/// Of all fields of Air.
+/// Memory for a cell in all fields of Air.
 inline constexpr double bytes_of_air_cell = 4 * 18 + 8 * 5;
 
 class Air {
@@ -35,17 +35,17 @@ class Air {
             ThreadPool& pool);
 
   const AirBox& box() const { return box_; }
-  /// m/s, at a place in m; the wind outside the box.
+  /// Returns the velocity at a place in m, m/s; the wind outside the box.
   Vec3d velocity(const Vec3d& x, const Vec3d& wind) const;
   /// Share of the cell around a place that is packed snow; 0 outside the box.
   double fill(const Vec3d& x) const;
-  /// 1/s, norm of the rate of strain of the snow in the cell around a place; 0 outside the box.
+  /// Returns the norm of the strain rate of snow in the cell around a place, 1/s; 0 outside.
   double strain_rate(const Vec3d& x) const;
-  /// m/s, of the snow in the cell around a place; 0 outside.
+  /// Returns the velocity of the snow in the cell around a place, m/s; 0 outside.
   Vec3d snow_velocity(const Vec3d& x) const;
   /// True if a solid may be within a cell of a place. Also outside the box.
   bool is_near_solid(const Vec3d& x) const;
-  /// m/s, of the fastest air, along an axis.
+  /// Returns the speed of the fastest air along an axis, m/s.
   double largest_speed() const;
 
   /// The next see() looks at the solids anew: their shapes have changed, which no pose tells.
@@ -89,9 +89,9 @@ class Air {
   /// Mass, volume and momentum of the snow of a cell, in whole numbers of units: see see_snow.
   using SnowSum = std::array<std::int64_t, 5>;
   std::vector<SnowSum> sums_;
-  /// Of rows of faces along x, the largest speed along an axis; see advect.
+  /// Largest speed along an axis in each row of faces along x; see advect.
   std::vector<float> row_speed_;
-  /// Of the middle of a cell to a solid, m; NaN: not looked at. Empty: none.
+  /// Distance of the middle of a cell to a solid, m; NaN: not looked at. Empty: none.
   std::vector<float> distance_;
   std::array<std::vector<float>, 3> solid_v_;  ///< per cell, m/s
   std::uint64_t solids_key_ = 0;

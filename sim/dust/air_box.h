@@ -32,7 +32,7 @@ struct AirBox {
     const std::size_t row = static_cast<std::size_t>(size.x() + 1);
     return axis == 0 ? 1 : axis == 1 ? row : row * static_cast<std::size_t>(size.y() + 1);
   }
-  /// In cells from the lower corner.
+  /// Returns a place in cells from the lower corner.
   Vec3d place(const Vec3d& x) const { return x / spacing - low.cast<double>(); }
   Vec3d middle(int i, int j, int k) const {
     return spacing * (low.cast<double>() + Vec3d(i + 0.5, j + 0.5, k + 0.5));

@@ -31,7 +31,7 @@ class ChessField {
   const float* row(int color, int j, int k) const {
     return halves_[static_cast<std::size_t>(color)].data() + place(j, k);
   }
-  /// Of a cell, or 0 a cell beside the box.
+  /// Returns the value of a cell, and 0 a cell beside the box.
   float at(int i, int j, int k) const { return row((i + j + k) & 1, j, k)[i >> 1]; }
   float& at(int i, int j, int k) { return row((i + j + k) & 1, j, k)[i >> 1]; }
   std::size_t memory_bytes() const {

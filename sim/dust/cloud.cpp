@@ -15,7 +15,7 @@ constexpr double births_per_strain = 1;
 /// Dust stays in the air where friction at the ground whirls it up faster than it sinks (Rouse
 /// number 1); the friction velocity is about a tenth of the speed of the air (law of the wall).
 constexpr double holding_speed = 10;
-/// How much of a cell of air is snow, from which on dust that comes to rest in it is gone.
+/// Share of a cell of air that is snow, from which on dust that comes to rest in it is gone.
 constexpr double packed_fill = 0.6;
 
 double ramp(double value, double threshold) {
@@ -23,7 +23,7 @@ double ramp(double value, double threshold) {
   return std::clamp(value / threshold - 1, 0.0, 1.0);
 }
 
-/// Uniform in [-1, 1).
+/// Returns a uniform number in [-1, 1).
 double centred(std::uint64_t hash) {
   return 2 * unit_double(hash) - 1;
 }
@@ -104,7 +104,7 @@ struct Flight {
   }
 };
 
-/// What a particle of snow sheds in a step: all of its dust for so much strain.
+/// A particle of snow that sheds dust in a step: at a strain of 1 it would shed all of its dust.
 struct Shed {
   double strain;
   std::size_t grain;
@@ -133,7 +133,7 @@ std::vector<Shed> sheds_of(std::span<const SnowGrain> snow, const Air& air,
   return sheds;
 }
 
-/// Near the snow, and outside of solids.
+/// Returns a place near the snow, and outside of solids.
 Vec3d place_of_birth(const SnowGrain& grain, const Solids& solids, double spacing,
                      std::uint64_t key) {
   Vec3d x = grain.x;
@@ -161,7 +161,7 @@ void Cloud::shed(std::span<const SnowGrain> snow, const Air& air, const Surround
   const std::vector<Shed> sheds = sheds_of(snow, air, around);
   double expected = 0;
   for (const Shed& shed : sheds) expected += births_per_strain * shed.strain;
-  // At most a share of the room that is left: it never ends.
+  // Births take at most a share of the room that is left: it never ends.
   const auto left = static_cast<double>(most - motes.size());
   const double allowed = left * left / static_cast<double>(most);
   const double thinned = expected > allowed ? allowed / expected : 1;
@@ -169,7 +169,7 @@ void Cloud::shed(std::span<const SnowGrain> snow, const Air& air, const Surround
   for (const Shed& shed : sheds) {
     const SnowGrain& grain = snow[shed.grain];
     const double chance = 1 - std::exp(-births_per_strain * thinned * shed.strain);
-    // So that the mass is what the strain asks for, however few are born.
+    // The mass is what the strain asks for, however few are born.
     if (unit_double(mix64(mix64(around.step, 77), grain.id)) < chance)
       births.push_back({grain.id, shed.grain, grain.m * grain.dust * shed.strain / chance});
   }

@@ -23,7 +23,7 @@ struct Mote {
   std::uint64_t key;  ///< its number, from 1
 };
 
-/// What a step of the cloud depends on besides the air.
+/// Surroundings that a step of the cloud depends on besides the air.
 struct Surroundings {
   const DustSettings& settings;
   const Solids& solids;

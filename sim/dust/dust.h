@@ -1,5 +1,5 @@
 #pragma once
-/// The dust of a run: air and cloud, and when they take a step. Nothing of it acts on the snow.
+/// The dust of a run: air and cloud, and when they take a step. Nothing here acts on the snow.
 
 #include <cstdint>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace neve::sim::dust {
 
-/// What later steps depend on, besides air and cloud. Only numbers of 8 bytes.
+/// Numbers that later steps depend on, besides air and cloud. All of them must have 8 bytes.
 struct DustProgress {
   double time = 0;          ///< s, that air and cloud have reached
   std::uint64_t steps = 0;  ///< of dust
@@ -27,7 +27,7 @@ struct DustScene {
   ThreadPool& pool;
 };
 
-/// s, of a step of air and dust at a speed of snow or air, m/s.
+/// Returns the longest step of air and dust, s, at a speed of snow or air, m/s.
 double longest_step(const DustSettings& settings, double cell_size, double speed);
 
 class Dust {
@@ -47,7 +47,7 @@ class Dust {
   const Air& air() const { return air_; }
   const Cloud& cloud() const { return cloud_; }
   DustArrays arrays() const;
-  /// Commutative: of all dust in the air.
+  /// Returns a hash of all dust in the air, in any order.
   std::uint64_t hash() const;
   std::size_t memory_bytes() const;
 

@@ -14,7 +14,7 @@ namespace {
 /// Wave lengths in cells of the air: what the grid carries badly or not at all.
 constexpr double longest = 8, shortest = 0.8;
 
-/// Even over the sphere.
+/// Returns a random direction, even over the sphere.
 Vec3d direction(std::uint64_t key) {
   const double z = 2 * unit_double(mix64(key, 1)) - 1,
                angle = 2 * std::numbers::pi * unit_double(mix64(key, 2));
@@ -27,7 +27,7 @@ Vec3d direction(std::uint64_t key) {
 double sine_of(double turns) {
   constexpr double to_whole = 0x1.8p52;  // rounds what is added to it
   const double x = turns - ((turns + to_whole) - to_whole);
-  // From a half turn to a quarter: the sine is the same on both sides of it.
+  // A turn folds from a half to a quarter: the sine is the same on both sides of it.
   const double half = std::copysign(0.5, x);
   const double folded = std::abs(x) > 0.25 ? half - x : x;
   const double z = 2 * std::numbers::pi * folded, q = z * z;

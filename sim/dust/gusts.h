@@ -14,7 +14,7 @@ class Gusts {
   /// @param speed    at which waves pass, m/s
   Gusts(double spacing, double speed);
 
-  /// Divergence-free, of mean square 1 (dimensionless).
+  /// Returns a velocity that is divergence-free, of mean square 1 (dimensionless).
   Vec3d at(const Vec3d& x, double time) const;
 
  private:

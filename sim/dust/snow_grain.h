@@ -1,5 +1,5 @@
 #pragma once
-/// What dust sees of a particle of snow.
+/// A particle of snow as dust sees it.
 
 #include <cstdint>
 

@@ -17,10 +17,10 @@ struct Surface {
 class Solids {
  public:
   virtual ~Solids() = default;
-  /// Called by all threads.
+  /// Returns the surface nearest to a place. All threads call it.
   virtual Surface at(const Vec3d& x) const = 0;
   virtual bool are_none() const = 0;
-  /// Another number where solids are elsewhere or move otherwise; 0: they deform, ask again.
+  /// Returns another number where solids are or move otherwise; 0: they deform, ask again.
   virtual std::uint64_t pose_key() const = 0;
 };
 

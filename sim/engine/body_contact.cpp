@@ -44,7 +44,7 @@ void BodyContact<Real>::begin(State<Real>& state, const kernels::ContactArgs<Rea
   list_touches(state, a, blocks);
 }
 
-/// What does not change in the step.
+/// Lists the contacts with bodies, and of each all that does not change in the step.
 template <class Real>
 void BodyContact<Real>::list_touches(const State<Real>& state, const kernels::ContactArgs<Real>& a,
                                      const std::vector<std::uint32_t>& blocks) {
@@ -162,7 +162,7 @@ void BodyContact<Real>::add_up(const kernels::ContactArgs<Real>& a, Group& group
       push.impulse[x] += static_cast<double>(impulse[x]);
       push.moment[x] += static_cast<double>(moment[x]);
     }
-    // Before the first pass nobody knows which of them will press.
+    // Nobody knows before the first pass which of them will press.
     group.count += is_first_ || c.impulse != Real(0) ? 1 : 0;
   }
   group.push = push;

@@ -9,10 +9,11 @@
 
 namespace neve::sim::engine {
 
-/// After each pass bodies get the impulses that contacts have by then, and answer: what they touch,
-/// what holds them and gravity count. Then the surfaces of contacts have the new velocity, and say
-/// what they give way by in the next pass. Threads add up contacts of a block and a body, and one
-/// of them those sums: in one order, whatever the number of threads.
+/// Contact of snow with bodies that move by themselves. After each pass bodies get the impulses
+/// that contacts have by then, and answer: what they touch, what holds them and gravity count. Then
+/// the surfaces of contacts have the new velocity, and the share by which they give way in the next
+/// pass. Threads add up contacts of a block and a body, and one of them those sums: in one order,
+/// at any number of threads.
 template <class Real>
 class BodyContact {
  public:
@@ -32,21 +33,21 @@ class BodyContact {
            sizeof(InBlock) * in_block_.capacity() + sizeof(std::uint32_t) * blocks_.capacity();
   }
 
-  /// Of the impulse of snow on a body in the step, and of that of gravity.
+  /// Largest change of the impulse on a settled body, over the impulses of snow and of gravity.
   static constexpr double settled = 0.01;
 
  private:
   /// A body in the step.
   struct Seen {
     Mat3d inverse_inertia = Mat3d::Identity();
-    /// At the end of the step, without contact of snow.
+    /// Speeds at the end of the step, without contact of snow.
     Vec3d free_velocity = Vec3d::Zero(), free_spin = Vec3d::Zero();
     double gives = 1;   ///< how far it follows impulses, as a share of how far it would if nothing
                         ///< stopped it
     double weight = 0;  ///< kg m/s, of gravity in the step
     double radius = 0;  ///< m, of gyration
     int count = 0;      ///< contacts that press
-    // What contacts are shown.
+    // Numbers that contacts are shown.
     Real share = 1;  ///< they give way by so many times what a free body alone would
     Vec3<Real> velocity{}, spin{};
   };

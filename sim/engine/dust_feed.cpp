@@ -112,7 +112,7 @@ void drag_spray(double dt, const dust::Air& air, State<Real>& state) {
           speed[q] = now.norm();
         }
       });
-  // By size: the sum has the same bits in any order of storage.
+  // Sorted by size, the sum has the same bits in any order of storage.
   std::erase(work, 0.0);
   std::sort(work.begin(), work.end());
   EnergyBudget& energy = state.progress.energy;

@@ -12,7 +12,7 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// Of a semi-implicit step: each costs the solves that were of no use.
+/// Halvings of a semi-implicit step: each costs the solves that were of no use.
 constexpr int max_halvings = 2;
 /// Explicit steps in place of one, at most.
 constexpr int max_parts = 1000;
@@ -44,13 +44,13 @@ void Engine<Real>::take_whole_step(double dt) {
   if (!divergence()) flow_.run(state_);
 }
 
-/// Dust that is there flies on, also where no snow sheds any more.
+/// Dust in the air flies on, also where no snow sheds any more.
 template <class Real>
 bool Engine<Real>::has_dust() const {
   return wants_dust(state_.method) || !dust_.cloud().motes.empty();
 }
 
-/// Its steps are longer than those of the snow, and one ends with each frame.
+/// Lets dust take its steps, which are longer than those of the snow. One ends with each frame.
 template <class Real>
 void Engine<Real>::run_dust(bool is_frame_end) {
   if (!has_dust() || divergence()) return;
@@ -80,7 +80,8 @@ void Engine<Real>::take_step(double dt) {
     take_fused(dt, false);
 }
 
-/// Where the solve is of no use: two steps of half the length, and in the end explicit ones.
+/// Takes a semi-implicit step, or two of half the length where the solve is of no use, or explicit
+/// ones in the end.
 template <class Real>
 void Engine<Real>::take_implicit(double dt, int halvings) {
   const bool is_taken = take_fused(dt, true);
@@ -93,7 +94,7 @@ void Engine<Real>::take_implicit(double dt, int halvings) {
     return;
   }
   took_explicit_ = true;
-  // Snow that is crushed hardens from each of them to the next. What would need thousands is
+  // Snow that is crushed hardens from each of them to the next. A step that would need thousands is
   // hopeless: steps that are too long break the rule of sound, which says so.
   const double least = dt / max_parts;
   for (double left = dt; left > 0 && !divergence();) {
@@ -112,7 +113,7 @@ bool Engine<Real>::take_fused(double dt, bool is_implicit) {
   return true;
 }
 
-/// For settings that skip stages, and for comparisons.
+/// Takes a step by stages, for settings that skip some, and for comparisons.
 template <class Real>
 void Engine<Real>::take_stages(double dt) {
   StageFields<Real> fields;
@@ -131,7 +132,7 @@ void Engine<Real>::check_step(double dt, bool is_implicit) {
   state_.grid.add_loads(state_.method.load_unit, loads_);
   const double speed_before = progress.limits.max_speed;
   const SolverSettings& settings = state_.method.settings;
-  // How much less of the speed of sound the step feels than an explicit one.
+  // The step feels the speed of sound less than an explicit one does, by this factor.
   const double stretch = is_implicit ? acoustic_stretch(settings) : 1;
   diverge_if(watch_.check_step(settings, dt, stretch, state_.grid.step_report(), progress));
   ++progress.steps_since_sink_check;

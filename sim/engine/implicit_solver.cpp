@@ -7,7 +7,7 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// Below this the recurrences of the method still fall, and the true residual does not.
+/// Tolerance below which the recurrences of the method still fall, and the true residual does not.
 template <class Real>
 constexpr double min_tolerance = sizeof(Real) == 4 ? 1e-6 : 1e-14;
 
@@ -20,8 +20,8 @@ constexpr double max_growth_squared = 4;
 constexpr double max_residual = 0.1;
 
 /// Solutions of a step at most, each with the contacts that the one before asked for, and the share
-/// of the motion that contact may still want to change after one. What is left closes after the
-/// solve: see ParticleContact::settle.
+/// of the motion that contact may still want to change after one. The rest closes after the solve:
+/// see ParticleContact::settle.
 constexpr int max_rounds = 4;
 constexpr double contact_tolerance = 0.02;
 
@@ -162,7 +162,7 @@ void ImplicitSolver<Real>::book_held_nodes(const State<Real>& state, kernels::So
   over(held_blocks_, s.react);
 }
 
-/// Where contact asks for other impulses than the solve began with, it is solved again with those.
+/// Finds velocities, again where contact asks for other impulses than the solve began with.
 template <class Real>
 typename ImplicitSolver<Real>::Motion ImplicitSolver<Real>::find_velocities(
     const State<Real>& state, kernels::SolveArgs<Real>& a, double dt,
@@ -219,7 +219,7 @@ bool ImplicitSolver<Real>::solve(State<Real>& state, const kernels::SweepArgs<Re
   const Vec3d spring = contact ? contact->look(state, a).spring : Vec3d(Vec3d::Zero());
   const Sums finished = sum_over_nodes(state, s.finish, a);
   const Vec3d gained(finished[0], finished[1], finished[2]);
-  // From here on the velocities of the nodes count.
+  // The velocities of the nodes count from here on.
   a.u = step.nodes;
   a.u_stride = static_cast<std::size_t>(step.channels) * kernels::block_nodes;
   if (contact)

@@ -87,7 +87,7 @@ double longest_step(const SolverSettings& settings, const StateLimits& limits) {
   return *std::min_element(allowed.begin(), allowed.end());
 }
 
-/// Per material: whether its stress is another one.
+/// Tells of each material if its stress is another one.
 std::vector<bool> new_laws(const std::vector<Material>& before,
                            const std::vector<Material>& after) {
   std::vector<bool> is_changed(after.size());
@@ -99,8 +99,8 @@ bool contains_true(const std::vector<bool>& list) {
   return std::find(list.begin(), list.end(), true) != list.end();
 }
 
-/// What the last step added to the pressure of snow, by the parameters of that step: stress follows
-/// from F_E and J_P, and this from the velocities of a moment that is past.
+/// Finds the pressure that the last step added to that of snow, by the parameters of that step:
+/// stress follows from F_E and J_P, and this from the velocities of a moment that is past.
 template <class Real>
 void find_shock_pressure(State<Real>& state) {
   ParticleStorage<Real>& particles = state.particles;
@@ -159,7 +159,7 @@ void rebase_energy(const SolverSettings& before, const EnergyAccount& account, c
   EnergyBudget& budget = state.progress.energy;
   const double energy = now.kinetic_energy + now.elastic_energy;
   const double change = energy - (found.kinetic_energy + found.elastic_energy);
-  // Not finite: the next step will say so, with its particle.
+  // The next step will report energy that is not finite, with its particle.
   if (!std::isfinite(change)) return;
   // Steps that skip stages are not watched; they may have left any energy behind.
   const double explained = before.bypass.empty() ? account.explained + change : energy;
@@ -238,10 +238,10 @@ void apply(const SolverSettings& settings, const std::vector<Material>& material
   if (has_new_affine && state.method.fits_affine_velocity() && state.particles.size() > 0)
     StillGrid<Real>(state).fit_affine_velocities();
   if (has_new_accounts) rebase_energy(before, account, found, state);
-  // Which step is too short was said by the parameters of the start: by other colliders, none is.
+  // The limit of a too short step follows the settings alone: other colliders do not move it.
   const double ratio = longest_step(settings, progress.limits) / longest_before;
   if (std::isfinite(ratio) && ratio > 0) progress.rest_dt *= ratio;
-  // What the step has found stays, unless the change alone gives another speed.
+  // The speed that the step has found stays, unless the change alone gives another one.
   const double met = state.fastest_near(0, state.particles.size());
   if (met != met_before) progress.limits.max_collider_speed = met;
 }

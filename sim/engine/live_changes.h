@@ -13,7 +13,7 @@ template <class Real>
 void apply(const SolverSettings& settings, const std::vector<Material>& materials,
            const std::vector<shapes::Collider>& colliders, State<Real>& state);
 
-/// As they are now: pose_at(collider, time) is where each of them is.
+/// Returns the colliders of now: pose_at(collider, time) is the place of each of them.
 template <class Real>
 std::vector<shapes::Collider> colliders_now(const State<Real>& state);
 

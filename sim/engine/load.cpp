@@ -63,7 +63,7 @@ void require_lengths(const ParticleArrays& in) {
   if (in.m.size() != count) throw std::invalid_argument("every particle needs a mass");
 }
 
-/// All but the id.
+/// Fills all of a record but the id.
 template <class Real>
 kernels::Particle<Real> loaded_record(const ParticleArrays& in, std::size_t q,
                                       const Method<Real>& method) {

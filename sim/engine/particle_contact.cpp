@@ -7,13 +7,13 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// After a solve: springs gave way, at each particle by another share.
+/// Passes after a solve: springs gave way, at each particle by another share.
 constexpr int passes_after_solve = 4;
-/// With bodies that move by themselves, which answer after each, at most: until they are settled.
-/// Only contacts near bodies take part in more than the others need.
+/// Passes at most with bodies that move by themselves, which answer after each until they are
+/// settled. Only contacts near bodies take part in more than the others need.
 constexpr int passes_with_bodies = 6;
 
-/// ContactArgs::carried. Loads go on in a longer step; what stopped snow in a short one does not.
+/// ContactArgs::carried. Loads last in a longer step; what stopped snow in a short one does not.
 constexpr double max_carried = 2;
 
 /// ContactArgs::apart, 1/s. It makes up for what the iteration leaves undone, step by step in the
@@ -33,8 +33,8 @@ double max_touching_gap(const State<Real>& state) {
 
 }  // namespace
 
-/// Before the first contact, so that steps allocate nothing later: blocks of nodes are few, and an
-/// eighth of the particles rarely touches.
+/// Makes room before the first contact, so that steps allocate nothing later: blocks of nodes are
+/// few, and an eighth of the particles rarely touches.
 template <class Real>
 void ParticleContact<Real>::make_room(std::size_t particles, const Partition& partition) {
   const std::size_t blocks = partition.blocks().size(), nodes = partition.node_blocks().size();
@@ -179,7 +179,7 @@ void ParticleContact<Real>::act(State<Real>& state, const kernels::SweepArgs<Rea
   const int passes = state.method.settings.contact_passes;
   for (int k = 1; !a.is_last; ++k) {
     a.is_last = is_enough(k, passes);
-    // What was remembered has been read.
+    // The contacts that were remembered have been read.
     if (a.is_last) a.keep = kept.room_for(count);
     pass(k, passes, state);
     if (!a.is_last) follow_bodies(state);
@@ -269,7 +269,7 @@ void ParticleContact<Real>::settle(State<Real>& state, const kernels::SolveArgs<
   book(state);
 }
 
-/// What the springs do not explain, by the impulse of each contact; without any, in equal parts.
+/// Shares what the springs do not explain by the impulse of contacts; without any, in equal parts.
 template <class Real>
 void ParticleContact<Real>::share(const Vec3d& unexplained) {
   double pressed = 0;

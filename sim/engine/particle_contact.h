@@ -21,11 +21,11 @@ class ParticleContact {
   /// @param is_before_solve  impulses are those of the last step: the solve finds those of this one
   void act(State<Real>& state, const kernels::SweepArgs<Real>& step, bool is_before_solve);
 
-  // In the semi-implicit solve of the step that `act` was called for.
+  // These belong to the semi-implicit solve of the step that `act` was called for.
 
   /// Adds the forces of the springs to H u in the tiles. @param is_first  u are velocities
   void hold(const State<Real>& state, const kernels::SolveArgs<Real>& solve, bool is_first);
-  /// Of the velocities u.
+  /// Sums over the contacts at the velocities u.
   struct Solution {
     double missing = 0;            ///< J, of the impulses that contact would still need
     Vec3d spring = Vec3d::Zero();  ///< kg m/s, of the springs
@@ -37,7 +37,7 @@ class ParticleContact {
   /// colliders to that of the nodes.
   /// @param unexplained  kg m/s that the snow got in the solve from none of the springs
   void settle(State<Real>& state, const kernels::SolveArgs<Real>& solve, const Vec3d& unexplained);
-  /// Without a solution: as an explicit step, from v_star.
+  /// Finishes a step without a solution as an explicit one, from v_star.
   void settle_without(State<Real>& state);
 
   std::size_t memory_bytes() const;

@@ -22,7 +22,7 @@ struct SavedNumbers {
   std::vector<std::array<Vec3d, 2>> motions;
   std::vector<seeding::EmitterStream::State> emitters;
   std::vector<kernels::KeptContact<Real>> contacts;
-  /// Of changes at this very moment, see ParticleStorage; empty without one of stress.
+  /// Shock pressure of changes at this moment, see ParticleStorage; empty without one of stress.
   std::vector<Real> shock_pressure;
   bool has_new_affine = false;
 };

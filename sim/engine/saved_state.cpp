@@ -14,7 +14,7 @@ namespace {
 /// The last sign is the version of the layout.
 constexpr char magic[8] = {'N', 'E', 'V', 'E', 'S', 'I', 'M', 'H'};
 
-/// At the beginning: it says what follows. Then come Progress, the records, the offsets of the
+/// Head of a saved state: it says what follows. Then come Progress, the records, the offsets of the
 /// colliders, the emitters, the contacts, the velocities of bodies that move by themselves and the
 /// shock pressure that a change at this moment found.
 struct SavedHead {
@@ -31,7 +31,7 @@ struct SavedOffset {
   double since, moved[3], turned[9], delay, joint_angle;
 };
 
-/// Of a body that moves by itself.
+/// Speeds of a body that moves by itself.
 struct SavedMotion {
   double velocity[3], spin[3];
 };
@@ -94,7 +94,7 @@ std::size_t bytes_in(const std::vector<T>& list) {
   throw SavedStateError("the saved state " + why);
 }
 
-/// What a change at this very moment leaves for the next one.
+/// True if a change at this very moment left a shock pressure for the next one.
 template <class Real>
 bool has_shock_pressure(const State<Real>& state) {
   const ParticleStorage<Real>& particles = state.particles;
@@ -129,7 +129,7 @@ void require_same(const SavedHead& found, const SavedHead& expected) {
     refuse_saved("has a different lattice");
 }
 
-/// All but the head.
+/// Reads all but the head.
 template <class Real>
 SavedNumbers<Real> read_saved(std::span<const std::uint8_t> bytes, const State<Real>& state,
                               const SnowFlow<Real>& flow) {

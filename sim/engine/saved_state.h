@@ -22,7 +22,7 @@ std::vector<std::uint8_t> joined(std::vector<std::uint8_t> snow,
                                  const std::vector<std::uint8_t>& dust);
 SplitState split(std::span<const std::uint8_t> bytes);
 
-/// Whether the bytes begin as those that this program saves: another build may lay them out
+/// True if the bytes begin as those that this program saves: another build may lay them out
 /// otherwise.
 bool has_this_layout(std::span<const std::uint8_t> bytes);
 

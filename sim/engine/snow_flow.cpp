@@ -14,8 +14,8 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// After particles left, all of the partition is built again, so they leave together: after so many
-/// steps, or when the fastest has moved by a cell.
+/// Steps after which particles leave, if the fastest has not moved by a cell before. They leave
+/// together, as the whole partition is built again.
 constexpr std::uint64_t steps_between_sink_checks = 8;
 
 std::size_t index_of(const std::vector<Material>& materials, const seeding::Emitter& emitter) {

@@ -19,7 +19,7 @@ namespace {
 /// threads.
 constexpr std::size_t chunk = 4096;
 
-/// With more ids, most are of particles that left: no list has a place for each.
+/// Ids per particle beyond which most are of particles that left: no list has a place for each.
 constexpr std::uint64_t max_ids_per_particle = 16;
 
 constexpr std::size_t chunks_of(std::size_t count) {
@@ -281,7 +281,7 @@ typename StateReader<Real>::AtSurfaces StateReader<Real>::at_surfaces() const {
   return all;
 }
 
-/// In double, as the kernels see it: four particles at a time.
+/// Looks in double, as the kernels see it: four particles at a time.
 template <class Real>
 void StateReader<Real>::look_at_surfaces(
     std::size_t begin, std::size_t end,
@@ -308,7 +308,7 @@ void StateReader<Real>::look_at_surfaces(
           most = std::max(most, pressure(*p[l], {normal.x[l], normal.y[l], normal.z[l]}));
     }
   }
-  // Not -smallest: nothing is 0 deep, never -0.
+  // A depth of nothing is 0, and not -0 as -smallest would be.
   found.max_depth = 0 - smallest_lane(least);
 }
 

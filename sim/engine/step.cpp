@@ -11,7 +11,7 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// For contact that is not at the nodes.
+/// Returns arguments without colliders, for contact that is not at the nodes.
 template <class Real>
 kernels::SweepArgs<Real> without_colliders(kernels::SweepArgs<Real> a) {
   a.constants.collider_count = 0;
@@ -71,7 +71,7 @@ void StagedDriver<Real>::sort_particles() {
   fields_.momentum = momentum();
 }
 
-/// Skipped, it leaves a grid without mass.
+/// Stage rasterize. It leaves a grid without mass where it is skipped.
 template <class Real>
 void StagedDriver<Real>::rasterize() {
   stage(Stage::rasterize, [&] {
@@ -85,7 +85,7 @@ void StagedDriver<Real>::estimate_volumes() {
   stage(Stage::volumes, [&] { over_particle_blocks(state_.method.sweeps->volumes); });
 }
 
-/// Skipped, it leaves no force.
+/// Stage elastic_forces. It leaves no force where it is skipped.
 template <class Real>
 void StagedDriver<Real>::add_elastic_forces() {
   rest_light_nodes();

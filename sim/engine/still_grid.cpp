@@ -7,8 +7,8 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// Inside a body the first fit is exact. At its surface each comes nearer: nodes beyond the surface
-/// only know what the particles tell them.
+/// Fits of affine velocities. The first one is exact inside a body. Each comes nearer at its
+/// surface: nodes beyond the surface only know what the particles tell them.
 constexpr int fits = 4;
 
 template <class Real>

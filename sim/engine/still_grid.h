@@ -9,7 +9,7 @@
 
 namespace neve::sim::engine {
 
-/// Nothing of it lasts, but it takes the tiles and nodes of the state.
+/// A grid of which nothing lasts, but it takes the tiles and nodes of the state.
 template <class Real>
 class StillGrid {
  public:
@@ -23,7 +23,7 @@ class StillGrid {
   /// mass counts by the room that it takes alone, so that its neighbours' density is beside the
   /// point.
   void estimate_volumes();
-  /// Per storage index, from the velocities of the nodes.
+  /// Gathers velocities of the nodes, per storage index.
   const std::vector<kernels::Gathered<Real>>& gather();
   /// Affine velocities of particles that have none: the fit that a step would make of them, again
   /// and again. Particles of FLIP keep their velocities: an affine one that the first steps find

@@ -5,7 +5,7 @@
 namespace neve::sim::files {
 namespace {
 
-/// Of the option --scale.
+/// True for a number in the range of the option --scale.
 bool is_scale(double scale) {
   return scale >= 1e-6 && scale <= 1e6;
 }

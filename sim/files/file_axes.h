@@ -9,14 +9,15 @@
 
 namespace neve::sim::files {
 
-/// Back to metres, y up: the inverse of what an export does. Masses and volumes are SI in any file.
+/// The way of a file back to metres, y up: the inverse of what an export does. Masses and volumes
+/// are SI in any file.
 struct FileAxes {
   bool is_z_up = false;
   double scale = 1;  ///< units per metre
 
   bool are_ours() const { return !is_z_up && scale == 1; }
   Vec3d direction(const Vec3d& v) const { return is_z_up ? Vec3d(v.x(), v.z(), -v.y()) : v; }
-  /// Of places and velocities.
+  /// Turns places and velocities into metres.
   Vec3d metres(const Vec3d& v) const { return direction(v) / scale; }
   /// Turns both sides of a tensor.
   Mat3d tensor(const Mat3d& a) const {
@@ -34,7 +35,7 @@ class AxesComment {
   /// @param where  of the comment, for messages
   /// @return whether it says the axes @throws ShapeError where neve wrote it and it cannot be read
   bool read(std::string_view comment, const std::string& where);
-  /// Metres, y up, unless a comment says other ones.
+  /// Returns the axes: metres, y up, unless a comment says other ones.
   const FileAxes& axes() const { return axes_; }
 
  private:
@@ -46,7 +47,8 @@ class AxesComment {
 inline constexpr std::string_view y_up_column = "up_y_units_per_metre",
                                   z_up_column = "up_z_units_per_metre";
 
-/// Nothing for a column of another name. @throws ShapeError for a value that is no scale
+/// Returns the axes of a column; nothing for one of another name.
+/// @throws ShapeError for a value that is no scale
 std::optional<FileAxes> axes_of_column(std::string_view name, double value,
                                        const std::string& where);
 

@@ -19,7 +19,7 @@ std::string whole_text(double count) {
   return number_text(count, 15);
 }
 
-/// Relative to the middle, so that single precision tells heights apart on any mountain.
+/// Sets heights relative to their middle: single precision tells heights apart on any mountain.
 /// @param heights  m; NaN: there is no data
 /// @throws ShapeError where no post has data
 void set_heights(const std::vector<double>& heights, const std::string& name, HeightGrid& grid) {

@@ -22,7 +22,7 @@ struct HeightGrid {
   float at(std::size_t column, std::size_t row) const { return height[row * columns + column]; }
 };
 
-/// What a picture does not say of itself.
+/// Measures that a picture does not have in itself.
 struct HeightScale {
   double spacing = 0;        ///< m, from post to post; 0: not given
   double low = 0, high = 0;  ///< m, of the values 0 and 65535; equal: not given
@@ -51,7 +51,7 @@ HeightGrid parse_height_png(std::string_view bytes, const std::string& name,
 /// @throws ShapeError also when the file cannot be read or is larger than 1 GiB
 HeightGrid read_heights(const std::string& path, const HeightScale& scale);
 
-/// Whether a file is read by a scale; a grid has its own, and takes none.
+/// True if a file is read by a scale; a grid has its own, and takes none.
 bool takes_scale(const std::string& path);
 
 /// Bytes that reading a file takes at most, of which a third or less stays: from its size and its

@@ -29,7 +29,7 @@ inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
 }
 
-/// Without blanks at both ends.
+/// Returns a text without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
 /// All of a word, blanks around it aside, as a number, which may be infinite or not a number;

@@ -37,7 +37,7 @@ class Words {
     return word;
   }
 
-  /// What follows on this line.
+  /// Returns the rest of this line.
   std::string_view rest_of_line() const { return rest_.substr(0, rest_.find('\n')); }
 
   void next_line() {

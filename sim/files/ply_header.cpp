@@ -10,7 +10,7 @@
 namespace neve::sim::files {
 namespace {
 
-/// Nothing for names that are no type.
+/// Returns the type of a name; nothing for names that are no type.
 std::optional<PlyType> type_called(std::string_view name) {
   if (name == "char" || name == "int8") return PlyType{1, PlyType::is_signed};
   if (name == "uchar" || name == "uint8") return PlyType{1, PlyType::is_unsigned};

@@ -20,7 +20,7 @@ struct PlyType {
   enum Kind { is_signed, is_unsigned, is_float } kind;
 };
 
-/// Up to 8 bytes, the least significant first.
+/// Returns the number of up to 8 bytes, the least significant first.
 inline double number_of(std::uint64_t bits, PlyType type) {
   if (type.kind == PlyType::is_unsigned) return static_cast<double>(bits);
   if (type.kind == PlyType::is_float && type.size == 4)

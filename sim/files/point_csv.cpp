@@ -131,7 +131,7 @@ class PointCsv {
     return name == y_up_column || name == z_up_column;
   }
 
-  /// Those of its own row: rows of several files that were put together are each turned as it says.
+  /// Uses the axes of a row: rows of several files put together are each turned as they say.
   void use_axes(const std::vector<double>& row, PointTable& points) const {
     if (!axes_column_) return;
     if (const auto axes = axes_of_column(columns_[*axes_column_], row[*axes_column_], here()))

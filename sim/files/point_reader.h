@@ -53,11 +53,11 @@ PointCloud parse_ply_points(std::string_view bytes, const std::string& name,
                             const std::vector<std::string>& further = {});
 
 /// Fields are separated by commas, semicolons or tabs, the most frequent in the header, or by
-/// blanks where it has none of them, and may be between double quotes. Where commas do not
-/// separate, numbers may have one for a point. Lines that are empty or start with # are passed
-/// over; the last of these is the header where the first other line has numbers, as numpy writes
-/// it. A column up_z_units_per_metre, or up_y_, says how neve turned and scaled its row: it is
-/// turned and scaled back.
+/// blanks where it has none of them, and may be between double quotes. Numbers may have a comma for
+/// a point where commas do not separate. Lines that are empty or start with # are passed over; the
+/// last of these is the header where the first other line has numbers, as numpy writes it. A column
+/// up_z_units_per_metre, or up_y_, says how neve turned and scaled its row: it is turned and scaled
+/// back.
 PointCloud parse_csv_points(std::string_view text, const std::string& name,
                             const std::vector<std::string>& further = {});
 

@@ -210,7 +210,7 @@ Mat3d PointTable::tensor(const std::vector<double>& row, std::size_t first,
   return a;
 }
 
-/// All that the snow has been through.
+/// Adds all that the snow has been through.
 void PointTable::add_history(const std::vector<double>& row,
                              const std::function<std::string()>& where) {
   if (column_[plastic_volume]) cloud_.J_P.push_back(value(row, plastic_volume, where));
@@ -225,7 +225,7 @@ void PointTable::add_history(const std::vector<double>& row,
   cloud_.F_E.push_back(F_E);
 }
 
-/// Of the columns that are vectors or tensors; further ones are passed on as they are.
+/// Converts the columns that are vectors or tensors; further ones are passed on as they are.
 std::vector<double> PointTable::in_metres(std::vector<double> row) const {
   const auto at = [&](std::size_t quantity) -> double& { return row[*column_[quantity]]; };
   for (const std::size_t first : {position, velocity}) {

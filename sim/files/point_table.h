@@ -30,7 +30,7 @@ class TableLines {
 
 inline constexpr std::size_t max_columns = 256;
 
-/// Those that mean nothing to neve.
+/// Returns the columns that mean nothing to neve.
 std::vector<std::string> unknown_columns(const std::vector<std::string>& columns);
 
 /// Collects the points from the rows of a table.

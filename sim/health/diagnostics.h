@@ -19,7 +19,7 @@ double hardening_factor(const Material& material, double J_P);
 /// Check: Energy.StressIsItsDerivative
 double energy_density(const Material& material, const Mat3d& F_E, double J_P);
 
-/// Those of four particles, for little more than the price of one: the same bits.
+/// Returns those of four particles, for little more than the price of one: the same bits.
 std::array<double, 4> energy_densities(const std::array<const Material*, 4>& materials,
                                        const std::array<Mat3d, 4>& F_E,
                                        const std::array<double, 4>& J_P);
@@ -27,7 +27,7 @@ std::array<double, 4> energy_densities(const std::array<const Material*, 4>& mat
 /// First Piola-Kirchhoff stress dPsi/dF_E, Pa.
 Mat3d first_piola(const Material& material, const Mat3d& F_E, double J_P);
 
-/// Both at once, where the law has a way at the price of one.
+/// Returns energy density and stress at once, where the law has a way at the price of one.
 laws::ElasticResponse elastic_response(const Material& material, const Mat3d& F_E, double J_P);
 
 /// Speed of the fastest elastic wave, as the acoustic limit sees it, m/s.

@@ -249,7 +249,7 @@ inline constexpr std::array<Limits, law_count> laws = {{
      .name = "overflow",
      .quantity = "the number of particles beyond the lattice",
      .stop = 0},
-    // Not a law of stability: without it a run that hardens without end would never end.
+    // This is no law of stability: without it a run that hardens without end would never end.
     {.law = Law::time_step,
      .name = "time_step",
      .quantity = "dt relative to snow at rest",
@@ -304,7 +304,7 @@ inline constexpr std::array<Limits, law_count> laws = {{
      .name = "poisson_ratio",
      .quantity = "poisson_ratio",
      .cause = 0.45},
-    // Beyond these two, numbers look like centimetres.
+    // These two are lines beyond which numbers look like centimetres.
     {.law = Law::gravity,
      .name = "gravity",
      .quantity = "gravity, m/s2",
@@ -352,10 +352,10 @@ constexpr const char* meaning(Law law) {
 /// the run; the default range of J_P ends here.
 inline constexpr double packed_J_P = limits_of(Law::compaction).stop * (1 + 1e-6);
 
-/// Of the energy of affine velocities, in aflip and asflip: transfers keep the momentum that those
-/// share with particles' own velocities, not its energy. A ball of one cell's radius that spins has
-/// as much energy in each, and gains 0.28 of one, at any dt; a tenth of the whole is allowed
-/// anyway. Check: Divergence.AThinBodyMaySpinInEveryTransfer
+/// Share of the energy of affine velocities that may be traded in aflip and asflip: transfers keep
+/// the momentum that those share with particles' own velocities, not its energy. A ball of one
+/// cell's radius that spins has as much energy in each, and gains 0.28 of one, at any dt; a tenth
+/// of the whole is allowed anyway. Check: Divergence.AThinBodyMaySpinInEveryTransfer
 inline constexpr double traded_share = 0.25;
 
 /// False for no_line, which is NaN.

@@ -26,8 +26,8 @@ enum class ColliderShape : int {
 };
 enum class ContactLaw : int { separate, slip, sticky };
 
-/// A collider at one time. The point is cell and offset, like a particle's position. What is round
-/// is so about the second of its axes.
+/// A collider at one time. The point is cell and offset, like a particle's position. A round one is
+/// so about the second of its axes.
 struct ColliderPose {
   int index;  ///< in the list of colliders; those out of reach have no pose
   ColliderShape shape;
@@ -64,8 +64,8 @@ struct LocalCollider {
   int size[3];
   Real spacing;
   Vec3<Real> first;
-  // Of a terrain. Posts are counted from that of the cell below the block's first node: `first` is
-  // the place of that post from the node, in the axes of the terrain.
+  // Numbers of a terrain. Posts are counted from that of the cell below the block's first node:
+  // `first` is the place of that post from the node, in the axes of the terrain.
   const float* posts;
   int columns, rows, column, row;
   Real post_height;            ///< of that post, m above the datum; 0 where it has no data
@@ -280,8 +280,8 @@ NEVE_INLINE void load_corners(const LocalCollider<Real>& c, const MaskOf<V>& ind
   }
 }
 
-/// Between eight samples; the normal is the gradient of the same interpolation. Beyond the lattice,
-/// the nearest place in it and the way there.
+/// Interpolates between eight samples; the normal is the gradient of that. A place beyond the
+/// lattice takes the nearest place in it and the way there.
 template <class V, class Real>
 NEVE_INLINE V field_distance(const LocalCollider<Real>& c, const Vec3<V>& d, Vec3<V>& normal) {
   const V zero{};
@@ -395,8 +395,8 @@ NEVE_INLINE OverGround<V> over_ground(const LocalCollider<Real>& c, const Vec3<V
   return out;
 }
 
-/// Across the tangent plane of the surface above or below a place: exact on even ground, and to
-/// first order near any other.
+/// Returns the distance across the tangent plane of the surface above or below a place: exact on
+/// even ground, and to first order near any other.
 /// @param r from the block's first node, m
 template <class V, class Real>
 NEVE_INLINE V heights_distance(const LocalCollider<Real>& c, const Vec3<V>& r, Vec3<V>& normal) {
@@ -453,7 +453,7 @@ NEVE_INLINE MaskOf<V> are_out_of_reach(const LocalCollider<Real>& c, const Vec3<
                                        const V& reach) {
   Vec3<V> normal;
   if (c.shape == ColliderShape::heights) return heights_clearance(c, centre) > reach;
-  // Between samples a field is off by less than the diagonal of their cell, here and there.
+  // A field is off by less than the diagonal of a cell between samples, here and there.
   return surface_distance(c, centre, normal) > reach + all<V>(2 * c.spacing);
 }
 template <class Real>

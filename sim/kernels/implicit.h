@@ -51,7 +51,7 @@ struct SolveArgs {
 template <class Real>
 using SolveSweep = void (*)(const SolveArgs<Real>&, std::uint32_t begin, std::uint32_t end);
 
-/// Over blocks of particles: keep_elasticity, and apply: H u into the tiles. Over blocks of nodes:
+/// keep_elasticity and apply (H u into the tiles) sweep particle blocks, the others node blocks.
 template <class Real>
 struct SolveSweeps {
   SolveSweep<Real> keep_elasticity, apply;

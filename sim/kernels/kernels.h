@@ -140,10 +140,10 @@ struct Sweeps {
   // Staged, one stage each.
   Sweep<Real> elastic_forces, collect_force, grid_velocities, grid_collisions, lay_out_velocities;
   Sweep<Real> gather, deformation, particle_velocities, particle_collisions, advection;
-  // After either, where settings ask for it.
+  // Runs after either driver, where settings ask for it.
   Sweep<Real> push_out;
-  // Without a grid: stress, keys and limits of the state as it is; `is_projected` projects as
-  // step 7 does. Blocks are ranges of storage.
+  // Brings stress, keys and limits of the state up to date without a grid; `is_projected` projects
+  // as step 7 does. Blocks are ranges of storage.
   void (*refresh)(const SweepArgs<Real>&, std::uint32_t begin, std::uint32_t end, bool is_projected,
                   BlockReport<Real>& report);
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// What sweeps ask of the law of a material: functions that are compiled by themselves, once per
+/// Functions that sweeps call of the law of a material. They are compiled by themselves, once per
 /// instruction set, so that a change of a law compiles no sweep again.
 
 #include "sim/kernels/decompose.h"
@@ -51,7 +51,7 @@ struct LawKernels {
                  LawSpace<Real, W>& space, V* wave_modulus, unsigned* is_inverted,
                  FirstLook<V>* looks);
 
-  /// For the solve of semi-implicit steps.
+  /// Keeps what the solve of semi-implicit steps needs.
   void (*elasticity)(const Batch& batch, const MaterialConstants<Real>* table, Elasticity<V>& out);
 
   /// V0 D for the gradient G of displacements, both row by row: with dF = G F_E the nodes feel

@@ -9,8 +9,8 @@
 /// ASFLIP particles move with beta of that, AFLIP particles with nothing of it.
 /// A collider that holds on to a particle takes what it holds of the particle's own velocity: the
 /// grid does not see that velocity, and an answer to it would strain snow by what it does not feel,
-/// again and again. Where there are several, each takes of what the others left.
-/// The impulses are found by a projected Jacobi iteration
+/// again and again. Each of several takes from the rest that the others left. The impulses are
+/// found by a projected Jacobi iteration
 ///   j_p <- project(j_p + (wanted - v_p) / D_p),  D_p = sum_i w_ip c_i / m_i,  c_i = sum_q w_iq
 /// with c over the particles in contact. D is the sum of a row of the system, not its diagonal: a
 /// step never goes too far, however many particles share a node, and one is enough where all of
@@ -27,9 +27,9 @@
 /// In the semi-implicit solve, elasticity answers too. Each contact that acts is a spring of
 /// stiffness `hold` / D_p there, between v_p and the velocity that it wants: along the normal, and
 /// along the surface where friction or the collider holds on to it. Its impulse adds to that of the
-/// last step, with which the solve begins (an augmented Lagrangian). Where the solution asks for
-/// other contacts to act, or springs gave way, the impulses are projected and it is solved again;
-/// the passes above close what is left.
+/// last step, with which the solve begins (an augmented Lagrangian). If the solution asks for other
+/// contacts to act, or springs gave way, the impulses are projected and it is solved again; the
+/// passes above close what is left.
 ///
 /// Plain data, as in kernels.h.
 
@@ -78,9 +78,9 @@ using Contact = ContactRecord<Real, Integer<Real>>;
 inline constexpr int contact_quads = 9;
 static_assert(sizeof(Contact<float>) == 16 * contact_quads);
 
-/// What a particle and a collider remember of each other until the next step: what pressed it then
-/// is where the iteration begins, so that a load that stays is carried whole, and one that changes
-/// is met by a few passes.
+/// The contact that a particle and a collider remember until the next step: its impulse is where
+/// the iteration begins, so that a load that stays is carried whole, and one that changes is met by
+/// a few passes.
 template <class Real>
 struct KeptContact {
   Real impulse, sliding[3], touches;  ///< see ContactRecord
@@ -119,7 +119,7 @@ struct ContactArgs {
   const std::uint64_t* first;   ///< per particle block: its first contact
   const std::uint32_t* node_blocks;  ///< those that they reach
   Contact<Real>* contacts;
-  // What is remembered.
+  // Contacts that are remembered.
   const KeptContact<Real>* kept;  ///< of the last step
   std::uint32_t kept_count;
   Real carried;             ///< length of this step over that of the last
@@ -129,7 +129,7 @@ struct ContactArgs {
   ContactNodes<Real>* nodes;           ///< per node block
   bool is_last;                        ///< of the passes
   bool only_closes;                    ///< the passes follow a solution
-  // In the semi-implicit solve.
+  // These serve the semi-implicit solve.
   bool is_before_solve;  ///< and the nodes get v_star from `weigh`
   bool is_first;         ///< u are velocities, otherwise a change of them
   const Quad<Real>* u;   ///< per node block, `u_stride` apart
@@ -150,7 +150,7 @@ inline constexpr int contact_sums = 4;
 template <class Real>
 using ContactSweep = void (*)(const ContactArgs<Real>&, std::uint32_t begin, std::uint32_t end);
 
-/// Over blocks of particles and of nodes in turn.
+/// Sweeps over blocks of particles and of nodes in turn.
 template <class Real>
 struct ContactSweeps {
   ContactSweep<Real> find;   ///< all particle blocks: candidates
@@ -158,7 +158,7 @@ struct ContactSweeps {
   ContactSweep<Real> weigh;  ///< nodes: velocities and c / m
   ContactSweep<Real> press;  ///< change of the impulses into the tiles
   ContactSweep<Real> yield;  ///< nodes: velocities after it, after the last pass those of the step
-  // In the semi-implicit solve.
+  // These serve the semi-implicit solve.
   ContactSweep<Real> rows;     ///< D_p
   ContactSweep<Real> hold;     ///< adds the springs' part of H u to the tiles
   ContactSweep<Real> measure;  ///< ContactSums of the solution u

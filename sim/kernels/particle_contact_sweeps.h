@@ -227,7 +227,7 @@ struct ContactSweepsFor {
     }
   }
 
-  /// What particles remember of a collider.
+  /// The contact with a collider that particles remember.
   struct Memory {
     V impulse{}, touches;
     Vec3<V> sliding{};
@@ -261,7 +261,7 @@ struct ContactSweepsFor {
     const StepConstants<Real>& c = a.step.constants;
     const V gap = distance - touches;
     const Real out = smaller(static_cast<Real>(out_per_step) / c.dt, Real(out_per_second));
-    // What is deeper was put there, and is let out as slowly as what is a little inside.
+    // A deeper particle was put there, and is let out as slowly as one that is a little inside.
     const V depth = smaller_lanes(-distance, all<V>(static_cast<Real>(max_out) * c.h));
     const V apart = (depth + touches) * a.apart;
     // A surface that does not let go stops what is inside where it is: there is no way out.
@@ -269,8 +269,8 @@ struct ContactSweepsFor {
     return gap > V{} ? -gap / c.dt : distance > V{} ? apart : inside;
   }
 
-  /// What a surface that lets go takes of a particle's own velocity: as much of its way in as
-  /// brings it past what it may not, and the friction of that. The grid must not stop it, which
+  /// Returns what a surface that lets go takes of a particle's own velocity: as much of its way in
+  /// as brings it past what it may not, and the friction of that. The grid must not stop it, which
   /// throws its neighbours back: n of them at rest would fly as fast as it came, with n times its
   /// energy.
   NEVE_INLINE static Vec3<V> lost_at_impact(const Velocities& v, const Vec3<V>& n,
@@ -311,11 +311,11 @@ struct ContactSweepsFor {
         : lets_go ? lost_at_impact(v, normal, surface, least, all<V>(friction_of(collider)))
                   : normal * dot(v.own, normal);
     const Vec3<V> own = (v.own - lost) * v.kept;
-    // What stops a particle by its own velocity alone is a contact, too.
+    // A particle that is stopped by its own velocity alone has a contact, too.
     const V v_n = dot(v.of_grid + (lets_go ? v.came * v.kept : own) - surface, normal);
     const I is_seeded = memory.touches != touching;
     const I is_near = gap <= all<V>(static_cast<Real>(touching_slack) * c.h);
-    // In the solve, elasticity may yet bring to it what is near.
+    // Elasticity may yet bring to it what is near, in the solve.
     const I is_likely = is_seeded | (memory.impulse > V{}) | all<I>(a.is_before_solve ? -1 : 0);
     // There is a place for those that were found to come near, whatever forces do to the others.
     const I is_coming = room_before(a, p, distance, normal, surface) <= touching;
@@ -364,9 +364,9 @@ struct ContactSweepsFor {
     for (int x = 0; x < 3; ++x) c.sliding[x] = sliding[x];
   }
 
-  /// Which contacts act in the first solution: those of the last step, and of the others those that
-  /// would stop the particle as it flies. What a stiff force would do to it in the step is beside
-  /// the point: the solve does not let it.
+  /// Chooses contacts that act in the first solution: those of the last step, and of the others
+  /// those that would stop the particle as it flies. The effect of a stiff force on it in the step
+  /// is beside the point: the solve does not let it.
   NEVE_INLINE static void guess(const Args& a, const Batch& p, Lanes& c) {
     const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
     Vec3<V> v;
@@ -624,7 +624,7 @@ struct ContactSweepsFor {
         const FourWords<V> on_grid = gathered(group.s, u);
         const Vec3<V> spring = spring_of(a, on_grid, c, true) * all<V>(-a.hold);
         feel(c, spring);
-        // What a pass would still change, by its mass.
+        // The change that a pass would still make, by its mass.
         FourWords<V> v_and_row = on_grid;
         v_and_row.w[3] = c.row;
         const Vec3<V> missing = respond_to(v_and_row, c);
@@ -702,8 +702,8 @@ struct ContactSweepsFor {
         a.step.blocks[b], [&](Index m) { return a.u + m * a.u_stride; }, u);
   }
 
-  /// The part of u that each contact holds, over D. What pulls wants the particle no further away.
-  /// A body is a mass behind its springs: they give way as it does.
+  /// The part of u that each contact holds, over D. A contact that pulls wants the particle no
+  /// further away. A body is a mass behind its springs: they give way as it does.
   NEVE_INLINE static Vec3<V> spring_of(const Args& a, const FourWords<V>& on_grid, const Lanes& c,
                                        bool is_first) {
     const Vec3<V> n{c.normal[0], c.normal[1], c.normal[2]};
@@ -719,7 +719,7 @@ struct ContactSweepsFor {
     return n * normal + (u - n * u_n) * surface;
   }
 
-  /// What the contacts of a block did.
+  /// Loads and work of the contacts of a block.
   class Account {
    public:
     NEVE_INLINE explicit Account(const Args& a) : a_(a), loads_(a.step.load_count) {}
@@ -736,7 +736,7 @@ struct ContactSweepsFor {
     }
 
    private:
-    /// And what contact takes from particles.
+    /// Adds loads, and takes from particles the own velocity that contact takes.
     NEVE_NOINLINE void add_loads(const Lanes& c, int count) {
       for (int l = 0; l < count; ++l) {
         const auto number = c.collider[l] < 0 ? -1 - c.collider[l] : c.collider[l];
@@ -757,7 +757,7 @@ struct ContactSweepsFor {
       }
     }
 
-    /// J, of the colliders.
+    /// Returns the work of the colliders, J.
     NEVE_INLINE double work_of(const Lanes& c, int count) const {
       V done = c.impulse * larger_lanes(c.least, V{});
       const V lost = c.mass * a_.step.constants.alpha;

@@ -38,7 +38,7 @@ class RecordReader {
       batch_.F_E[4 + k] = b.w[k];
     }
   }
-  /// Also the last word of F_E and the first two of tau.
+  /// Reads V0, and beside it the last word of F_E and the first two of tau.
   NEVE_INLINE void volume() {
     const FourWords<V> a = words(16);
     batch_.F_E[8] = a.w[0];
@@ -50,7 +50,7 @@ class RecordReader {
     const FourWords<V> a = words(20);
     for (int k = 0; k < 4; ++k) batch_.tau[2 + k] = a.w[k];
   }
-  /// Also the first word of C.
+  /// Reads the factors and id, and beside them the first word of C.
   NEVE_INLINE void factors() {
     const FourWords<V> a = words(28);
     batch_.stiffness = a.w[0];

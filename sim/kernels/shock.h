@@ -26,7 +26,7 @@ NEVE_INLINE V shock_pressure(const Record<V, I>& p, const V* grad_v, const V& so
   const V room =
       larger_lanes(fused(all<V>(Real(-0.35)), crossed * crossed, all<V>(Real(0.5))), V{});
   const V wanted = fused(all<V>(-c.shock_quadratic * c.dt), D, c.shock_linear * crossed);
-  // Without a volume, where that stage is skipped, there is no stress.
+  // A particle has no stress without a volume, where that stage is skipped.
   const V density = p.V0 > V{} ? p.m / p.V0 : V{};
   return density * (c.h / c.dt_over_h) * smaller_lanes(wanted, room) * -D;
 }

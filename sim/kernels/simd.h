@@ -1,5 +1,5 @@
 #pragma once
-/// Which instruction set the kernels use.
+/// The instruction set that the kernels use.
 
 #include <stdexcept>
 #include <string>

@@ -169,8 +169,8 @@ struct SprayFor {
     }
   }
 
-  /// On the grid, batches of a block are filled up with copies of its last particle. They are not
-  /// projected, and reports know no better.
+  /// Notes copies: batches of a block on the grid are filled up with copies of its last particle.
+  /// They are not projected, and reports know no better.
   NEVE_INLINE static void note_copies(const I& has_copies, const Batch& p, const FirstLook<V>& look,
                                       typename Base::ReportLanes& report) {
     Batch copies;

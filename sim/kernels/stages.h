@@ -330,9 +330,9 @@ NEVE_INLINE void find_near_nodes(NearColliders<Real>& near, const StepConstants<
                                  std::uint64_t key) {
   if (c.collider_count > 0) find_near<Set>(near, c, key, Real(1.5), Real(2.7));
 }
-/// Those that a particle of the block may be inside of, and whose velocity is known. A body has
-/// another one after the step than before it: what stopped here against the latter would push it
-/// once more, and a light one beyond all measure. Contact at particles knows it.
+/// Finds colliders that a particle of the block may be inside of, and whose velocity is known. A
+/// body has another one after the step: what stopped here against that of before would push it once
+/// more, and a light one beyond all measure. Contact at particles knows it.
 template <class Set, int K, class Real>
 NEVE_NOINLINE void find_near_particles(NearColliders<Real>& near, const StepConstants<Real>& c,
                                        std::uint64_t key) {

@@ -31,7 +31,7 @@ struct SweepTable {
                                       S::refresh};
 };
 
-/// For the files that instantiate them.
+/// Returns the sweeps of a kernel and transfer, for the files that instantiate them.
 template <class Real, class Set>
 const Sweeps<Real>& choose_sweeps(int nodes, TransferKind transfer) {
   constexpr int cubic = cubic_nodes, quadratic = quadratic_nodes;

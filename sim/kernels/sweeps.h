@@ -572,8 +572,8 @@ struct SweepsFor {
 
   // ---- both -------------------------------------------------------------------------------------
 
-  /// After the step, with colliders where they are then: particles of blocks as they were before
-  /// it. Their velocities stay; what lifting them takes is work of the colliders.
+  /// Pushes particles out of colliders after the step, where these are then; blocks are those from
+  /// before it. Velocities stay; the work of lifting particles is work of the colliders.
   static void push_out(const Args& a, Index begin, Index end) {
     const StepConstants<Real>& c = a.constants;
     const Vec3<V> gravity{all<V>(c.gravity[0]), all<V>(c.gravity[1]), all<V>(c.gravity[2])};

@@ -36,7 +36,7 @@
 
 namespace neve::sim::laws::cam_clay {
 
-/// Where the numbers of this law are in MaterialConstants::own.
+/// Places of the numbers of this law in MaterialConstants::own.
 enum Constant { constant_M, constant_beta, constant_xi, constant_alpha0, constant_is_isochoric };
 
 /// p0/K of snow without strength, so that the ellipse never shrinks to a point.
@@ -45,7 +45,7 @@ inline constexpr double min_strength = 1e-5;
 inline constexpr double max_consolidation = 20;
 /// J^2 of the state that the deviator yields to is at least this.
 inline constexpr double min_J_squared = 0.01;
-/// Below this |det F_E| the directions of F_E are rounding: they are forgotten.
+/// Limit of |det F_E| below which the directions of F_E are rounding: they are forgotten.
 inline constexpr double crushed_J = 1e-3;
 
 /// Inputs of cam clay for particles in lanes, and what the return finds.
@@ -138,7 +138,7 @@ NEVE_INLINE V isochoric_lanes(const Record<V, I>& p, const MaterialConstants<Ele
   return out;
 }
 
-/// What the surface makes of a trial state.
+/// Result that the surface makes of a trial state.
 template <class V>
 struct ClayReturn {
   V k;                     ///< factor on the deviator
@@ -376,7 +376,7 @@ inline double alpha0(const Material& m) {
   return -std::asinh(std::max(share, 0.0)) / m.own[consolidation_hardening];
 }
 
-/// Pa: where the snow yields under pressure, packed to J_P.
+/// Returns the pressure at which the snow yields, packed to J_P, Pa.
 inline double p0(const Material& m, double J_P) {
   const double packed = std::max(-(alpha0(m) + std::log(J_P)), 0.0);
   const double x = std::min(m.own[consolidation_hardening] * packed, max_consolidation);

@@ -102,7 +102,7 @@ NEVE_INLINE void take_lanes(const Record<V, I>& p, const MaterialConstants<Eleme
   m.word[M::word_max_hardening] = k[7];
 }
 
-/// What a solve keeps of a particle. @param shape  what its law keeps of F_E
+/// Returns what a solve keeps of a particle. @param shape  what its law keeps of F_E
 template <class V, class I>
 NEVE_INLINE Elasticity<V> hardened_elasticity(const Record<V, I>& p,
                                               const MaterialConstants<ElementOf<V>>* table,
@@ -122,7 +122,7 @@ NEVE_INLINE void keep_stress(MaterialLanes<V>& m, Record<V, I>& p, V& wave_modul
 }
 
 #ifndef NEVE_LANES_ALONE
-/// How much stiffer than at rest.
+/// Returns the stiffness over that at rest.
 inline double hardening_factor(const Material& material, double J_P) {
   return std::clamp(std::exp(material.hardening * (1 - J_P)), min_hardening,
                     material.max_hardening);
@@ -135,7 +135,7 @@ inline Lame hardened(const Material& material, double J_P) {
   return {l.mu * factor, l.lambda * factor};
 }
 
-/// Of the largest stretch, Pa.
+/// Returns the wave modulus of the largest stretch, Pa.
 inline double stretched_wave_modulus(const Material& m, const Mat3d& F_E, double J_P) {
   const Lame l = hardened(m, J_P);
   const double stretch = F_E.jacobiSvd().singularValues()[0], J = F_E.determinant();

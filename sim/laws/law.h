@@ -1,5 +1,5 @@
 #pragma once
-/// What a law says of itself beside its kernels: numbers in double for reports, sums, checks and
+/// The statements of a law beside its kernels: numbers in double for reports, sums, checks and
 /// tests, and plain data from which scenes, sliders, colours, captions and self-tests are made.
 
 #include <array>
@@ -51,7 +51,7 @@ struct Parameter {
   OneOf name_of(const Material& m) const { return {static_cast<std::size_t>(of(m)), names}; }
 };
 
-/// Both at once, for the price of one decomposition.
+/// Energy density and stress at once, for the price of one decomposition.
 struct ElasticResponse {
   double energy_density;  ///< J/m3
   Mat3d first_piola;      ///< Pa
@@ -65,8 +65,8 @@ struct Surface {
   double min_J, max_J;  ///< of F_E; min_J is 0 where it holds any pressure
 };
 
-/// Where colours of stress and strain end: what the material bears at the start. Infinite: as much
-/// as there is.
+/// Ends of the colours of stress and strain: what the material bears at the start. Infinite: as
+/// much as occurs.
 struct Scale {
   double pressure, shear;  ///< Pa
   double strain;           ///< change of J_E
@@ -85,9 +85,9 @@ struct Concern {
 struct Tolerance {
   double real64, single;
 };
-/// For rounding. The states are of order one in their units (weights, strains, speeds in m/s), sums
-/// have at most a few hundred terms, and the errors found are 3e-15 in double and 1e-6 in float: so
-/// only mistakes fail, also on other machines.
+/// Tolerance for rounding. States are of order one in their units (weights, strains, speeds in
+/// m/s), sums have at most a few hundred terms, and the errors found are 3e-15 in double and 1e-6
+/// in float: so only mistakes fail, also on other machines.
 inline constexpr Tolerance rounding{1e-11, 2e-5};
 /// Surfaces lie a few per cent of the stiffness away from no stress at all, so a share of them is
 /// good to a hundredth of the digits.
@@ -128,19 +128,19 @@ struct Law {
   const Parameter* rate = nullptr;  ///< the one that says how fast it hardens; may be null
   const char* caption;              ///< below pictures: {} are the parameters in their order
 
-  // Of a state, for a particle's material; see sim/health/diagnostics.h.
+  // Functions of a state, for a particle's material; see sim/health/diagnostics.h.
   double (*energy_density)(const Material&, const Mat3d& F_E, double J_P);
   Mat3d (*first_piola)(const Material&, const Mat3d& F_E, double J_P);
   double (*wave_modulus)(const Material&, const Mat3d& F_E, double J_P);  ///< rho0 c^2, Pa
   double (*nearness_to_yield)(const Material&, const Mat3d& F_E, double J_P) = nullptr;
   double (*consolidation_pressure)(const Material&, double J_P) = nullptr;  ///< may be null
-  /// Faster ways to both, and to the energy of four particles: the same bits. May be null.
+  /// Faster ways to the first two, and to the energy of four particles: same bits. May be null.
   ElasticResponse (*response)(const Material&, const Mat3d& F_E, double J_P) = nullptr;
   std::array<double, 4> (*energies)(const std::array<const Material*, 4>&,
                                     const std::array<Mat3d, 4>& F_E,
                                     const std::array<double, 4>& J_P) = nullptr;
 
-  // Of a material.
+  // Functions of a material.
   /// MaterialConstants::own. May be null.
   void (*constants)(const Material&, double (&own)[kernels::own_constants]) = nullptr;
   /// Thresholds in cells of another size, see threshold_cell.h. May be null.
@@ -155,14 +155,14 @@ struct Law {
   bool reads(double Material::*member) const;
 };
 
-/// In the order of their numbers.
+/// Returns the laws in the order of their numbers.
 std::span<const Law> every();
 const Law& of(Model model);
 inline const Law& of(const Material& material) {
   return of(material.model);
 }
 
-/// Whether J_P of its particles is their plastic volume.
+/// True if J_P of a material's particles is their plastic volume.
 inline bool counts_volume(const Material& material) {
   const auto counts = of(material).counts_volume;
   return !counts || counts(material);
@@ -171,7 +171,7 @@ inline bool counts_volume(const Material& material) {
 /// Extends the limits to a material, if its law hardens. @param stiffest  factor on its moduli
 void include_hardening(const Material& material, StateLimits& limits, double stiffest = 1);
 
-/// Those of all laws, each once.
+/// Returns the parameters of all laws, each once.
 std::span<const Parameter> all_parameters();
 /// The description of `model`.
 const char* help_of_model();

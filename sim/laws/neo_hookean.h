@@ -70,8 +70,8 @@ inline Mat3d first_piola(const Material& m, const Mat3d& F_E, double J_P) {
          l.lambda * std::log(F_E.determinant()) * inverse_transposed;
 }
 
-/// Of the largest stretch s, Pa: mu s^2 + mu + lambda (1 - log J), from the second derivative of
-/// the energy along a plane wave. Under tension it may sink below 0, where waves are unstable.
+/// Returns the modulus of the largest stretch s, Pa: mu s^2 + mu + lambda (1 - log J), from the
+/// second derivative of the energy along a plane wave. Below 0 all but mu s^2 counts as 0.
 inline double wave_modulus(const Material& m, const Mat3d& F_E, double J_P) {
   const Lame l = hardened(m, J_P);
   const double s = F_E.jacobiSvd().singularValues()[0];

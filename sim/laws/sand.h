@@ -282,7 +282,7 @@ inline void constants(const Material& m, double (&own)[own_constants]) {
   own[constant_M] = critical_slope(m.friction_angle);
 }
 
-/// Its surface begins at no stress.
+/// The surface of sand begins at no stress.
 inline Scale scale(const Material& m) {
   constexpr double any = std::numeric_limits<double>::infinity();
   return {any, any, 3 * std::max(m.critical_compression, m.critical_stretch)};

@@ -48,7 +48,7 @@ inline double nearness_to_yield(const Material& material, const Mat3d& F_E, doub
                   (1 - s.minCoeff()) / std::max(material.critical_compression, least));
 }
 
-/// By measurement critical_compression takes the root: docs/prediction.md.
+/// Scales thresholds. critical_compression takes the root by measurement: docs/prediction.md.
 inline void refine(Material& material, double factor) {
   material.critical_stretch *= factor;
   material.critical_compression *= std::sqrt(factor);

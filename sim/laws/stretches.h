@@ -285,7 +285,7 @@ NEVE_INLINE void solve_for_spin(const Sym3<V>& stretch, const V* k, V* w) {
   w[2] = inverse * fused(c_xz, k[0], fused(c_yz, k[1], c_zz * k[2]));
 }
 
-/// What the laws of this energy share in lanes.
+/// Functions in lanes that the laws of this energy share.
 struct StretchesInLanes {
   static constexpr bool moves_particles_between_lanes = true;
 

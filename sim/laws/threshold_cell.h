@@ -8,7 +8,7 @@
 
 namespace neve::sim::laws {
 
-/// By which critical_stretch, or the tension that a law bears, is multiplied: sqrt(threshold_cell /
+/// Returns the factor on critical_stretch, or on the tension a law bears: sqrt(threshold_cell /
 /// cell_size). A crack is a cell wide, and the energy of its strain grows with the square of the
 /// threshold: so its energy per area stays. The crack band of fracture mechanics.
 double threshold_factor(const SolverSettings& settings);

@@ -14,9 +14,9 @@ namespace neve::sim::rigid {
 
 namespace {
 
-/// Where a body with edges touches a plane, and where the end of a cylinder or a cone lies on a
-/// face, Bullet looks for more points beside the first one in so many directions, turned by 0.02
-/// units over its size. Other pairs with edges are clipped face against face (rigid_shape.cpp), and
+/// Bullet looks for more points beside the first one in so many directions, turned by 0.02 units
+/// over its size, where a body with edges touches a plane, and where the end of a cylinder or a
+/// cone lies on a face. Other pairs with edges are clipped face against face (rigid_shape.cpp), and
 /// other round ones have one point: further ones, a little beside it, would let a cylinder that
 /// lies still roll away, and turn one that comes down on its edge round the vertical by 90 degrees.
 constexpr int perturbations = 8, wanted_points = 4;

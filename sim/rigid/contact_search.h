@@ -1,5 +1,5 @@
 #pragma once
-/// Where bodies touch each other, planes and surfaces: Bullet's search, and what it leaves undone.
+/// Contact of bodies with each other, planes and surfaces: Bullet's search and what it leaves out.
 
 #include <BulletCollision/CollisionDispatch/btConvexConvexAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
@@ -27,8 +27,8 @@ class ContactSearch final : public btDefaultCollisionConfiguration {
 };
 
 /// A body that passes from face to face of a surface meets the edge of the next one, which its
-/// neighbours hide: such contact pushed bodies back that slid over flat ground, or threw them up.
-/// Where no face and no ridge has the normal of a contact, it gets that of the nearest face.
+/// neighbours hide: such contact pushed bodies back that slid over flat ground, or threw them up. A
+/// contact whose normal no face and no ridge has gets that of the nearest face.
 /// @param shape  of the first or the second of the two that touch
 void turn_to_face(const RigidShape& shape, bool is_first, const btPersistentManifold& manifold,
                   btManifoldPoint& point);

@@ -161,8 +161,8 @@ std::vector<Held::Row> Held::rows() const {
   std::vector<Row> rows;
   const Mat3d turned = now_ * rotation_.transpose();
   int free = 0;
-  // Where one axis is free, it is held in its place; where two are, there is no attitude that the
-  // body should have gone back to.
+  // A single free axis is held in its direction; with two there is no attitude that the body should
+  // have gone back to.
   Vec3d back = -vector_of(turned);
   for (int a = 0; a < 3; ++a) {
     if (is_held(held_, static_cast<HeldAxis>(a)))
@@ -197,7 +197,7 @@ Held::Speeds Held::allowed(const Speeds& given, const Mat3d& inertia) const {
   const std::vector<Row> held = rows();
   if (held.empty()) return given;  // a spring or a damper alone
   const auto count = static_cast<Eigen::Index>(held.size());
-  // Of a row, and of what an impulse along it gives; a row may repeat others.
+  // The rows, and the speeds that an impulse along each gives; a row may repeat others.
   Eigen::MatrixXd row(count, 6), given_by(6, count);
   const Eigen::LDLT<Mat3d> turning = inertia.ldlt();
   for (Eigen::Index k = 0; k < count; ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What holds a body: axes that it may not move along or turn about, and a joint with the world.
+/// Holds of a body: axes that it may not move along or turn about, and a joint with the world.
 
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -8,7 +8,7 @@
 
 namespace neve::sim::rigid {
 
-/// rad, about the axis of a hinge; a rotation says it but for whole turns.
+/// Returns the angle about the axis of a hinge, rad; a rotation says it but for whole turns.
 /// @param turned  since the start, about the axis  @param near  what the angle is nearest to
 double hinge_angle(const Vec3d& axis, const Mat3d& turned, double near);
 
@@ -29,12 +29,12 @@ class Held final : public btTypedConstraint {
     Vec3d velocity, spin;
   };
 
-  /// What is left of a motion once the rows hold: all that they take comes from impulses along
+  /// Returns the rest of a motion once the rows hold: all that they take comes from impulses along
   /// them, so where a body has products of inertia, to hold one turn changes the others.
   /// @param inertia  kg m2, about the centre of mass in the axes of the world
   Speeds allowed(const Speeds& given, const Mat3d& inertia) const;
 
-  /// Before the rows are asked for.
+  /// Sets the place of the body, before the rows are asked for.
   /// @param rotation  as in the constructor, now  @param angle  rad, of a hinge, with whole turns
   void set_place(const Vec3d& centre, const Mat3d& rotation, double angle);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Of 1 kg/m3.
+/// Mass properties of a shape at 1 kg/m3.
 struct Unit {
   double volume = 0;
   Vec3d centre{0, 0, 0};
@@ -55,7 +55,7 @@ Unit unit(const shapes::Capsule& s) {
   return {wall + ends, Vec3d::Zero(), diagonal(across, along, across)};
 }
 
-/// Its centre of mass lies a quarter of the height above its base.
+/// The centre of mass of a cone lies a quarter of the height above its base.
 Unit unit(const shapes::Cone& s) {
   const double square = s.radius * s.radius, volume = pi * square * s.height / 3;
   const double across = volume * (0.15 * square + 3.0 / 80.0 * s.height * s.height);
@@ -73,7 +73,7 @@ shapes::Moments moments_of(const shapes::SolidMesh& mesh) {
   if (mesh.moments) return *mesh.moments;
   const std::vector<Vec3d>& vertices = mesh.vertices;
   shapes::Moments moments;
-  // From a vertex, not from the file's origin, which may be far away.
+  // Moments are about a vertex, not about the file's origin, which may be far away.
   moments.from = vertices.front();
   for (const auto& t : mesh.triangles)
     moments.add_tetrahedron(vertices[t[0]], vertices[t[1]], vertices[t[2]]);

@@ -27,9 +27,9 @@ constexpr int iterations = 50;
 /// No body is larger in Bullet's units, and the largest no smaller than half of it: some of its
 /// lengths are absolute, and small and large bodies are to move alike.
 constexpr double largest_in_units = 0.2;
-/// What holds a body in place has no slack, and what overlaps is moved apart, by this share a step.
+/// Share of an error that is taken back in a step: holds have no slack, and overlaps move apart.
 constexpr double taken_back = 0.2;
-/// What gravity and springs drive together in so many steps does not bounce: it lies.
+/// Bodies that gravity and springs drive together in so many steps do not bounce: they lie.
 constexpr double resting_steps = 3;
 /// Bullet's largest coefficient; sticky.
 constexpr double without_sliding = 10;
@@ -105,7 +105,8 @@ class RigidBodies::World {
     }
   }
 
-  /// m/s, of the others that may touch a body in a step. @param own  speed of the body
+  /// Returns the speed of the others that may touch a body in a step, m/s.
+  /// @param own  speed of the body
   double fastest_near(const Body& body, double own, const std::vector<shapes::Collider>& colliders,
                       double time, double dt) const {
     const auto bounds = [](const Thing& thing) {
@@ -222,7 +223,7 @@ class RigidBodies::World {
         construction(body.mass.mass / heaviest_, out.shape->get(), to_bullet(inertia)));
     out.body->setFriction(bullet_friction(collider));
     out.body->setActivationState(DISABLE_DEACTIVATION);
-    // Bullet's gyroscopic torque is damped; see free_turn. What is held takes it along in its rows.
+    // Bullet's gyroscopic torque is damped; see free_turn. A held body takes it along in its rows.
     if (Held::turns_freely(collider.body)) out.body->setFlags(0);
     if (Held::holds(collider.body)) {
       const Mat3d turned = rotation_from_degrees(collider.shape.rotation) * body.axes;
@@ -240,7 +241,7 @@ class RigidBodies::World {
     if (thing.deforming) thing.deforming->move_to(shapes::shape_time(collider, time));
   }
 
-  /// As the surface moves where the body that it meets touches it.
+  /// Gives a surface the motion that it has where the body that it meets touches it.
   void follow_surface(Thing& thing, const shapes::Collider& collider, double time) {
     const shapes::Pose pose = shapes::pose_at(collider, time);
     const Mat3d axes = pose.rotation * thing.axes;
@@ -262,7 +263,7 @@ class RigidBodies::World {
     thing.body->setAngularVelocity(to_bullet(twist.spin));
   }
 
-  /// As it was before the step.
+  /// Puts a body back to the state before the step.
   void reset(const Body& body, Thing& thing) const {
     const Mat3d form = body.before.rotation * thing.axes;
     thing.body->setWorldTransform(
@@ -308,8 +309,8 @@ class RigidBodies::World {
     body.after.spin = from_bullet(thing.body->getAngularVelocity());
   }
 
-  /// What holds the body takes what it does not allow of the later speeds, and what it lies against
-  /// takes of them what it took of those of the way, at most as much.
+  /// Settles the later speeds: holds take what they do not allow of them, and contacts take of them
+  /// what they took of those of the way, at most as much.
   void settle(const Thing& thing, Body& body) const {
     if (body.later_velocity.isZero(0) && body.later_spin.isZero(0)) return;
     const Mat3d form = body.before.rotation * thing.axes;
@@ -606,7 +607,7 @@ int RigidBodies::parts_of_step(const std::vector<shapes::Collider>& colliders, d
     const double speed = own + world_->fastest_near(body, own, colliders, time, dt);
     parts = std::max(parts, std::ceil(4 * speed * dt / body.thickness));
   }
-  // Beyond, a body is faster than anything that neve shows: a step ends in any case.
+  // A body beyond these parts is faster than anything that neve shows: a step ends in any case.
   return static_cast<int>(std::min(parts, 1000.0));
 }
 

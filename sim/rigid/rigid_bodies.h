@@ -1,12 +1,12 @@
 #pragma once
 /// Colliders that move by themselves: pushed by snow, pulled by gravity, stopped by each other.
 ///
-/// Where a body is and how it moves is what its collider says (its pose offset):
-/// nothing else lasts from step to step, so a run that is resumed takes the same steps to the bit.
-/// A step is staggered: snow meets the surfaces where they are at its start, at velocities that
-/// answer to its impulses pass by pass (sim/engine/body_contact.h); then the bodies get exactly the
-/// impulses that the snow got, and move. Contact of bodies with each other and with colliders, and
-/// what holds them, is Bullet's.
+/// The place and the motion of a body are those of its collider (its pose offset): nothing else
+/// lasts from step to step, so a run that is resumed takes the same steps to the bit. A step is
+/// staggered: snow meets the surfaces where they are at its start, at velocities that answer to its
+/// impulses pass by pass (sim/engine/body_contact.h); then the bodies get exactly the impulses that
+/// the snow got, and move. Contact of bodies with each other and with colliders, and what holds
+/// them, is Bullet's.
 
 #include <memory>
 #include <vector>
@@ -22,7 +22,7 @@ struct Push {
   Vec3d moment{0, 0, 0};
 };
 
-/// How a body moves. Velocities are those of its centre of mass.
+/// Place and motion of a body. Velocities are those of its centre of mass.
 struct Motion {
   Vec3d centre{0, 0, 0};               ///< m, centre of mass
   Mat3d rotation = Mat3d::Identity();  ///< of its collider's pose
@@ -30,11 +30,11 @@ struct Motion {
   Vec3d spin{0, 0, 0};                 ///< rad/s
 };
 
-/// Of a collider that moves by itself. @throws as mass_properties
+/// Returns the motion of a collider that moves by itself. @throws as mass_properties
 Motion motion_at(const shapes::Collider& body, double time);
 
-/// Of a collider that moves by itself, at the start: as the scene gives it, less what its joint and
-/// `hold` take away as an impact would. @throws as mass_properties
+/// Returns the motion of a collider that moves by itself at the start: that of the scene, less what
+/// its joint and `hold` take away as an impact would. @throws as mass_properties
 Motion motion_at_start(const shapes::Collider& body);
 
 class RigidBodies {
@@ -54,25 +54,25 @@ class RigidBodies {
   std::size_t collider(std::size_t body) const { return bodies_[body].collider; }
   const MassProperties& mass(std::size_t body) const { return bodies_[body].mass; }
 
-  /// What holds bodies takes away what it does not allow of the motions that the scene gives, where
+  /// Takes from the motions that the scene gives what the holds of bodies do not allow, where
   /// bodies have none of their own yet.
   void start(std::vector<shapes::Collider>& colliders) const;
   /// Places everything as it is at a time, and finds what touches.
   void begin(const std::vector<shapes::Collider>& colliders, double time);
-  /// How bodies move at the end of a step of dt that gives them these impulses and gravity.
-  /// They have not moved yet.
+  /// Finds the motion of bodies at the end of a step of dt that gives them these impulses and
+  /// gravity. They have not moved yet.
   /// @param pushes  per body
   void respond(double dt, const Vec3d& gravity, const std::vector<Push>& pushes);
-  /// Before the step, and as it was found by respond().
+  /// Returns the motion before the step; after() returns the one that respond() found.
   const Motion& before(std::size_t body) const { return bodies_[body].before; }
   const Motion& after(std::size_t body) const { return bodies_[body].after; }
-  /// m, from its centre of mass to the point of its collider's pose, before the step.
+  /// Returns the way from its centre of mass to its collider's point before the step, m.
   const Vec3d& point(std::size_t body) const { return bodies_[body].point; }
-  /// kg m2, about the centre of mass in the axes of the world, before the step.
+  /// Returns the inertia about the centre of mass in the axes of the world before the step, kg m2.
   Mat3d inertia(std::size_t body) const;
-  /// How many parts a step of dt takes so that no body, nor what it may meet in the step, moves by
-  /// more than a quarter of the body's thickness in one: none passes through another, or through a
-  /// thin wall. Call it after begin(), with what that had.
+  /// Returns the number of parts of a step of dt in which no body, nor what it may meet in the
+  /// step, moves by more than a quarter of the body's thickness: none passes through another, or
+  /// through a thin wall. Call it after begin(), with what that had.
   int parts_of_step(const std::vector<shapes::Collider>& colliders, double time, double dt,
                     const Vec3d& gravity) const;
   /// The collider moves on: over dt, as found by respond().
@@ -89,7 +89,7 @@ class RigidBodies {
     Motion before, after;
     Vec3d point{0, 0, 0};    ///< see point()
     double joint_angle = 0;  ///< rad, before the step; see PoseOffset
-    /// What springs change after the way of the step: `after` has the speeds of the way.
+    /// Speeds that springs add after the way of the step: `after` has the speeds of the way.
     Vec3d later_velocity{0, 0, 0}, later_spin{0, 0, 0};
   };
   class World;

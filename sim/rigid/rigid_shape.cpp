@@ -38,7 +38,7 @@ constexpr std::size_t max_plates = 10'000;
 constexpr double beyond_hull = 1e-3;
 /// No vertex of a convex mesh is further beyond a face than this share of its largest extent.
 constexpr double flat = 1e-4;
-/// Of a torus, which is made of capsules.
+/// Capsules that a torus is made of.
 constexpr int pieces_of_ring = 32;
 
 /// Faces are clipped against those of other shapes and against triangles: they touch in all corners
@@ -75,8 +75,8 @@ class Compound final : public RigidShape {
   btCompoundShape shape_;
 };
 
-/// Posts of a terrain. Beyond them it goes on level, as it does for snow (shapes::HeightField): as
-/// if the posts of the border stood there again and again, as far as a body reaches.
+/// Posts of a terrain. Beyond them it continues level, as it does for snow (shapes::HeightField):
+/// as if the posts of the border stood there again and again, as far as a body reaches.
 class Posts final : public btHeightfieldTerrainShape {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
@@ -129,12 +129,12 @@ class Posts final : public btHeightfieldTerrainShape {
           last(std::floor(high / spacing + 0.5 * last_of_posts)),
           last_post(last_of_posts),
           are_between_posts(first >= 0 && last < last_post) {
-      // So far away that numbers are no cells: a run that has long diverged.
+      // Places so far away are in no cells: the run has long diverged.
       constexpr double max_cell = 1e15;
       if (!(first > -max_cell && last < max_cell)) first = 0, last = -1;
     }
-    /// Where the next cell begins. Of many beyond the posts, where nothing changes along this side,
-    /// it is one: a large body over small cells would have no end of them.
+    /// Returns the beginning of the next cell. Many beyond the posts, where nothing changes along
+    /// this side, are one: a large body over small cells would have no end of them.
     double end_of(double cell) const {
       constexpr double max_single = 64;
       const double border = cell < 0 ? std::min(0.0, last + 1) : last + 1;
@@ -142,7 +142,7 @@ class Posts final : public btHeightfieldTerrainShape {
     }
   };
 
-  /// Of a place between posts or beyond them.
+  /// Returns a place of the ground between posts or beyond them.
   btVector3 post(double x, double z) const {
     const double column = std::clamp(x, 0.0, last_[0]), row = std::clamp(z, 0.0, last_[1]);
     btVector3 at;
@@ -279,8 +279,8 @@ bool is_convex_surface(const shapes::MeshSurface& surface) {
   return true;
 }
 
-/// m, of a plate that does not come out of the other side of its wall: doubled as long as the face
-/// is the nearest one to its back.
+/// Returns the thickness of a plate that does not come out of the other side of its wall, m:
+/// doubled as long as the face is the nearest one to its back.
 /// @param normal  outward
 double thickness_of_plate(const shapes::MeshSurface& surface, const Vec3d& middle,
                           const Vec3d& normal, double most) {
@@ -327,7 +327,7 @@ std::unique_ptr<RigidShape> plates(const shapes::MeshSurface& surface, double un
 std::unique_ptr<RigidShape> ring(double major_radius, double minor_radius) {
   auto out = std::make_unique<Compound>();
   const double turn = 2 * std::numbers::pi / pieces_of_ring;
-  // As far inside of the ring in their middles as outside of it at their ends.
+  // Capsules are as far inside of the ring in their middles as outside of it at their ends.
   const double middle = major_radius * 0.5 * (1 + std::cos(0.5 * turn));
   const double length = 2 * major_radius * std::sin(0.5 * turn);
   for (int k = 0; k < pieces_of_ring; ++k) {
@@ -407,7 +407,7 @@ struct MakeBody : MakeForm {
     shape->recalcLocalAabb();
     btVector3 low, high;
     shape->getAabb(btTransform::getIdentity(), low, high);
-    // Beyond the hull.
+    // The margin lies beyond the hull.
     shape->setMargin(beyond_hull * (high - low)[(high - low).minAxis()]);
     tell_faces(*shape);
     return out;

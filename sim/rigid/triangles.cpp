@@ -12,7 +12,7 @@ namespace {
 
 using Neighbours = std::vector<std::array<std::uint32_t, 3>>;
 
-/// Across edges that two triangles share.
+/// Finds neighbours across edges that two triangles share.
 Neighbours neighbours_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   struct Edge {
     std::uint32_t low, high, triangle, corner;

@@ -14,7 +14,7 @@
 
 namespace neve::sim::rigid {
 
-/// Of a mesh, which have no inside.
+/// The triangles of a mesh, which have no inside.
 class Triangles : public RigidShape {
  public:
   /// @param all  bounds of all places where its vertices will ever be
@@ -36,7 +36,7 @@ class Triangles : public RigidShape {
   btVector3 min_, max_;
   std::vector<double> vertices_;
   std::vector<int> corners_;
-  /// Of each triangle, across the edges from its corners 0, 1 and 2; itself where there is none.
+  /// Neighbours of each triangle across the edges from its corners 0, 1 and 2; itself without one.
   std::vector<std::array<std::uint32_t, 3>> neighbours_;
   std::unique_ptr<btTriangleIndexVertexArray> triangles_;
   std::unique_ptr<btBvhTriangleMeshShape> shape_;
@@ -50,9 +50,9 @@ class Deforming final : public Triangles {
 
   /// @param time  s, of its shape
   void move_to(double time);
-  /// m/s, a bound for all of its places between times of its shape.
+  /// Returns a bound for the speed of all of its places between times of its shape, m/s.
   double fastest(double from, double to) const { return mesh_->fastest(from, to); }
-  /// m/s, of a place of the surface, in its axes about its origin.
+  /// Returns the velocity of a place of the surface, in its axes about its origin, m/s.
   Vec3d velocity(int triangle, const Vec3d& place) const;
 
  private:
@@ -69,7 +69,8 @@ struct Twist {
   Vec3d spin{0, 0, 0};      ///< rad/s
 };
 
-/// Nearest to velocities at places, by least squares; the smallest spin where several are.
+/// Returns the motion nearest to velocities at places, by least squares; of several that of least
+/// spin.
 /// @param point  whose velocity is wanted
 Twist twist_of(const std::vector<Vec3d>& places, const std::vector<Vec3d>& velocities,
                const Vec3d& point);

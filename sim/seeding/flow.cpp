@@ -17,7 +17,7 @@ namespace neve::sim::seeding {
 
 namespace {
 
-/// Apart from the keys of bodies.
+/// Key of emitters, apart from the keys of bodies.
 constexpr std::uint64_t emitter_key = 0x656d6974;
 
 /// Candidates for one place. In a shape that fills this share of its box one of 64 is inside: it
@@ -25,8 +25,8 @@ constexpr std::uint64_t emitter_key = 0x656d6974;
 constexpr int max_candidates = 8192;
 constexpr double min_share = 1.0 / 64;
 
-/// For a shape that fills less, places are found once and reused in turn: a tenth of a second, a
-/// second for a mesh.
+/// Candidates and places for a shape that fills less: they are found once and reused in turn, in a
+/// tenth of a second, a second for a mesh.
 constexpr std::uint64_t pool_candidates = 1 << 20;
 constexpr std::size_t pool_places = 1 << 14;
 
@@ -37,7 +37,7 @@ double share_of(const Emitter& emitter, double cell_size) {
 /// Places that a birth tries.
 constexpr int tries_per_birth = 8;
 
-/// Until a time at most.
+/// Returns a time, or the end of the emitter where that is earlier.
 double open_until(const Emitter& emitter, double time) {
   return emitter.end ? std::min(time, *emitter.end) : time;
 }
@@ -74,7 +74,7 @@ Vec3d even_point(std::uint64_t key, std::uint64_t c) {
   return point;
 }
 
-/// Evenly spread over the unit ball.
+/// Returns points that are evenly spread over the unit ball.
 std::vector<Vec3d> points_in_ball() {
   constexpr std::size_t wanted = 32;
   std::vector<Vec3d> points;
@@ -98,9 +98,9 @@ double share_carried_away(const Emitter& emitter, const shapes::Solid& solid,
                           const Vec3d& gravity) {
   const double speed = emitter.velocity.norm(), g = gravity.norm();
   const double by_velocity = speed > 0 ? speed / solid.extent(emitter.velocity) : 0;
-  // What lies farthest from the centre leaves by its spin within about two radians.
+  // The snow farthest from the centre leaves by its spin within about two radians.
   const double by_spin = 0.5 * emitter.angular_velocity.norm();
-  // Of snow born at rest with the same rate everywhere, momentum asks for v^2 = g y / 1.5 at a
+  // For snow born at rest with the same rate everywhere, momentum asks for v^2 = g y / 1.5 at a
   // depth y and for the density rate / V sqrt(1.5 y / g).
   const double by_gravity = g > 0 ? std::sqrt(g / (1.5 * solid.extent(gravity))) : 0;
   return std::max(by_velocity + by_spin, by_gravity);
@@ -169,7 +169,7 @@ void EmitterStream::advance_to(double time, std::vector<Birth>& births, const Ha
     // One that was waiting when the emitter closed is not born: its place would move on and on.
     if (state_.withheld > 0 && emitter_.end && state_.waited == *emitter_.end - birth) break;
     const double age = std::max(0.0, time - state_.waited - birth);
-    // Where nothing carries the snow away, the shape is filled once.
+    // The shape is filled once where nothing carries the snow away.
     const bool is_full =
         std::isinf(pause) && static_cast<double>(state_.born) * volume_ >= solid_.volume();
     const std::optional<Birth> born = is_full ? std::nullopt : next_birth(age, has_room);
@@ -194,8 +194,8 @@ bool EmitterStream::is_undisturbed(const State& state) const {
   return alone.state_.candidate == state.candidate;
 }
 
-/// s, for which the clock stops after each birth so that no more snow comes than is carried away;
-/// infinite where nothing carries it.
+/// Returns the time for which the clock stops after each birth, s, so that no more snow comes than
+/// is carried away; infinite where nothing carries it.
 double EmitterStream::pause_after_birth(const Vec3d& gravity) const {
   const double mass = density_at_birth(emitter_, material_) * volume_;
   const double natural = carried_away(emitter_, material_, solid_, gravity);
@@ -208,9 +208,9 @@ std::optional<Birth> EmitterStream::next_birth(double age, const HasRoom& has_ro
   return std::nullopt;
 }
 
-/// Not before its time: a closed emitter costs nothing, and births are not kept.
+/// Fills the shape at its time and not before: a closed emitter costs nothing, births are not kept.
 void EmitterStream::fill_whole(double age, std::vector<Birth>& births, const HasRoom& has_room) {
-  // Not of volume_: a run that went back fills it a second time.
+  // The spacing is not that of volume_: a run that went back fills it a second time.
   const double spacing = std::cbrt(share_);
   std::vector<Vec3d> places = sample_jittered(solid_, spacing, key_);
   if (places.empty()) places.push_back(solid_.inner_point());
@@ -224,8 +224,8 @@ void EmitterStream::fill_whole(double age, std::vector<Birth>& births, const Has
   }
 }
 
-/// In the box around the shape, evenly spread and shaken by up to half a spacing, so that no rows
-/// are seen. Places shaken out on one side come in on the other: the density is even.
+/// Returns a place in the box around the shape: evenly spread, shaken by up to half a spacing, so
+/// that no rows are seen. Places shaken out on one side come in on the other: the density is even.
 Vec3d EmitterStream::next_candidate() {
   const Vec3d size = box_.max - box_.min;
   const double spacing = std::cbrt(volume_);
@@ -249,7 +249,7 @@ Vec3d EmitterStream::next_place() {
   return solid_.inner_point();
 }
 
-/// Reproducible: a resumed run makes it again.
+/// Fills the pool reproducibly: a resumed run makes it again.
 void EmitterStream::fill_pool() {
   const std::uint64_t places_so_far = std::exchange(state_.candidate, 0);
   while (state_.candidate < pool_candidates && pool_.size() < pool_places)

@@ -68,8 +68,8 @@ inline bool exceeds(double rate, double natural) {
   return rate > 1.01 * natural;
 }
 
-/// s from one birth of an emitter with a rate to the next, while none waits. The k-th, from 0, is
-/// due half of it after the k-th period began.
+/// Returns the time from one birth of an emitter with a rate to the next, s, while none waits. The
+/// k-th, from 0, is due half of it after the k-th period began.
 double birth_period(const Emitter& emitter, const Material& material, double cell_size);
 
 /// Particles that an emitter has until a time, at most 2^32.

@@ -13,14 +13,14 @@
 namespace neve::sim::shapes {
 namespace {
 
-/// In the axes of the form, about its centre.
+/// Distance and normal of a place in the axes of the form, about its centre.
 struct Touch {
   double distance;
   Vec3d normal;
   Vec3d velocity{0, 0, 0};  ///< m/s, of a shape that deforms
 };
 
-/// Beside the axis y of a round form.
+/// Position of a place beside the axis y of a round form.
 struct Beside {
   double out;     ///< m, from the axis
   Vec3d outward;  ///< unit vector
@@ -56,7 +56,7 @@ Touch touch(const Cylinder& cylinder, const Vec3d& y) {
   return {std::max(wall, end) > 0 ? beyond(wall, end) : std::max(wall, end), normal};
 }
 
-/// From a point to a segment, in the plane of a meridian.
+/// Returns the distance from a point to a segment, in the plane of a meridian.
 double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
                            const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
@@ -98,7 +98,7 @@ bool turns(const Collider& collider) {
   return !std::holds_alternative<Plane>(collider.shape.form);
 }
 
-/// From the pose's point to the furthest place, m; 0 where turning about it changes nothing.
+/// Distance from the pose's point to the furthest place, m; 0 if a turn about it changes nothing.
 struct FurthestPlace {
   double operator()(const Sphere&) const { return 0; }
   double operator()(const Plane&) const { return 0; }
@@ -182,7 +182,7 @@ PoseOffset offset_after(const Collider& before, const Collider& after, double ti
 PoseOffset body_offset_after(const Collider& before, const Collider& after, double time) {
   if (same_motion(before, after)) return before.pose_offset;
   const Pose now = pose_at(before, time);
-  // Of the two, the one that was given is set; the other goes on as the body has it by now.
+  // The given one of the two speeds is set; the other stays as the body has it by now.
   const auto given = [](const Vec3d& was, const Vec3d& is, const Vec3d& now) {
     return was == is ? now : is;
   };
@@ -233,7 +233,7 @@ double largest_speed(const Collider& collider) {
   return sequence ? speed + deforming_mesh(*sequence)->fastest() : speed;
 }
 
-/// What touches a place of the world. The middle of a sphere looks up however it has turned.
+/// Touch at a place of the world. The middle of a sphere looks up however it has turned.
 struct ColliderAt::Touching {
   const ColliderAt& at;
   const Vec3d& x;

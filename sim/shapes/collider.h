@@ -32,7 +32,7 @@ struct PoseOffset {
 /// Directions of the world that a body may not move along or turn about.
 enum class HeldAxis { x, y, z, turn_x, turn_y, turn_z };
 
-/// What joins a body to the world: a point that stays, an axis that it turns about, or one that it
+/// Joint of a body with the world: a point that stays, an axis that it turns about, or one that it
 /// slides along.
 enum class Joint { none, ball, hinge, slider };
 

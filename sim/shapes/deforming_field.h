@@ -19,7 +19,7 @@ namespace neve::sim::shapes {
 /// A copy shares what was made, and moves by itself.
 class DeformingField {
  public:
-  /// Around the mesh between two files: 96 MiB with what is kept.
+  /// Samples around the mesh between two files at most: 96 MiB with what is kept.
   static constexpr double max_samples = 128.0 * 128.0 * 128.0;
 
   /// @param name  of the mesh in messages
@@ -29,11 +29,11 @@ class DeformingField {
 
   const DeformingMesh& mesh() const { return *mesh_; }
 
-  /// Its samples are those of a time from then on. The bits depend on nothing else: not on earlier
-  /// times, not on the number of threads.
+  /// Moves the samples to a time. The bits depend on nothing else: not on earlier times, not on the
+  /// number of threads.
   void move_to(double time, ThreadPool& pool);
 
-  /// In the axes of the mesh, about the origin of its files. Valid until it moves again.
+  /// Returns samples in the axes of the mesh, about the origin of its files, valid until it moves.
   DistanceSamples samples() const;
   std::size_t bytes() const;
 
@@ -63,8 +63,8 @@ class DeformingField {
   std::shared_ptr<Values> now_;
 };
 
-/// m, from sample to sample of such a field: half a cell, or a third of its thickness where that is
-/// less and the samples do not become more than 64^3.
+/// Returns the spacing of the samples of such a field, m: half a cell, or a third of its thickness
+/// where that is less and the samples do not become more than 64^3.
 double field_spacing(const DeformingMesh& mesh, double cell_size);
 
 /// Bytes of the largest field and of its mesh, for estimates.

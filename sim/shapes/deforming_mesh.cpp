@@ -19,7 +19,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Of all files together: 384 MiB.
+/// Largest number of vertices of all files together: 384 MiB.
 constexpr std::size_t max_vertices = std::size_t{1} << 24;
 
 /// Refuses numbers without a file, all at once.
@@ -74,8 +74,8 @@ void require_same_topology(const files::PolygonMesh& first, const std::string& f
                      "topology" + advice + " (" + count(first.polygons.size(), " faces)"));
 }
 
-/// For each vertex the first that it coincides with in every file: what only touches in one of
-/// them comes apart in others. Most meshes have none, and are not read again for it.
+/// Returns for each vertex the first that it coincides with in every file: vertices that only touch
+/// in one of them come apart in others. Most meshes have none, and are not read again for it.
 std::vector<std::uint32_t> together_in_all(const files::PolygonMesh& first,
                                            const std::vector<std::string>& paths) {
   std::vector<std::uint32_t> together = coinciding(first.vertices);

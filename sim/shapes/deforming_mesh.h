@@ -40,14 +40,14 @@ class DeformingMesh {
   double fastest(double from, double to) const;
   double fastest() const;
 
-  /// m, of a vertex in an interval.
+  /// Returns the longest way of a vertex in an interval, m.
   double longest_way(std::size_t interval) const { return fastest_[interval] / rate_; }
 
   Bounds bounds(std::size_t interval) const;  ///< of all that is between two files
   Bounds bounds() const;                      ///< of all files
   double furthest() const;                    ///< m, of any vertex of any file from the origin
-  /// m: twice the volume over the surface, which for a plate is its thickness; of the file where it
-  /// is least, which is named.
+  /// Returns the thickness, m: twice the volume over the surface, which for a plate is its
+  /// thickness; of the file where it is least, which is named.
   double thickness() const { return thickness_; }
   const std::string& thinnest_file() const { return thinnest_; }
   std::size_t bytes() const;
@@ -68,12 +68,13 @@ class DeformingMesh {
   std::string thinnest_;
 };
 
-/// Read once: later calls return the same one while it is in use or was used lately, unless the
-/// first file, the last or their folder was written since. Threads may call at the same time.
+/// Returns the mesh, which is read once: later calls return the same one while it is in use or was
+/// used lately, unless the first file, the last or their folder was written since. Threads may call
+/// at the same time.
 /// @throws ShapeError
 std::shared_ptr<const DeformingMesh> deforming_mesh(const MeshSequence& sequence);
 
-/// Its surface at a time, of the last few times that were asked for.
+/// Returns the surface at a time, of the last few times that were asked for.
 /// @throws ShapeError
 std::shared_ptr<const MeshSurface> surface_at(const MeshSequence& sequence, double time);
 

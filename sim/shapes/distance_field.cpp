@@ -7,7 +7,7 @@
 namespace neve::sim::shapes {
 namespace {
 
-/// Around the mesh, so that the lattice ends where all is outside.
+/// Samples around the mesh, so that the lattice ends where all is outside.
 constexpr double samples_around = 2;
 
 /// Limit for a lattice finer than half a cell: 8 MiB, a second.

@@ -28,7 +28,7 @@ class FieldLattice {
     return static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]);
   }
   std::size_t count() const { return rows() * static_cast<std::size_t>(size_[2]); }
-  /// Of sample k of a row.
+  /// Returns the place of sample k of a row.
   Vec3d place(std::size_t row, std::size_t k) const;
   /// @param distance  of each sample, z fastest, then y
   DistanceSamples samples(const float* distance) const;
@@ -85,7 +85,7 @@ class DistanceField {
   DistanceField(const MeshSurface& surface, const std::string& name, double spacing,
                 ThreadPool& pool);
 
-  /// In the axes of the mesh, about the origin of its file. Valid as long as this.
+  /// Returns samples in the axes of the mesh, about the origin of its file, valid as long as this.
   DistanceSamples samples() const;
   std::size_t bytes() const { return values_.size() * sizeof(float); }
 
@@ -94,8 +94,8 @@ class DistanceField {
   std::vector<float> values_;
 };
 
-/// m, from sample to sample: half a cell; less where that leaves fewer than 64 along the mesh's
-/// largest extent or 8 along its smallest, and more are not too many to keep.
+/// Returns the spacing of the samples, m: half a cell; less where that leaves fewer than 64 along
+/// the mesh's largest extent or 8 along its smallest, and more are not too many to keep.
 double field_spacing(const MeshSurface& surface, double cell_size);
 
 /// The field of a mesh for cells of that size. Made once: later calls while it is in use or was

@@ -158,7 +158,7 @@ bool takes_scale(const Terrain& terrain) {
 }
 
 double memory_to_read(const Terrain& terrain) {
-  // What a run has read has its room.
+  // A file that the run has read has its room.
   static Recent<double> recent;
   return *recent.get(file_stamp(terrain.file), [&] {
     return std::make_shared<const double>(files::memory_of_heights(terrain.file));

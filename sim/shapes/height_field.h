@@ -5,8 +5,8 @@
 /// edge between two posts is the same from both sides, and in a cell the normal turns evenly
 /// instead of jumping. The ground is below the surface, to any depth. Beyond the outermost posts it
 /// continues level, each place as high as the nearest one of the border, so that snow that leaves
-/// the map does not fall. Where one of the four posts around a place has no data, the ground has a
-/// hole.
+/// the map does not fall. The ground has a hole where one of the four posts around a place has no
+/// data.
 
 #include <cstdint>
 #include <memory>
@@ -19,7 +19,7 @@
 
 namespace neve::sim::shapes {
 
-/// About the origin of its file, in metres: x east, y up, z south.
+/// A field of heights about the origin of its file, in metres: x east, y up, z south.
 class HeightField {
  public:
   /// @param origin  east, north and up that count as its origin
@@ -30,13 +30,13 @@ class HeightField {
     double height;  ///< m, y
     Vec3d normal;   ///< outward unit vector of the bilinear surface, exact
   };
-  /// Nothing in a hole.
+  /// Returns the surface above or below a place; nothing in a hole.
   std::optional<Place> at(double x, double z) const;
-  /// Across the tangent plane of the surface above or below y; < 0 below it; no_ground in a hole.
+  /// Returns the distance across the tangent plane of the surface; < 0 below; no_ground in a hole.
   double distance(const Vec3d& y) const;
 
   const files::HeightGrid& grid() const { return *grid_; }
-  /// Of the posts, and a spacing below the lowest: the ground is drawn and counted so deep.
+  /// Returns bounds of the posts and a spacing below: the ground is drawn and counted so deep.
   const Bounds& bounds() const { return bounds_; }
   /// See HeightSamples; of the whole ground without its holes.
   double flattest() const { return flattest_; }
@@ -56,7 +56,8 @@ class HeightField {
   struct Range {
     double low, high;
   };
-  /// Nothing where it reaches over a hole or beyond the posts; `missing` gets such a place.
+  /// Returns the range over a rectangle; nothing over a hole or beyond the posts: `missing` gets
+  /// such a place.
   std::optional<Range> range_over(const Eigen::Vector2d& low, const Eigen::Vector2d& high,
                                   double radius, Eigen::Vector2d& missing) const;
 
@@ -95,10 +96,10 @@ std::shared_ptr<const HeightField> height_field(const Terrain& terrain);
 /// known.
 double memory_to_read(const Terrain& terrain);
 
-/// Whether spacing, low and high are for its file; a grid has its own.
+/// True if spacing, low and high are for the file of a terrain; a grid has its own.
 bool takes_scale(const Terrain& terrain);
 
-/// East, north and up of the middle of a file, in whole metres. @throws ShapeError
+/// Returns east, north and up of the middle of a file, in whole metres. @throws ShapeError
 Vec3d middle_of(const Terrain& terrain);
 
 /// The block of ground, from the surface to a spacing below the lowest post.

@@ -47,7 +47,7 @@ class TerrainForm final : public Form {
            field_->distance(y) <= 0;
   }
   double clearance(const Vec3d&) const override { return 0; }
-  /// Half a spacing below the surface of the first cell with data.
+  /// Returns a place half a spacing below the surface of the first cell with data.
   Vec3d inner_point() const override {
     const files::HeightGrid& grid = field_->grid();
     for (std::size_t r = 0; r + 1 < grid.rows; ++r)
@@ -64,25 +64,25 @@ class TerrainForm final : public Form {
   double volume_ = 0;
 };
 
-/// Of a cover, in the axes of its ground.
+/// Outline of a cover, in the axes of its ground.
 struct Outline {
   Vec3d middle{0, 0, 0};
   Mat3d axes = Mat3d::Identity();  ///< about y
   Eigen::Vector2d half{0, 0};      ///< m, along its axes
   double radius = 0;               ///< m; 0: a rectangle
 
-  /// Beside it > 0, in m; within it how far from its border, negative.
+  /// Returns the distance from the border, m: > 0 beside the outline, negative within it.
   double beside(const Vec3d& local) const {
     return radius > 0 ? std::hypot(local.x(), local.z()) - radius
                       : std::max(std::abs(local.x()) - half.x(), std::abs(local.z()) - half.y());
   }
 };
 
-/// What a cover lies on, in axes without tilt of its own.
+/// Ground that a cover lies on, in axes without tilt of its own.
 class Ground {
  public:
   virtual ~Ground() = default;
-  /// m, y of the surface; nothing where there is none.
+  /// Returns y of the surface, m; nothing where there is none.
   virtual std::optional<double> height(double x, double z) const = 0;
   /// Lowest and highest place over an outline; nothing where it reaches over places without a
   /// surface, and `missing` gets one.
@@ -247,7 +247,7 @@ std::shared_ptr<const Ground> ground_of(const Cover& cover) {
   return recent.get(key, [&] { return std::make_shared<const MeshGround>(*mesh, cover.turned); });
 }
 
-/// About the middle of its outline, at the height that the cover gives.
+/// A cover about the middle of its outline, at the height that the cover gives.
 class CoverForm final : public Form {
  public:
   CoverForm(const Cover& cover, double turned)

@@ -89,7 +89,7 @@ class Triangles {
   HeightTriangles out_;
 };
 
-/// From a stretch outward, step by step wider.
+/// Adds posts from a stretch outward, step by step wider.
 void add_outward(std::size_t from, std::size_t count, bool is_up, double step, double growth,
                  std::vector<std::size_t>& posts) {
   double at = static_cast<double>(from);

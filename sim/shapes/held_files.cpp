@@ -21,7 +21,7 @@ Held& held() {
   return held;
 }
 
-/// None of a file that is not there.
+/// Returns the stamp of a file as it is now; none of a file that is not there.
 std::optional<std::string> stamp_now(const std::string& path) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);

@@ -11,7 +11,7 @@
 namespace neve::sim::shapes {
 
 /// A run keeps what it has read: while one of these exists, files count as they were when they were
-/// first asked for, whoever writes them anew. What was made of them is kept as long.
+/// first asked for, whoever writes them anew. Things made of them are kept as long.
 class HeldFiles {
  public:
   HeldFiles();
@@ -25,14 +25,14 @@ bool are_files_held();
 bool is_held(const std::string& path);
 /// Held files that have been written or removed since.
 std::vector<std::string> changed_held_files();
-/// For what reads a file, before and after. @throws ShapeError where a held one has changed
+/// Checks a file before and after it is read. @throws ShapeError where a held one has changed
 void require_unchanged(const std::string& path);
 
 /// Tells one content of a file from another: path, size and time of the last change, of a held file
 /// those of the time when it was first asked for.
 std::string file_stamp(const std::string& path);
 
-/// Whether what is made is the same while a run goes, or one of each moment: that is dropped.
+/// Lifetime of things that are made: one for a whole run, or one for each moment, which is dropped.
 enum class Made { once, each_moment };
 
 /// The things that were used last, by name; all of them while files are held. Making happens under

@@ -60,12 +60,12 @@ class Attitudes {
  private:
   Quat at(std::size_t k) const { return Quat(rotation_from_degrees(degrees_[k])); }
 
-  /// From keyframe k to the next one, in the axes of the thing, per second.
+  /// Returns the spin from keyframe k to the next one, in the axes of the thing, per second.
   Vec3d mean_spin(std::size_t k) const {
     return rotation_vector(at(k).conjugate() * at(k + 1)) / (times_[k + 1] - times_[k]);
   }
 
-  /// At keyframe k.
+  /// Returns the spin at keyframe k.
   Vec3d spin(std::size_t k) const {
     if (k == 0 || k + 1 == times_.size()) return Vec3d::Zero();
     const Vec3d before = mean_spin(k - 1), after = mean_spin(k);

@@ -13,7 +13,7 @@
 
 namespace neve::sim::shapes {
 
-/// How a mesh was read, where that is not plain.
+/// Notes on the reading of a mesh, where that is not plain.
 struct MeshReading {
   std::size_t parts = 1;         ///< closed surfaces without a common edge
   std::size_t turned_parts = 0;  ///< wound inward, and read outward
@@ -27,7 +27,7 @@ struct MeshReading {
   double in_doubt = 0;  ///< of an open mesh: share of the volume with winding numbers near 1/2
 };
 
-/// Which places are inside triangles, by the winding number about them.
+/// Rule for the inside of triangles, by the winding number about a place.
 enum class Inside { positive, odd, above_half };
 
 /// Volume of a region and its moments about a place: what its mass, centre of mass and inertia
@@ -42,11 +42,11 @@ struct Moments {
   /// place. All faces of a polyhedron together are the polyhedron.
   void add_tetrahedron(const Vec3d& a, const Vec3d& b, const Vec3d& c, double times = 1);
   void add_point(const Vec3d& at, double part);
-  /// Along x, of a thin cross section. @param middle  of it
+  /// Adds a rod along x, of a thin cross section. @param middle  of it
   void add_rod(const Vec3d& middle, double length, double area);
   /// @param other  about the same place
   void add(const Moments& other, double times);
-  /// Of the region in another unit of length.
+  /// Converts the moments to another unit of length.
   void scale(double factor);
 };
 
@@ -60,8 +60,8 @@ struct SolidMesh {
   Inside inside = Inside::positive;
   MeshReading reading{};
   std::vector<std::array<std::uint32_t, 2>> open_edges{};
-  /// Of what is inside, where the faces together are something else: parts in one another may count
-  /// twice or with the wrong sign, and an open mesh has no sum.
+  /// Moments of the inside where the faces together are something else: parts in one another may
+  /// count twice or with the wrong sign, and an open mesh has no sum.
   std::optional<Moments> moments{};
 };
 

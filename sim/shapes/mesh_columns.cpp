@@ -10,8 +10,8 @@ namespace {
 
 constexpr double max_cells = 4096;
 
-/// Which way an edge, seen along x, passes p in z on p's right: +1 upward, -1 downward, 0 not.
-/// The answer for b, a is exactly minus that for a, b, so that triangles along an edge never
+/// Tells which way an edge, seen along x, passes p in z on p's right: +1 upward, -1 downward, 0
+/// not. The answer for b, a is exactly minus that for a, b, so that triangles along an edge never
 /// disagree about the side on which p lies, for any rounding and any position of p on the edge.
 int passing(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
   const bool is_upward = a.z() <= p.z() && p.z() < b.z();

@@ -38,7 +38,7 @@ class Columns {
     int y0, y1, z0, z1;
   };
 
-  /// Monotone, so that a point between two others is never in a cell outside theirs.
+  /// The cell is monotone in x: a point between two others is never in a cell outside theirs.
   int cell_of(double x, int axis) const {
     const double cell = (x - origin_[axis]) * per_metre_;
     const int last = cells_[static_cast<std::size_t>(axis - 1)] - 1;

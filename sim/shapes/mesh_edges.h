@@ -21,7 +21,7 @@ struct MeshEdges {
   std::vector<std::array<std::uint32_t, 2>> open_edges;  ///< vertices
 };
 
-/// For every vertex the first one at the same position.
+/// Returns for every vertex the first one at the same position.
 /// @param among  only vertices with the same number here are compared; empty: all
 std::vector<std::uint32_t> coinciding(const std::vector<Vec3d>& vertices,
                                       const std::vector<std::uint32_t>& among = {});

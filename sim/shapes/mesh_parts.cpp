@@ -100,7 +100,7 @@ void Parts::find_volumes() {
   }
 }
 
-/// Other parts that have p inside.
+/// Finds the other parts that have p inside.
 PartCounts Parts::parts_around(const Vec3d& p, std::uint32_t but) {
   PartCounts around;
   const auto [begin, end] = columns_.at(p);
@@ -116,7 +116,7 @@ PartCounts Parts::parts_around(const Vec3d& p, std::uint32_t but) {
   return around;
 }
 
-/// Those around the middle of every triangle of a part.
+/// Finds the parts around the middle of every triangle of a part.
 void Parts::find_containers() {
   std::vector<bool> is_begun(volume_.size(), false);
   for (std::uint32_t t = 0; t < part_.size(); ++t) {
@@ -181,7 +181,7 @@ void Parts::find_shares() {
   }
 }
 
-/// Whether two of the parts around a place are not in one another, or one is there twice.
+/// True if two of the parts around a place are not in one another, or one of them occurs twice.
 bool Parts::do_cross(const PartCounts& around) {
   tests_ += around.size();
   chain_.clear();
@@ -189,7 +189,7 @@ bool Parts::do_cross(const PartCounts& around) {
     if (w > 1) return true;
     chain_.push_back(part);
   }
-  // From the outermost to the innermost, each is in the one before.
+  // Each is in the one before, from the outermost to the innermost.
   std::ranges::sort(chain_, {},
                     [&](std::uint32_t part) { return std::pair(containers_[part].size(), part); });
   for (std::size_t k = 1; k < chain_.size(); ++k)

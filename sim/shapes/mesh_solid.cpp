@@ -55,7 +55,7 @@ class MeshSolid final : public Form, public MeshLines {
   }
 
   using Meetings = std::vector<std::pair<double, int>>;
-  /// Of the line through p along x, in the order of x, with the winding numbers.
+  /// Returns the meetings of the line through p along x, by x, with the winding numbers.
   Meetings meetings(const Vec3d& p) const;
   /// Length of the longest stretch inside on the line through p along x; its middle goes to p.
   double longest_stretch(Vec3d& p) const;

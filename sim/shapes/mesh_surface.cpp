@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Whether faces may have the inside, or the outside, on both of their sides.
+/// True if faces may have the inside, or the outside, on both of their sides.
 bool has_inner_faces(const SolidMesh& mesh) {
   const MeshReading& reading = mesh.reading;
   return mesh.inside != Inside::above_half &&
@@ -70,7 +70,7 @@ class Border {
 
  private:
   static constexpr double share = 1.0 / 128;
-  /// Inside a triangle, near its corners and sides.
+  /// Places inside a triangle, near its corners and sides.
   static constexpr std::array<std::pair<double, double>, 6> places{
       {{0.02, 0.02}, {0.96, 0.02}, {0.02, 0.96}, {0.49, 0.02}, {0.02, 0.49}, {0.49, 0.49}}};
 
@@ -103,7 +103,7 @@ SolidMesh border_of(const SolidMesh& mesh, const Form& solid, const MeshLines* l
     };
     const bool is_same = border.all_same(t);
     is_all = is_all && is_same && border.is_border();
-    // Where all triangles cross all others, the pieces would be without number.
+    // Pieces would be without number where all triangles cross all others.
     constexpr std::size_t max_pieces = 1'000'000;
     const bool is_full = pieces.triangles.size() >= max_pieces;
     if (!is_same && !is_full)
@@ -115,8 +115,8 @@ SolidMesh border_of(const SolidMesh& mesh, const Form& solid, const MeshLines* l
   return pieces;
 }
 
-/// Without those that are there again, whichever way they are wound: the first of two equally near
-/// triangles wins, and a search would look at all of them.
+/// Returns triangles without those that occur again, whichever way they are wound: the first of two
+/// equally near ones wins, and a search would look at all of them.
 std::vector<std::uint32_t> distinct(const std::vector<Triangle>& triangles) {
   const auto key = [&](std::uint32_t t) {
     Triangle corners = triangles[t];

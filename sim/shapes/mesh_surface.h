@@ -14,7 +14,7 @@ namespace neve::sim::shapes {
 
 class MeshSurface {
  public:
-  /// Of parts that overlap, only the faces between inside and outside are its surface.
+  /// The surface of parts that overlap is the faces between inside and outside alone.
   explicit MeshSurface(SolidMesh mesh);
   ~MeshSurface();
 
@@ -24,9 +24,9 @@ class MeshSurface {
   /// Boxes around faces that a place is in, on average: so many faces a search looks at, or more.
   double overlap() const { return overlap_; }
 
-  /// Exact, m; at most `most` if given: larger distances are `most`.
+  /// Returns the exact distance, m; at most `most` if given: larger distances are `most`.
   double distance(const Vec3d& y, double most = INFINITY) const;
-  /// As bodies are filled.
+  /// True for a place that bodies of the mesh fill.
   bool contains(const Vec3d& y) const { return solid_->contains(y); }
   /// The same of places on a line, see MeshLines.
   void inside_along_x(const Vec3d& first, double spacing, std::vector<std::uint8_t>& inside) const;
@@ -39,14 +39,14 @@ class MeshSurface {
     Vec3d point;
   };
   Place nearest_place(const Vec3d& y, double most = INFINITY) const;
-  /// Outward: away from the nearest place of the surface, or that of its triangle on the surface.
+  /// Returns the way outward from the nearest place, or on the surface the normal of its triangle.
   Vec3d normal(const Vec3d& y) const;
 
  private:
   struct Tree;
   struct Nearest;
   Nearest nearest(const Vec3d& y, double most) const;
-  /// Of the triangle of mesh() that it belongs to.
+  /// Returns the triangle of mesh() that a triangle belongs to.
   std::uint32_t origin(std::uint32_t triangle) const {
     return origin_.empty() ? triangle : origin_[triangle];
   }

@@ -20,8 +20,8 @@ namespace {
 /// Cells along each side of the cube around points, in bits; three of them fit into a key.
 constexpr int key_bits = 21;
 
-/// How far along the Hilbert curve of the cube a cell is: cells that follow each other are
-/// neighbours. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707 (2004) 381.
+/// Returns the place of a cell along the Hilbert curve of the cube: cells that follow each other
+/// are neighbours. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707 (2004) 381.
 std::uint64_t place_on_curve(std::array<std::uint32_t, 3> x) {
   constexpr std::uint32_t top = 1u << (key_bits - 1);
   for (std::uint32_t bit = top; bit > 1; bit >>= 1) {

@@ -15,7 +15,7 @@ struct PlacedPoints : files::PointCloud {
   /// The same of a cloud that was read already. @param name of its file, in messages
   PlacedPoints(files::PointCloud cloud, const Points& points, const std::string& name);
 
-  /// Tight, but for half the edge of a cube that an average point fills.
+  /// Returns bounds, tight but for half the edge of a cube that an average point fills.
   Bounds bounds_after(const Mat3d& rotation) const;
 
   double volume = 0;          ///< m3, of all
@@ -54,7 +54,7 @@ struct PointsSummary {
 /// @throws ShapeError as PlacedPoints
 PointsSummary summary_of(const Points& points, const Mat3d& rotation);
 
-/// Its file is read when something is asked.
+/// Makes the form of points, whose file is read when something is asked.
 std::unique_ptr<const Form> make_points_solid(const Points& points);
 
 }  // namespace neve::sim::shapes

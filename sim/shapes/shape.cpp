@@ -99,7 +99,7 @@ class CylinderForm final : public Analytic {
   double radius_, half_height_;
 };
 
-/// With the apex up.
+/// A cone with the apex up.
 class ConeForm final : public Analytic {
  public:
   ConeForm(double radius, double height) : radius_(radius), half_height_(0.5 * height) {}
@@ -189,7 +189,7 @@ struct MakeForm {
     throw std::invalid_argument("a plane has no volume: it can only be a collider");
   }
   Result operator()(const Mesh& s) const { return read_mesh_solid(s); }
-  /// As it is in the first file.
+  /// Takes the mesh as it is in the first file.
   Result operator()(const MeshSequence& s) const {
     return make_mesh_solid(deforming_mesh(s)->mesh(0, 0));
   }

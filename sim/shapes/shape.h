@@ -40,7 +40,7 @@ struct Plane {
   Vec3d point{0, 0, 0};
   Vec3d normal{0, 1, 0};
 };
-/// What is inside a mesh.
+/// Rule for the inside of a mesh.
 enum class Fill {
   automatic,  ///< closed where the mesh is closed, else winding
   closed,     ///< what closed parts enclose together; a part wound inward in another is a cavity

@@ -14,7 +14,7 @@ class Form {
   virtual double volume() const = 0;                             ///< m3
   virtual Bounds bounds_after(const Mat3d& rotation) const = 0;  ///< tight
   virtual bool contains(const Vec3d& y) const = 0;
-  /// Never further from 0 than the signed distance; 0 says nothing is known.
+  /// Returns a bound never further from 0 than the signed distance; 0 says nothing is known.
   virtual double clearance(const Vec3d& y) const = 0;
   virtual Vec3d inner_point() const = 0;
 };
@@ -36,7 +36,7 @@ class Solid {
   /// Bounds of the shape at another centre, with this rotation instead of its own.
   Bounds bounds_at(const Vec3d& center, const Mat3d& rotation) const;
 
-  /// m, of its projection on a direction that is not zero.
+  /// Returns the extent of its projection on a direction that is not zero, m.
   double extent(const Vec3d& direction) const;
 
   bool contains_local(const Vec3d& y) const { return form_->contains(y); }
@@ -48,7 +48,7 @@ class Solid {
   /// the point is inside where it is negative. A mesh says 0: unknown.
   double clearance(const Vec3d& y) const { return form_->clearance(y); }
 
-  /// Some local point inside.
+  /// Returns some local point inside.
   Vec3d inner_point() const { return form_->inner_point(); }
 
  private:

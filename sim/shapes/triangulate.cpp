@@ -11,7 +11,7 @@ using Point = Eigen::Vector2d;
 
 constexpr double tests_per_corner = 20'000;
 
-/// Twice the area, with its sign.
+/// Returns twice the area, with its sign.
 double area_of(const Point& a, const Point& b, const Point& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }

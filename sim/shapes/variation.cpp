@@ -29,7 +29,7 @@ double fade(double t) {
 
 /// Normal numbers on a lattice of unit spacing, blended so that the variance is 1 everywhere.
 double smooth_normal(std::uint64_t key, const Vec3d& place) {
-  // Beyond, a double has no fraction and a cell no number.
+  // A double beyond has no fraction, and a cell no number.
   constexpr double most = 0x1p52;
   const Vec3d at = place.cwiseMax(-most).cwiseMin(most);
   const Vec3d cell = at.array().floor();

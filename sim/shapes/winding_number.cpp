@@ -111,8 +111,8 @@ double WindingNumber::at(const Vec3d& p, std::size_t* looked) const {
 /// Samples fill the bounds evenly, by the sequence R3 (see mesh_parts.cpp).
 void measure_winding(SolidMesh& mesh, const std::string& name) {
   constexpr int count = 1 << 15;
-  // A second. Where faces all reach across the mesh none is far away, and each of the questions
-  // that a run asks would look at all of them.
+  // The limit is a second. None is far away where faces all reach across the mesh, and each of the
+  // questions that a run asks would look at all of them.
   constexpr std::size_t max_looked = 40'000'000;
   std::size_t looked = 0;
   constexpr double golden = 1.22074408460575947536;

@@ -20,7 +20,7 @@ class WindingNumber {
   WindingNumber(const std::vector<Vec3d>& vertices,
                 const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-  /// About p, to some 1e-3.
+  /// Returns the winding number about p, to some 1e-3.
   /// @param looked  if given, more by the triangles that were looked at one by one
   double at(const Vec3d& p, std::size_t* looked = nullptr) const;
 

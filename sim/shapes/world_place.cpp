@@ -14,7 +14,7 @@ Vec3d middle_of(const std::vector<Vec3d>& points) {
   return box.center();
 }
 
-/// As in the file.
+/// Returns the middle of a file in the coordinates of the file.
 Vec3d middle_of_file(const Shape& shape) {
   if (const auto* mesh = std::get_if<Mesh>(&shape.form)) {
     const std::vector<Vec3d> vertices = files::read_mesh(mesh->file).vertices;
@@ -51,7 +51,7 @@ void set_place(Shape& shape, const Vec3d& place) {
   if (auto* terrain = std::get_if<Terrain>(&shape.form)) terrain->origin = map_axes(place);
 }
 
-/// To the middle of its file, in whole units.
+/// Moves the origin of a shape to the middle of its file, in whole units.
 void set_middle(Shape& shape) {
   const Vec3d middle = middle_of_file(shape).array().round();
   if (auto* mesh = std::get_if<Mesh>(&shape.form)) mesh->origin = middle;

@@ -14,8 +14,8 @@ using health::Law;
 
 /// Steps that a report of trouble looks back.
 constexpr std::size_t steps_recorded = 64;
-/// That a particle may cross in a step while rules are ignored: faster, the next step takes for
-/// ever, and there is nothing to see.
+/// Cells that a particle may cross in a step while rules are ignored: faster, the next step takes
+/// for ever, and there is nothing to see.
 constexpr double hopeless_cells = 100;
 
 /// The first rule of a healthy step that its own report says is broken.
@@ -25,7 +25,7 @@ std::optional<BrokenRule> broken_rule(const SolverSettings& settings, double dt,
                                       Progress& progress) {
   const double h = settings.cell_size;
   const double speed_cfl = progress.limits.max_speed * dt / h;
-  // As an explicit step would feel it.
+  // The CFL number is that of an explicit step.
   const double acoustic_cfl = progress.limits.max_sound_speed * dt / h / stretch;
   double& worst_cfl = progress.warnings.worst_acoustic_cfl;
   worst_cfl = std::max(worst_cfl, acoustic_cfl);
@@ -87,7 +87,7 @@ void HealthWatch::record_step(double dt, const StepReport& report, const Progres
                                             report.inverted};
 }
 
-/// Oldest first.
+/// Returns the last steps, oldest first.
 std::vector<StepRecord> HealthWatch::last_steps(std::uint64_t step) const {
   std::vector<StepRecord> records;
   for (std::size_t k = 1; k <= ring_.size(); ++k) {
@@ -109,9 +109,9 @@ EnergyAccount energy_account(const SolverSettings& settings, const Progress& pro
   account.explained = budget.start + gravity_work + budget.contact_work;
   if (settings.has_affine_and_own_velocity())
     account.traded = health::traded_share * now.affine_energy;
-  // What rounding and the first contact, whose work is known a step late, may do to snow that
-  // starts at rest: a cell's fall; without gravity, a strain that single precision knows to a
-  // thousandth.
+  // Scale of the changes that rounding and the first contact, whose work is known a step late, may
+  // make to snow that starts at rest: a cell's fall; without gravity, a strain that single
+  // precision knows to a thousandth.
   constexpr double strain = 1e-4;
   const double fall = settings.gravity.norm() * settings.cell_size,
                moved = strain * progress.limits.max_sound_speed;

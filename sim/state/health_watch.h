@@ -56,7 +56,7 @@ class HealthWatch {
   void diverge(const BrokenRule& broken, const Progress& progress, const SolverSettings& settings,
                const std::vector<Material>& materials, const ParticleArrays& particles);
 
-  /// True if the run goes on past the rule, which is noted for its pictures and records.
+  /// True if the run continues past the rule, which is noted for its pictures and records.
   static bool may_ignore(const BrokenRule& broken, const SolverSettings& settings,
                          Progress& progress);
 
@@ -78,7 +78,7 @@ class HealthWatch {
 EnergyAccount energy_account(const SolverSettings& settings, const Progress& progress,
                              const Summary& now);
 
-/// kg m, see EnergyBudget.
+/// Returns the moment of a budget, kg m, see EnergyBudget.
 inline Vec3d moment_of(const EnergyBudget& budget) {
   return Vec3d::Map(budget.moment.data());
 }

@@ -71,9 +71,9 @@ bool is_in_lattice(const Vec3d& x, double cell_size) {
   return x.cwiseAbs().maxCoeff() / cell_size < 4.0 * kernels::block_limit;
 }
 
-/// Kernels count from the point of the pose, in single precision. Where that would show, as for a
-/// mesh whose file has the coordinates of a map, the middle of the field takes its place. A body
-/// keeps its own: its steps take moments about it.
+/// Kernels count from the point of the pose, in single precision. The middle of the field takes its
+/// place where that would show, as for a mesh whose file has the coordinates of a map. A body keeps
+/// its own: its steps take moments about it.
 void move_to_middle(const Mat3d& axes, double cell_size, shapes::Pose& pose,
                     shapes::DistanceSamples& samples) {
   constexpr double single = 0x1p-23, visible = 1e-3;  // of a cell

@@ -35,7 +35,7 @@ struct Lattice {
     return true;
   }
 
-  /// m, from the origin.
+  /// Returns the place of a particle from the origin, m.
   template <class Real>
   Vec3d position(const kernels::Particle<Real>& p) const {
     Vec3d x;

@@ -24,7 +24,7 @@ struct Method {
   Method(const SolverSettings& settings, const std::vector<Material>& materials,
          const Vec3i& lattice_origin);
 
-  /// All but the lattice. @throws std::invalid_argument, and then is as it was
+  /// Changes all but the lattice. @throws std::invalid_argument, and then is as it was
   void change(const SolverSettings& settings, const std::vector<Material>& materials);
 
   /// True if skipped stages, or a material, force the staged driver.
@@ -32,16 +32,16 @@ struct Method {
   /// Sets the limits of hardening to those of the materials; the other limits stay.
   void limit_hardening(StateLimits& limits) const;
   std::size_t tile_nodes() const;
-  /// For a step of dt; without colliders.
+  /// Returns the constants of a step of dt, without colliders.
   kernels::StepConstants<Real> step_constants(double dt) const;
 
   /// True if particles keep velocities of their own and have an affine one: it has to fit them.
   bool fits_affine_velocity() const { return settings.has_affine_and_own_velocity(); }
 
-  /// m2, of the weights around a particle.
+  /// Returns the inertia of the weights around a particle, m2.
   double affine_inertia() const;
   double kinetic_energy(const kernels::Particle<Real>& p) const;
-  /// J, of it: that of the affine velocity.
+  /// Returns the energy of its affine velocity, J.
   double affine_energy(const kernels::Particle<Real>& p) const;
   double elastic_energy(const kernels::Particle<Real>& p) const;
   /// The same of four particles, at a third of the cost.

@@ -137,7 +137,7 @@ shapes::HeightSamples MovingColliders::Field::heights() const {
   return terrain ? terrain->samples() : shapes::HeightSamples{};
 }
 
-/// What deforms has the shape that it was placed with.
+/// Returns the pose of a collider; one that deforms has the shape that it was placed with.
 std::optional<KernelPose> MovingColliders::pose_at(std::size_t k, const Lattice& lattice,
                                                    double time, double until) const {
   auto pose = kernel_pose(list_[k], time, lattice.cell_size, lattice.origin, fields_[k].samples(),

@@ -54,9 +54,9 @@ class MovingColliders {
   const std::vector<shapes::Collider>& list() const { return list_; }
   /// Poses of the colliders in reach of the lattice.
   const std::vector<kernels::ColliderPose>& poses() const { return poses_; }
-  /// m, for each collider from its own point to that of its pose, which its loads are about.
+  /// Returns the way of each collider from its own point to its pose's, which loads are about, m.
   const std::vector<Vec3d>& moved() const { return moved_; }
-  /// Whether one of them has a mesh that may deform.
+  /// True if one of them has a mesh that may deform.
   bool deform() const;
   std::uint64_t memory_bytes() const;
 

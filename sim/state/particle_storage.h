@@ -17,8 +17,8 @@ class KeptContacts {
  public:
   using Contact = kernels::KeptContact<Real>;
 
-  /// Those of a run; what a step has left of its list and does not belong to a particle is left
-  /// out.
+  /// Returns the contacts of a run, without those that a step has left of its list and that belong
+  /// to no particle.
   std::vector<Contact> list() const;
   /// Forgets all others. @param contacts  of particles below `particles`; any `next`
   void replace(const std::vector<Contact>& contacts, std::size_t particles);
@@ -40,9 +40,9 @@ class KeptContacts {
     contacts_.reserve(contacts);
     moved_.reserve(contacts_.capacity());
   }
-  /// Room for those of a step, instead of the others: nothing is in it yet.
+  /// Makes room for the contacts of a step, instead of the others: nothing is in it yet.
   Contact* room_for(std::size_t contacts);
-  /// After a step without contact.
+  /// Forgets the contacts after a step without any.
   void keep_none() { contacts_.clear(); }
 
   std::size_t memory_bytes() const {
@@ -100,7 +100,7 @@ struct ParticleStorage {
     shock_pressure.clear();
   }
 
-  /// Other records: keys and locals are not known yet, and nothing is in contact.
+  /// Replaces the records: keys and locals are not known yet, and nothing is in contact.
   void replace(const std::vector<kernels::Particle<Real>>& others) {
     contacts.forget();
     shock_pressure.clear();

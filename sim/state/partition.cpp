@@ -25,14 +25,14 @@ std::size_t cut(std::size_t count, std::size_t part, std::size_t parts) {
   return count * part / parts;
 }
 
-/// Many are put into their cells first; what remains are a few of each cell, mostly in order. Where
-/// that is not so, as of a file of equal points, this would take the square of their number.
+/// Many are put into their cells first; what remains are a few of each cell, mostly in order. Many
+/// in a cell, as of a file of equal points, would take the square of their number.
 void sort_places(std::vector<std::uint64_t>& places, std::vector<std::uint64_t>& scattered) {
   if (places.size() < 64) {
     std::sort(places.begin(), places.end());
     return;
   }
-  // Of each model and cell, which are the upper bits of a place.
+  // The starts of each model and cell, which are the upper bits of a place.
   std::uint32_t start[laws::law_count * kernels::block_nodes + 1] = {};
   for (const std::uint64_t place : places) ++start[(place >> 32) + 1];
   std::partial_sum(std::begin(start), std::end(start), std::begin(start));

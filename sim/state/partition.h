@@ -1,5 +1,5 @@
 #pragma once
-/// Which particle belongs to which block: brought up to date every step from the particles' keys.
+/// Particles by blocks: brought up to date every step from the particles' keys.
 
 #include <cstdint>
 #include <vector>
@@ -18,7 +18,7 @@ namespace neve::sim::engine {
 /// or block are sorted.
 class Partition {
  public:
-  /// In blocks per axis, 0: open. One block is enough: a stencil is no wider.
+  /// Sets the period in blocks per axis, 0: open. One block is enough: a stencil is no wider.
   void set_period(const Vec3i& period) {
     period_ = period;
     is_linked_ = false;
@@ -61,9 +61,9 @@ class Partition {
 
   const std::vector<std::uint32_t>& order() const { return order_; }
   const std::vector<std::uint16_t>& sorted_locals() const { return locals_; }
-  /// All blocks that have particles.
+  /// Returns all blocks that have particles.
   const std::vector<kernels::BlockRange>& all_blocks() const { return all_; }
-  /// Those on the grid.
+  /// Returns the blocks on the grid.
   const std::vector<kernels::ParticleBlock>& blocks() const { return blocks_; }
   const std::vector<kernels::NodeBlock>& node_blocks() const { return node_blocks_; }
   const std::vector<kernels::SprayCluster>& spray() const { return spray_.clusters(); }

@@ -43,7 +43,7 @@ struct Progress {
   double distance_since_sink_check = 0;  ///< m, of the fastest particle of each step
 };
 static_assert(std::is_trivially_copyable_v<Progress>);
-// Only numbers of 8 bytes: padding would put stray bytes into files.
+// Numbers have 8 bytes each: padding would put stray bytes into files.
 static_assert(sizeof(std::size_t) == 8 && sizeof(Progress) == 8 * 39);
 
 }  // namespace neve::sim::engine

@@ -1,5 +1,5 @@
 #pragma once
-/// Between particle records and Eigen's types.
+/// Conversions between particle records and Eigen's types.
 
 #include <cmath>
 #include <cstdint>

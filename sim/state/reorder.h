@@ -12,10 +12,10 @@ namespace neve::sim::engine {
 
 /// Record q becomes what record order[q] was; the order becomes 0, 1, 2, ...
 ///
-/// Each thread owns a range. What its range gets from others is set aside first, before anything
-/// moves; then records follow each other into the place that was freed last. Snow that was in order
-/// a few steps ago gets little from elsewhere; if it is much, one thread does all and needs
-/// nothing.
+/// Each thread owns a range. Records that its range gets from others are set aside first, before
+/// anything moves; then records follow each other into the place that was freed last. Snow that was
+/// in order a few steps ago gets little from elsewhere; if it is much, one thread does all and
+/// needs nothing.
 template <class Record>
 class Reordering {
  public:

@@ -24,7 +24,7 @@ class Spray {
             const IsFree& is_free, ThreadPool& pool, int threads);
 
   const std::vector<kernels::SprayCluster>& clusters() const { return clusters_; }
-  /// Per block: true if it is part of a cluster.
+  /// Returns for each block if it is part of a cluster.
   const std::vector<std::uint8_t>& is_spray() const { return is_spray_; }
   std::size_t memory_bytes() const;
 

@@ -7,7 +7,7 @@ namespace neve::sim::engine {
 
 namespace {
 
-/// Below this many particles per thread, waking a thread costs more than it saves.
+/// Waking a thread costs more than it saves below this many particles per thread.
 constexpr std::size_t particles_per_thread = 1000;
 
 /// Sorting the storage costs more than it gains every step.
@@ -90,7 +90,7 @@ kernels::SweepArgs<Real> State<Real>::sweep_args(double dt, int channels) {
   return a;
 }
 
-/// Those in reach where they are now; how many there are changes as they move.
+/// Shows the colliders in reach where they are now; their number changes as they move.
 template <class Real>
 void State<Real>::show_colliders(kernels::SweepArgs<Real>& a) const {
   a.constants.colliders = colliders.poses().data();
@@ -166,7 +166,7 @@ double State<Real>::fastest_near(const std::vector<kernels::BlockRange>& blocks)
                                 method.settings.max_dt, progress.limits.max_speed);
 }
 
-/// In double, as the kernels see it: four particles at a time.
+/// Computes in double, as the kernels see it: four particles at a time.
 template <class Real>
 void State<Real>::note_touching(std::size_t begin, std::size_t end) {
   using V = Quad<double>;

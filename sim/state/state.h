@@ -27,7 +27,7 @@ struct State {
   void partition_but_spray(double dt);
   /// Brings storage into that order too, once in a while.
   void sort_storage();
-  /// For sweeps of a step of dt. Room for the grid is made: earlier arguments are void.
+  /// Returns arguments of sweeps for a step of dt, with room for the grid: earlier ones are void.
   /// @param channels of tiles and nodes
   kernels::SweepArgs<Real> sweep_args(double dt, int channels);
   /// Calls a sweep over particle blocks (weighted by particles) or node blocks, on all threads.

@@ -19,7 +19,7 @@ struct RasterizedNodes {
   std::vector<Vec3i> block;     ///< from the lattice origin, in blocks; sorted by x, y, z
   std::vector<double> mass;     ///< kg, sum of w_ip m_p
   std::vector<Vec3d> velocity;  ///< m/s, as step 1 of the paper rasterises it
-  /// For each list of values the mean of the particles around: sum w m a / sum w m.
+  /// Mean of the particles around each node for each list of values: sum w m a / sum w m.
   std::vector<std::vector<double>> mean;
 };
 

@@ -31,7 +31,7 @@ struct Material {
   double critical_stretch = 0.0075;      ///< theta_s
   double friction_angle = 39;            ///< degrees
   double consolidation_pressure = 4500;  ///< p0 of the start, Pa
-  /// What no other law and no report reads: laws::Parameter says which law has which.
+  /// Numbers that no other law and no report reads: laws::Parameter says which law has which.
   std::array<double, own_numbers> own = own_numbers_of_laws();
   double strength = 1;  ///< factor of a particle on the surface of yield; no scene key
   /// Range of J_P, and the largest factor of hardening. The paper bounds none of them. Beyond 20
@@ -46,7 +46,7 @@ struct Material {
   bool yields = false;
 };
 
-/// Of ice without air, kg/m3: no snow is denser.
+/// Density of ice without air, kg/m3: no snow is denser.
 inline constexpr double ice_density = 917;
 
 /// Lame parameters at rest: mu = E/(2(1+nu)), lambda = E nu/((1+nu)(1-2nu)), Pa.

@@ -1,5 +1,5 @@
 #pragma once
-/// Which law a material follows.
+/// The law that a material follows.
 
 #include <cstdint>
 

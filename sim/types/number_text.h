@@ -7,7 +7,7 @@
 
 namespace neve::sim {
 
-/// With so many significant digits.
+/// Writes a number with so many significant digits.
 inline std::string number_text(double x, int digits = 3) {
   std::ostringstream out;
   out.imbue(std::locale::classic());

@@ -111,7 +111,7 @@ struct StartState {
                                      ///< or is no number; -1: all are at rest
 };
 
-/// Why a run had to stop. Numerical trouble is data, not an exception.
+/// Reason for which a run had to stop. Numerical trouble is data, not an exception.
 struct Divergence {
   std::size_t step = 0;
   double time = 0;
@@ -135,7 +135,7 @@ struct Divergence {
 };
 
 /// Rules that stop a run. The first two stop it even where rules are ignored: there is no number,
-/// or no place, to go on with.
+/// or no place, to continue with.
 inline constexpr std::array<std::string_view, 9> stop_rules{
     "not_finite",   "overflow",  "speed_cfl", "inverted", "J_P",
     "acoustic_cfl", "time_step", "energy",    "packed"};

@@ -1,6 +1,6 @@
 #pragma once
-/// Parameters of the time integration. Defaults are the paper's method where a study has not found
-/// a better one: docs/transfers.md and docs/time_step.md say which.
+/// Parameters of the time integration. Defaults are the paper's method where no sweep has found a
+/// better one: docs/transfers.md and docs/time_step.md say which.
 
 #include <algorithm>
 #include <vector>
@@ -19,8 +19,8 @@ enum class Advect { particle, pic };
 /// the paper.
 enum class ContactAt { particles, nodes };
 enum class TimeStep { adaptive, fixed };
-/// Reaction to a broken rule: end the run, go back and try with half the dt, or go on anyway while
-/// there are numbers to go on with.
+/// Reaction to a broken rule: end the run, go back and try with half the dt, or continue anyway
+/// while there are numbers to continue with.
 enum class OnDivergence { stop, retry, ignore };
 enum class Precision { single, real64 };  ///< written "float" and "double" in scenes
 
@@ -29,12 +29,12 @@ struct SolverSettings {
   /// m, of the cells that thresholds of snow were meant for; 0: of any. See threshold_cell.h.
   double threshold_cell = 0;
   Kernel kernel = Kernel::cubic;  ///< B-spline of the transfers
-  /// What moves the snow also strains it. The paper's `flip` moves particles by a velocity that the
-  /// grid does not see, and their places part from F.
+  /// The velocity that moves the snow also strains it. The paper's `flip` moves particles by a
+  /// velocity that the grid does not see, and their places part from F.
   Transfer transfer = Transfer::asflip;
   double flip_ratio = 0.95;         ///< the paper's alpha
   double flip_reference_dt = 5e-4;  ///< s; 0: alpha acts per step, as in the paper
-  /// Move particles with v_p (paper) or the grid's velocity; AFLIP and ASFLIP know themselves.
+  /// Velocity that moves particles: v_p (paper) or the grid's; AFLIP and ASFLIP know themselves.
   Advect advect = Advect::particle;
   /// ASFLIP: shares of a particle's own velocity that it moves with, compressed and separating, and
   /// J_E from which it separates.
@@ -62,9 +62,9 @@ struct SolverSettings {
   /// Stages to skip while debugging; the run then takes the staged driver, and its energy is not
   /// watched. Without rasterize the grid stays empty; explicit steps have no solve to skip.
   std::vector<Stage> bypass;
-  /// Of contact at particles in an explicit step, at least. They begin where the last step ended:
-  /// loads that stay are carried whole, and an impact, a press and a rebound come out as with a
-  /// hundred passes, within a percent. For verification; no scene key.
+  /// Least number of passes of contact at particles in an explicit step. They begin where the last
+  /// step ended: loads that stay are carried whole, and an impact, a press and a rebound come out
+  /// as with a hundred passes, within a percent. For verification; no scene key.
   int contact_passes = 2;
   /// kg; nodes of at most this mass rest and feel no force. For comparison with solvers that have
   /// such a rule; no scene key. Above 0 the run takes the staged driver.
