@@ -143,7 +143,7 @@ TEST(StickyFloor, StickyFloorBringsSnowToRest) {
   simulation.advance_to(1.2);
   const Summary end = simulation.summary();
   EXPECT_FALSE(simulation.divergence());
-  // As the reference finds. No rebound: what has come to rest lies lower than it was thrown from.
+  // The reference finds the same. The ball does not rebound: it ends lower than it was thrown from.
   verify_at_most({"contact", "snowball on a sticky floor", "rms speed after 1.2 s, m/s"}, 0.05,
                  std::sqrt(2 * end.kinetic_energy / end.mass));
   verify_at_most({"contact", "snowball on a sticky floor", "height of its centre after 1.2 s, m"},
@@ -225,7 +225,8 @@ TEST(SeveralSurfaces, FloorsInOnePlaceAreOne) {
   for (const shapes::Contact contact :
        {shapes::Contact::separate, shapes::Contact::slip, shapes::Contact::sticky})
     for (const double beta : {0.0, 1.0}) {
-      // In the first solution the bound of friction sticks or slides by rounding: there is none.
+      // In the first solution rounding decides whether the bound of friction sticks or slides: it
+      // is 0.
       const double friction = beta > 0 ? 0 : 0.5;
       const ParticleArrays one = fallen_on(1, contact, friction, beta);
       const ParticleArrays three = fallen_on(3, contact, friction, beta);
@@ -266,8 +267,8 @@ TEST(SeveralSurfaces, TilesThatMeetBearSnowAsOneFloorDoes) {
       return simulation.summary();
     };
     const Summary one = fallen_on_tiles(1), four = fallen_on_tiles(2);
-    // Where normals lean at the edges, particles lie another way: 7e-5 m at most in the mean of
-    // all.
+    // Normals lean at the edges of tiles and particles there lie differently: 7e-5 m at most in the
+    // mean of all.
     EXPECT_NEAR(four.centre_of_mass[1], one.centre_of_mass[1], 2e-4);
     // Both still ring, at 3 cm/s.
     EXPECT_LE(four.max_speed, 0.06);

@@ -175,7 +175,7 @@ TEST(Depth, DepthOfAQuickEdgeIsATenthOfACellWithPushOut) {
                 pushed = run_deep(scene, with_held_nodes(), true);
   EXPECT_FALSE(paper.has_diverged || pushed.has_diverged);
   verify_at_most({"depth in colliders", scene.name + ", push_out", "cells"}, 0.1, pushed.cells);
-  // Stated so that it can be read, and to know that there is something to push.
+  // The depth is stated so that it can be read, and to know that there is something to push.
   verify_at_most({"depth in colliders", scene.name + ", the paper's method", "cells"}, 0.5,
                  paper.cells);
   EXPECT_GT(paper.cells, 0.15);
@@ -330,7 +330,7 @@ TEST(SlidingBlock, SlidingBlockHasTheSameFrictionOnEveryFlatTop) {
   const double degrees = 30, mu = 0.4, t = degrees * M_PI / 180;
   const double exact = 9.81 * (std::sin(t) - mu * std::cos(t));
   for (const auto& [name, shape] : shapes) {
-    // As on planes: the bounce of the block on its own elasticity is what is left.
+    // The bounce of the block on its own elasticity is all that is left, as on planes.
     verify_near({"incline", "30°, mu = 0.4, on a " + name + ", FLIP, double", "acceleration, m/s²"},
                 exact, acceleration_on(shape, degrees, mu, shapes::Contact::separate), 1e-3);
   }

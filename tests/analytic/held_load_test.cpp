@@ -70,7 +70,7 @@ TEST(SeededContact, BodiesSeededOnASurfaceStayWhereTheyAre) {
   s.gravity.setZero();
   Simulation between(s, {Material{}}, {floor, plane(high, {0, -1, 0}, 0.5)}, p, 1);
   between.advance_to(0.2);
-  // Squeezed by a hundredth of a cell on each side it would store 3e-4 J.
+  // A block squeezed by a hundredth of a cell on each side would store 3e-4 J.
   verify_at_most({"seeded contact", "block between two plates", "elastic energy after 0.2 s, J"},
                  1e-6, between.summary().elastic_energy);
 }

@@ -54,7 +54,7 @@ double worst_closure(SolverSettings s, double youngs_modulus, std::size_t& cut_s
   return worst;
 }
 
-/// Whatever the solve leaves undone: forces are sums of momenta, right to the rounding of float.
+/// A solve may leave something undone: forces are sums of momenta, right to the rounding of float.
 TEST(SemiImplicitContact, MomentumClosesInEveryFrame) {
   for (const ContactAt contact_at : {ContactAt::particles, ContactAt::nodes})
     for (const double youngs_modulus : {1e5, 1e6, 1e7}) {
@@ -96,7 +96,7 @@ double energy_at_rest(Transfer transfer, shapes::Contact contact, double beta) {
   s.beta = beta;
   s.transfer = transfer;
   if (transfer == Transfer::mls) s.kernel = Kernel::quadratic;
-  // Further away than what is held where it was seeded: it arrives.
+  // The snow is further away than what is held where it was seeded: it arrives.
   ParticleArrays p = box_of_snow({-0.05, 0.008, -0.03}, {0.05, 0.088, 0.03}, 0.01);
   p.V0.assign(p.x.size(), 0.0);
   p.v.assign(p.x.size(), Vec3d(1, -1, 0));

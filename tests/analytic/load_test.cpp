@@ -36,13 +36,13 @@ SolverSettings load_settings(double beta, ContactAt contact_at) {
   return s;
 }
 
-/// Half a particle's spacing below the particles, where contact at particles lets them rest; nodes
-/// there are held as well.
+/// A floor half a particle's spacing below the particles, where contact at particles lets them
+/// rest; nodes there are held as well.
 shapes::Collider floor_below() {
   return plane({0, 1e-4, 0}, {0, 1, 0}, 0);
 }
 
-/// Pressed by 10 % of its height within 40 ms, and held there. @return J
+/// Returns the energy of a block pressed by 10 % of its height within 40 ms, and held there, J.
 double pressed_energy(double beta, ContactAt contact_at, double youngs_modulus) {
   SolverSettings s = load_settings(beta, contact_at);
   s.gravity.setZero();
@@ -116,8 +116,8 @@ TEST(Load, APistonTakesBackTheWorkThatItDid) {
     simulation.advance_to(0.195);
     const AdvanceReport report = simulation.advance_to(0.2);
     const EnergyAccount pressed = energy_account(simulation);
-    // Where the pressure is largest it is more than the force over the area: at the edges of the
-    // block, and at nodes, which press on a layer up to a cell thick.
+    // The largest pressure is more than the force over the area: it is at the edges of the block,
+    // and at nodes, which press on a layer up to a cell thick.
     for (const std::size_t k : {std::size_t(0), std::size_t(1)}) {
       const double mean = report.loads[k].impulse.norm() / report.seconds / (width * width);
       EXPECT_GT(simulation.summary().max_pressure[k], mean) << k;

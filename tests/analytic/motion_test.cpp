@@ -71,8 +71,8 @@ TEST(RigidRotation, RigidRotationKeepsShapeAndSpin) {
   const std::string line = "cube, one turn, APIC cubic, double";
   verify_at_most({"motion", line, "change of angular momentum / angular momentum"}, 1e-11,
                  std::abs(end.angular_momentum[1] / start.angular_momentum[1] - 1));
-  // Only what the centrifugal stretch stores and its ringing loses: rho (spin L)^2 / E = 3e-3.
-  // Swapped rows or columns in F or P lose the cube within a third of a turn.
+  // Energy differs only by what the centrifugal stretch stores and its ringing loses: rho (spin
+  // L)^2 / E = 3e-3. Swapped rows or columns in F or P lose the cube within a third of a turn.
   const double energy = (end.kinetic_energy + end.elastic_energy) / start.kinetic_energy;
   verify_near({"motion", line, "energy / start"}, 1, energy, 0.01);
   // The turn is behind by what the stretch adds to the moment of inertia.

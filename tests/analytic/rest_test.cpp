@@ -139,7 +139,7 @@ TEST(Rest, SnowRestsOnAPlateThatMoves) {
               end.momentum[0] / end.mass, 2e-3);
 }
 
-/// Between the floor and a wall that comes nearer: contact with both at once.
+/// Snow between the floor and a wall that comes nearer touches both at once.
 TEST(Rest, SnowInACornerTouchesBothSides) {
   const RestingPlace place = tilted_place(0.4, 0);
   shapes::Collider wall =

@@ -105,7 +105,7 @@ TEST(RigidProof, ASnowballTurnsAPlateThatHangs) {
   EXPECT_GT(got.kinetic, 0.05 * energy_before);
 }
 
-/// On snow that is held by its bed; the block is heavier than the snow below it, which packs.
+/// The snow is held by its bed; the block is heavier than the snow below it, which packs.
 TEST(RigidProof, ABlockOnASlopeOfSnowSlidesBeyondTheFrictionAngle) {
   for (const double degrees : {12.0, 24.0}) {
     const double a = degrees * std::numbers::pi / 180, mu = std::tan(18 * std::numbers::pi / 180);

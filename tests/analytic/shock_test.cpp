@@ -12,9 +12,9 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-/// What a shock leaves behind, from the conservation of mass and momentum across it:
-/// p = rho0 v^2 / (1 - s), with the pressure p of uniaxial compression to s. It runs through the
-/// snow at v / (1 - s).
+/// The state behind a shock, from the conservation of mass and momentum across it: p = rho0 v^2 /
+/// (1 - s), with the pressure p of uniaxial compression to s. The shock runs through the snow at v
+/// / (1 - s).
 struct Shock {
   double v, s, J_P, p;
   double speed() const { return v / (1 - s); }

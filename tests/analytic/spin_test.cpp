@@ -78,7 +78,7 @@ TEST(SpinningCube, SpinningCubeKeepsItsAngularMomentumNearlyWithAflipAndAsflip) 
       }
 }
 
-/// What a piece of snow in the air keeps of its turning in half a second.
+/// A piece of snow in the air keeps its spin for half a second; with FLIP it may lose some.
 TEST(SpinningBall, SpinningBallKeepsItsSpinWithAnyTransferButFlip) {
   for (const Transfer transfer :
        {Transfer::flip, Transfer::apic, Transfer::mls, Transfer::aflip, Transfer::asflip})

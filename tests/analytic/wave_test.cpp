@@ -104,7 +104,7 @@ TEST(FlipShare, FlipShareDampsWavesPerSecondNotPerStep) {
                    predicted_wave(wave).decay, decay, 1e-4);  // linear theory, as above
     }
   }
-  // By the theory 2.66, 2.56, 2.51 (FLIP's own share falls with dt) against 3.6, 7.0, 13.8.
+  // The theory gives 2.66, 2.56, 2.51 (FLIP's own share falls with dt) against 3.6, 7.0, 13.8.
   verify_near(
       {"flip_share", "flip_reference_dt = 0.5 ms, step cut to a quarter", "ratio of decays"}, 1,
       with_reference[2] / with_reference[0], 0.1);

@@ -22,7 +22,7 @@ TEST(ElasticBallsLong, BallsReboundWithoutDampingWhereTheGridMovesThem) {
 }
 
 TEST(ElasticBallsLong, BallsFallApartWithUndampedFlip) {
-  // Known of FLIP with alpha = 1: velocities that the grid does not see are never damped.
+  // FLIP with alpha = 1 is known for it: velocities that the grid does not see are never damped.
   check_that_balls_gain_nothing({.flip_ratio = 1});
 }
 

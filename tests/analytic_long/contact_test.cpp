@@ -125,11 +125,11 @@ TEST(RollingBallLong, ABallRollsTheBetterTheFinerItsCells) {
   }
 }
 
-/// By how the particles lie, from a tenth to two thirds of the spin at six cells. The ball is
+/// The ball gets a tenth to two thirds of the spin at six cells, by how its particles lie. It is
 /// pressed in by 0.07 cells, its outermost particles are up to half a cell uneven: it lies on a few
 /// of them, and friction, whose lever is mu R = 0.3 cells, has to tilt it over them. At twelve
-/// cells, with twice the lever, what is left is the resistance of a smooth surface, a twelfth of a
-/// cell: 0.89.
+/// cells, with twice the lever, the resistance of a smooth surface is left, a twelfth of a cell:
+/// 0.89.
 TEST(RollingBallLong, ABallAtLowFrictionSpinsUpTheBetterTheFinerItsCells) {
   const auto line = [](double cells, unsigned seed) {
     return "ball slipping down 20°, mu = 0.05, radius of " + in_digits(cells) + " cells, seed " +
@@ -150,8 +150,8 @@ TEST(RollingBallLong, ABallAtLowFrictionSpinsUpTheBetterTheFinerItsCells) {
   EXPECT_GT(fine.slipping_spin, coarse + 0.1);
 }
 
-/// What is left of a ball with a smooth surface is a resistance of a twelfth of a cell, where mu R
-/// is 0.3 cells (twelve cells: 0.89 with APIC).
+/// A ball with a smooth surface meets only a resistance of a twelfth of a cell, where mu R is 0.3
+/// cells (twelve cells: 0.89 with APIC).
 TEST(RollingBallLong, ABallWithASmoothSurfaceSpinsUp) {
   const std::string spin = "spin after 0.8 s / that of a rigid ball";
   for (const Transfer transfer :

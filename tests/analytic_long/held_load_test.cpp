@@ -70,7 +70,7 @@ double peak_of_boot(int passes) {
   return peak;
 }
 
-/// From scratch in every step, two passes had 0.78 of it.
+/// Two passes had 0.78 of the force when they began from scratch in every step.
 TEST(BootLong, ABootPressesAsWithManyPasses) {
   verify_ratio({"boot", "two passes, expected: 32", "largest force in a frame, N"},
                peak_of_boot(32), peak_of_boot(2), 0.03);

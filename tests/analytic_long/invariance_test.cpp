@@ -1,5 +1,5 @@
-/// What a run must not depend on: direction, place, motion of everything, frame rate, precision,
-/// units.
+/// Changes that a run must not depend on: direction, place, motion of everything, frame rate,
+/// precision, units.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -61,7 +61,7 @@ Pile fall(const World& w, unsigned seed) {
   Material snow;
   snow.density *= w.mass;
   snow.youngs_modulus *= w.mass * L;  // stress is density times speed squared
-  // From the centre of the block that holds the place, so that numbers stay as exact as here.
+  // Places count from the block that holds the ball, so that numbers stay as exact as here.
   const double block = 4 * s.cell_size;
   const Vec3i origin = (w.moved / block).array().floor().matrix().cast<int>();
   const Vec3d moved = w.moved - block * origin.cast<double>();

@@ -1,4 +1,4 @@
-/// What snow keeps for long: the pieces of a broken ball that lie for ten seconds.
+/// Rest of snow for long: the pieces of a broken ball lie for ten seconds.
 
 #include <algorithm>
 #include <numeric>

@@ -29,7 +29,7 @@ TEST(RestTable, SnowRestsAtEveryFractionAndTilt) {
         keep_number({"rest table", line, "its spread"}, held.spread);
         method.contact_at = ContactAt::particles;
         const Rest pressed = rest_on(floor, place, method);
-        // As in Rest: 0.15 cells is less than a third of the particles' spacing.
+        // The bound is that of Rest: 0.15 cells is less than a third of the particles' spacing.
         verify_near({"rest table", line, "gap by contact at particles, cells"}, 0, pressed.gap,
                     0.15);
         verify_at_most({"rest table", line, "its spread, at particles"}, 0.15, pressed.spread);
@@ -52,7 +52,7 @@ TEST(RestTable, TheGapShrinksWithTheCells) {
                                ", cells of " + in_digits(millimetres) + " mm";
       keep_number({"rest in finer cells", line, "gap, mm"}, rest.gap * millimetres);
       keep_number({"rest in finer cells", line, "its spread, mm"}, rest.spread * millimetres);
-      // As in Rest: less than a third of the particles' spacing at every h.
+      // The bound is that of Rest: less than a third of the particles' spacing at every h.
       if (is_at_particles) {
         EXPECT_NEAR(rest.gap, 0, 0.15) << line;
       }

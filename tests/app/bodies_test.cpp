@@ -276,7 +276,7 @@ TEST(Bodies, ACameraFollowsOne) {
       << "a plane has no middle";
 }
 
-/// Between two frames it goes on as it moves, as snow does.
+/// A body keeps its velocity between two frames, as snow does.
 TEST(Bodies, MotionVectorsAreTheirVelocities) {
   const scene::Scene scene = scene_with_body(ball_that("density = 900\nvelocity = [1, 0, 2]"));
   const auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(scene));
@@ -487,7 +487,7 @@ TEST(ComingAndGoing, ARunIsMadeAgainFromItsChanges) {
   timeline::Timeline again(scene, live.changes(), seeded, 1);
   ASSERT_TRUE(again.go_to(4 / 24.0));
   EXPECT_EQ(again.simulation().state_hash(), live.simulation().state_hash());
-  // And from a moment in between, which is read with the changes so far.
+  // The same holds from a moment in between, which is read with the changes so far.
   const timeline::Moment kept = timeline::to_moment([&] {
     output::Checkpoint file = output::parse_checkpoint(
         output::encode_checkpoint(timeline::to_checkpoint(then, "identity", "simd")));

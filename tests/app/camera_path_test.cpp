@@ -130,7 +130,7 @@ TEST(CameraPath, OrbitTurnsTheKeyframedCamera) {
   EXPECT_LT(distance(place(scene, 1).eye, {-3, 0, 0}), rounding);
 }
 
-/// Larger of the coordinates of a point in the picture, 1 at its border.
+/// Returns the larger of the coordinates of a point in the picture, 1 at its border.
 double reach_in_picture(const app::setup::CameraPlace& camera, double aspect, const Vec3d& point) {
   const Vec3d forward = (camera.target - camera.eye).normalized();
   const Vec3d right = forward.cross(Vec3d(0, 1, 0)).normalized(), up = right.cross(forward);

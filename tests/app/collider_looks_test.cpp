@@ -75,7 +75,7 @@ TEST_F(ColliderLooks, SurfacesAreWhereContactIsAtEveryTime) {
         const sim::Vec3d x = place_of(mesh.position[k]), n = place_of(mesh.normal[k]);
         EXPECT_NEAR(sim::shapes::signed_distance(scene.colliders[0], time, x), 0, 2e-6);
         EXPECT_NEAR(n.norm(), 1, 1e-5);
-        // Outward: a little along it is outside, but on edges just not inside.
+        // Normals point outward: a little along one is outside, but on edges just not inside.
         EXPECT_GT(sim::shapes::signed_distance(scene.colliders[0], time, x + 1e-3 * n), 5e-4);
       }
       // The middles of triangles too, but for the sagitta of 96 segments around.
@@ -93,7 +93,7 @@ TEST_F(ColliderLooks, AMeshIsDrawnAsTheRunHasReadIt) {
   const sim::shapes::HeldFiles files;
   const auto scene = scene_with("mesh = { file = \"box.obj\" }", "solid");
   const auto before = drawn(scene, 0).meshes[0].position;
-  // More of them than are kept of those that are not held.
+  // These are more meshes than are kept of those that are not held.
   for (int k = 0; k < 12; ++k)
     drawn(scene_with("mesh = { file = \"box.obj\", scale = 0." + std::to_string(k + 2) + " }",
                      "solid"),

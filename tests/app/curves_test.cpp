@@ -125,7 +125,7 @@ TEST(Curves, HaveTheSameBitsFromEveryMoment) {
     whole.keep();
   }
   for (int frame = 0; frame < 6; ++frame) {
-    // As a file has it: without its scene.
+    // A moment that a file holds has no scene.
     timeline::Moment moment = *whole.moments().find(frame / 24.0, 24);
     moment.scene = nullptr;
     Timeline again(scene, {}, seeded(scene), 1);
@@ -143,7 +143,7 @@ TEST(Curves, GoOnWhenAnotherParameterIsChanged) {
   const scene::Scene scene = falling(curves);
   Timeline run(scene, {}, seeded(scene), 1);
   ASSERT_TRUE(run.go_to(2 / 24.0));
-  // As a panel does: the scene of the start with one other number, and one of a curve.
+  // A panel gives the scene of the start with one other number, and one of a curve.
   scene::Scene edited = scene;
   edited.materials.front().youngs_modulus *= 0.5;
   edited.solver.gravity = {0, 0, 0};
@@ -382,7 +382,7 @@ TEST(Curves, OfStepsGrowWithTheCells) {
   scene.solver.flip_reference_dt = 0;
   scene::coarsen(scene, 3);
   EXPECT_NEAR(*scene.curves[1].keyframes[0].value, 0.9 * 0.9 * 0.9, 1e-11);
-  // And where a step would be longer than any may be, that is told.
+  // A step that would be longer than any may be is refused.
   scene =
       falling("[[curve]]\nparameter = \"solver.dt\"\nkeyframes = [{ time = 0, value = 0.5 }]\n");
   EXPECT_THROW(scene::coarsen(scene, 3), UsageError);

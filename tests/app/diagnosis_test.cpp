@@ -49,7 +49,7 @@ shape = { sphere = { center = [-0.9, 0.3, 0], radius = 0.1 } }
 velocity = [800, 0, 0]
 )";
 
-/// At rest again, beyond the snow, when it breaks.
+/// A collider that is at rest again, beyond the snow, when the snow breaks.
 constexpr const char* flash = R"(
 [[collider]]
 name = "flash"
@@ -200,7 +200,7 @@ app::scene::Scene scene_of(const Fault& fault) {
   return app::scene::read_scene_text(std::string(base) + fault.more, "fault.toml", {}, changes);
 }
 
-/// At most a second of the scene.
+/// Runs the scene for a second, or until it diverges.
 sim::Simulation run(const app::scene::Scene& scene, sim::ParticleArrays particles) {
   sim::Simulation simulation(scene.solver, scene.materials, app::scene::sim_colliders(scene),
                              particles);
@@ -317,7 +317,7 @@ TEST(Diagnosis, RubberThatHitsFasterThanItsSoundIsNamed) {
   EXPECT_NE(diagnosis_of("snow", 40).cause, app::health::Cause::shock);
 }
 
-/// Where no other cause shows, the body that the grid resolves least is named.
+/// The body that the grid resolves least is named if no other cause shows.
 TEST(Diagnosis, ABodyOfACellMakesEnergy) {
   const auto diagnosis_of = [](const std::string& radius) {
     const app::scene::Scene scene = app::scene::read_scene_text(

@@ -58,7 +58,7 @@ struct DustyMoment {
   std::unique_ptr<sim::Simulation> simulation;
 };
 
-/// After the impact, in cells of 2 cm.
+/// Returns the scene at 1/24 s, after the impact.
 DustyMoment after_dusty_impact(scene::Scene scene) {
   DustyMoment moment{std::move(scene), {}, nullptr};
   moment.seeded = setup::seed_scene(moment.scene);

@@ -1,4 +1,4 @@
-/// What a new run removes of an earlier one in its folder, and what it never touches.
+/// Files of an earlier run that a new one in its folder removes, and those that it never touches.
 
 #include "app/record/earlier.h"
 

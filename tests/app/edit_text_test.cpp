@@ -223,8 +223,8 @@ std::string other_value(const app::scene::FlatParam& param) {
 }
 
 /// Every parameter of every scene that comes with the program, one at a time and then all at once:
-/// the text reads as the scene with that value (edit_scene_text compares), and all that was there
-/// but that value is there still, line by line.
+/// the text reads as the scene with that value (edit_scene_text compares), and all the rest of it
+/// stays, line by line.
 TEST(EditText, EveryParameterOfEverySceneCanBeSaved) {
   int edits = 0;
   std::vector<fs::path> files;

@@ -115,7 +115,7 @@ TEST(Fast, StiffSlowSnowTakesSemiImplicitSteps) {
   })) << kept.sentence();
 }
 
-/// What is measured with cells four times as large is what --coarsen 4 makes of the settings.
+/// A setting is measured with cells four times as large, and told for those of the scene.
 TEST(Fast, SettingsThatGrowWithTheCellsAreGivenForThoseOfTheScene) {
   const std::string stiff = "youngs_modulus = 1.4e8";
   const forecast::FastLook look = forecast::fast_look(
@@ -213,7 +213,7 @@ TEST(Fast, AJobRecordsTheSettingsLikeThoseOfTheUserWhichWin) {
   EXPECT_EQ(job.overrides, Lines({"material.snow.max_hardening=7", "solver.acoustic_cfl=0.85"}));
   EXPECT_EQ(job.scene.solver.acoustic_cfl, 0.85);
   EXPECT_EQ(job.scene.materials[0].max_hardening, 7);
-  // So do those in a table.
+  // Settings of the user in a table win too.
   options.overrides = {"solver={ cell_size = 0.03, acoustic_cfl = 0.3 }"};
   EXPECT_EQ(run::make_job(options).scene.solver.acoustic_cfl, 0.3);
 }

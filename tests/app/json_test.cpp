@@ -20,7 +20,7 @@ TEST(Json, WholeNumbersAreReadOrRefused) {
   EXPECT_THROW(whole_number<std::size_t>(Json(-1)), std::runtime_error);
 }
 
-/// Objects of our files have a key for each picture.
+/// Objects of files of neve have a key for each picture.
 TEST(Json, ObjectsAreReadAsTheyAreWritten) {
   const Json json = parse_json(std::string_view(R"({"b": 1, "a": [1, {"c": null}], "b": 2})"));
   EXPECT_EQ(to_text(json, -1), R"({"b":2,"a":[1,{"c":null}]})") << "the last of two counts";

@@ -279,7 +279,7 @@ TEST(Slice, ArrowsKeepTheirDistanceInThePicture) {
   };
   for (const double pixels_per_metre : {300.0, 700.0, 5000.0})
     EXPECT_GE(distance(pixels_per_metre), 39.9) << pixels_per_metre;
-  // In metres no closer than nodes.
+  // In metres arrows are no closer than nodes.
   EXPECT_GT(distance(5000), 90);
 }
 

@@ -164,7 +164,7 @@ std::string named_with_start(const std::filesystem::path& file, const std::strin
   return std::string(mine).replace(start, mine.find('.', start) - start, other);
 }
 
-/// As one that holds links to the pictures of a movie.
+/// A temporary folder may hold links to the pictures of a movie, which must stay.
 TEST(Temporary, AnAbandonedFolderIsRemovedWithoutWhatItsLinksLeadTo) {
   const TemporaryFolder folder;
   folder.write("picture.png", "mine");

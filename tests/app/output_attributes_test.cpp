@@ -49,7 +49,7 @@ TEST_F(Attributes, AttributesAreThoseOfTheCurrentConfiguration) {
   EXPECT_TRUE(app::picture::attribute_values(scene, app::scene::ColorBy::snow, s).empty());
 }
 
-/// What p0 and pressure say of snow that yields to pressure alone is the same number.
+/// Snow that yields to pressure alone has the same number for p0 and for pressure.
 TEST_F(Attributes, PressureOfSnowThatPacksIsItsP0) {
   scene = app::scene::read_scene_text(
       "[[body]]\nshape = { sphere = { radius = 0.1 } }\n[material.snow]\nmodel = \"cam_clay\"\n"

@@ -26,7 +26,7 @@ shape = { sphere = { center = [0, 0.5, 0], radius = 0.1 } }
 shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
 )";
 
-/// Larger of the coordinates of a point in the picture, 1 at its border.
+/// Returns the larger of the coordinates of a point in the picture, 1 at its border.
 double reach(const app::scene::CameraSettings& camera, double aspect, const sim::Vec3d& point) {
   const sim::Vec3d forward = (*camera.target - *camera.eye).normalized();
   const sim::Vec3d right = forward.cross(camera.up).normalized();
@@ -48,8 +48,8 @@ TEST(AutomaticCamera, AutomaticCameraShowsTheStartAndTheLandingOfTheSnow) {
   EXPECT_GT(largest, 0.4);
 }
 
-/// Where the eye was among the snow, the next step towards it went further in: eye and target ended
-/// in one place, far away, and the pictures of such a run could not be drawn again.
+/// An eye among the snow went further in with the next step towards it: eye and target ended in one
+/// place, far away, and the pictures of such a run could not be drawn again.
 TEST(AutomaticCamera, AWideLensStaysOutsideTheSnow) {
   for (const char* fov : {"130", "150", "160", "170"})
     for (const char* orbit : {"", "orbit = 160\n"}) {
@@ -101,7 +101,7 @@ TEST(AutomaticCamera, ACameraThatFollowsABodyFramesIt) {
       "[1, 2, 4] } }\n",
       "follow.toml");
   app::setup::resolve(scene, 1000);
-  // Relative to the middle of the ball.
+  // The target is relative to the middle of the ball.
   EXPECT_LT(scene.camera->target->norm(), 0.1);
   EXPECT_LT(width_seen(*scene.camera, 16.0 / 9), 1.5);
   const app::setup::SeededScene seeded = app::setup::seed_scene(scene);
@@ -140,7 +140,7 @@ TEST(AutomaticCamera, ACameraThatFollowsAMeshFramesItWhereverTheOriginOfItsFileI
     EXPECT_LT((place.target - middle).norm(), 0.1);
     EXPECT_LT((picture::plane_of(scene, scene.views[0], seeded, snapshot).point - middle).norm(),
               0.01);
-    // Once a sink has taken it, they stay.
+    // Target and slice stay once a sink has taken the body.
     if (std::string(kind) == "collider") continue;
     snapshot.particles = {};
     EXPECT_EQ(picture::camera_place(scene, scene.views[1], seeded, snapshot).target, place.target);
@@ -298,7 +298,7 @@ TEST(DryRun, HandlesArePartOfTheScene) {
 
 TEST(AutomaticRange, AutomaticRangeOfSpeedReachesTheImpact) {
   const app::scene::Scene scene = app::scene::read_scene_text(drop, "drop.toml");
-  // From rest through half a metre: sqrt(2 g 0.5) = 3.13 m/s, rounded up.
+  // The ball falls from rest through half a metre: sqrt(2 g 0.5) = 3.13 m/s, rounded up.
   EXPECT_EQ(app::setup::automatic_range(scene, app::scene::ColorBy::speed, 10).max, 4);
   EXPECT_EQ(app::setup::automatic_range(scene, app::scene::ColorBy::speed, 10).min, 0);
 }
@@ -316,7 +316,7 @@ TEST(AutomaticRange, AutomaticRangeHoldsTheNeutralValue) {
   EXPECT_EQ(app::setup::automatic_range(scene, app::scene::ColorBy::id, 10).max, 9);
 }
 
-/// Of a ball that falls on a floor: speeds grow with the root of gravity.
+/// The speeds of a ball that falls on a floor grow with the root of gravity.
 TEST(AutomaticRange, AutomaticRangesKnowTheGravityOfACurve) {
   const auto scene_with = [](const std::string& more) {
     return app::scene::read_scene_text(drop + more, "drop.toml");

@@ -75,7 +75,7 @@ TEST_F(Movie, MovieOfTransparentPicturesHasAPlainBackground) {
   const auto green = [&](int x) {
     return int{image.pixels.at(static_cast<std::size_t>(3 * (8 * 32 + x) + 1))};
   };
-  // Lossy, and limited range.
+  // The movie is lossy, with a limited range.
   EXPECT_NEAR(green(4), 255, 6);
   EXPECT_NEAR(green(27), 0x4b, 6);
 }
@@ -116,7 +116,7 @@ TEST_F(Movie, MovieIsNotKeptWhenAPictureIsEmptyOrMissing) {
   }
 }
 
-/// How a file of a format begins, from byte `at`.
+/// The first bytes of a file of a format, and the place where they begin.
 std::pair<std::size_t, std::string> signature_of(app::output::MovieFormat format) {
   switch (format) {
     case app::output::MovieFormat::h264:
@@ -237,7 +237,7 @@ TEST(MovieWithoutFfmpeg, AMovieThatWasAskedForIsAnErrorBeforeThePictures) {
   const std::string no_encoder = problem(style, 24);
   style.format = app::output::MovieFormat::h264;
   EXPECT_EQ(problem(style, 24), "");
-  // Nobody named a format: the first that is there.
+  // Nobody named a format: the first one that is installed counts.
   folder.write("ffmpeg",
                "#!/bin/bash\necho ' V....D prores_ks   ProRes'; echo ' V....D gif   GIF'\n");
   const app::output::MovieStyle usual;

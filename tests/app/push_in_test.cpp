@@ -94,7 +94,7 @@ TEST(PushIn, TheMoveIsSlowAndEased) {
   }
 }
 
-/// A run that goes on reads the scene of its record.
+/// A run that continues reads the scene of its record.
 TEST(PushIn, TheResolvedSceneHasTheWholeMove) {
   const scene::Scene scene = resolved_fall("push_in = true");
   const std::string text = scene::write_scene(scene);
@@ -104,7 +104,7 @@ TEST(PushIn, TheResolvedSceneHasTheWholeMove) {
   EXPECT_EQ(scene::write_scene(again), text);
   for (const double time : {0.0, 0.7, 1.3, 1.9})
     EXPECT_EQ(camera_of(again, time).eye, camera_of(scene, time).eye) << time;
-  // What it is told to follow moves it.
+  // A camera that is told to follow something is moved by it, without keyframes.
   const std::vector<scene::Override> changes = scene::parse_overrides({"camera.follow=ball"});
   scene::Scene following = scene::read_scene_text(text, "again.toml", {}, changes);
   setup::reopen(following, changes);

@@ -328,7 +328,7 @@ TEST(SceneErrors, ShapesWithoutASizeAreRefused) {
     const std::string said = error_of(in_body("shape = { " + std::string(shape) + " }"));
     EXPECT_NE(said.find(" has no "), std::string::npos) << shape << ": " << said;
   }
-  // Given on the command line it is there.
+  // A size given on the command line is enough.
   const std::string text = in_body("shape = { sphere = {} }");
   const app::scene::Scene scene = app::scene::read_scene_text(
       text, "s.toml", {}, {app::scene::parse_override("body.1.shape.sphere.radius=0.3")});

@@ -68,7 +68,7 @@ TEST(Flat, FlatListHasEveryParameterOfTheSceneWithValueAndRange) {
   EXPECT_EQ(find(list, "view.close.clip").text(), "none");
 }
 
-/// Every leaf of params() that the scene can have is there once, in the same order.
+/// Every leaf of params() that the scene can have occurs once, in the same order.
 TEST(Flat, FlatListFollowsTheOrderOfTheDescription) {
   const std::string text = R"(
 [[body]]
@@ -136,7 +136,7 @@ TEST(Flat, FlatListMarksTheParametersThatMayChangeDuringARun) {
   EXPECT_TRUE(app::scene::concerns_simulation("collider.floor.friction"));
   EXPECT_FALSE(app::scene::concerns_simulation("collider.floor.style"));
   EXPECT_FALSE(app::scene::concerns_simulation("view.close.size"));
-  // Whole tables, and lists whose names differ.
+  // The same holds for whole tables, and for lists whose names differ.
   for (const char* table : {"solver", "dust", "material.snow", "collider.floor", "body", "seed"})
     EXPECT_TRUE(app::scene::concerns_simulation(table)) << table;
   EXPECT_EQ(app::scene::concern_of("limits"), app::scene::Concern::run);

@@ -93,7 +93,7 @@ class Perturb : public Walker<Perturb> {
   }
 
  private:
-  /// Between the bounds, with digits that only an exact round trip keeps.
+  /// Returns a number between the bounds, with digits that only an exact round trip keeps.
   double fraction(const app::scene::Valid& valid) {
     const double low = std::isfinite(valid.min) ? valid.min : 0;
     const double high = std::isfinite(valid.max) ? valid.max : low + 1;
@@ -277,7 +277,7 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   Perturb perturb("", count);
   app::scene::describe(perturb, scene);
   EXPECT_GT(count, 150) << "the visitor did not get everywhere";
-  // Put right what only holds together.
+  // Numbers that only hold together are put right.
   for (sim::shapes::Shape* shape :
        {&scene.bodies[5].shape, &scene.colliders[6].shape, &scene.sinks[0].shape}) {
     auto& torus = std::get<sim::shapes::Torus>(shape->form);
@@ -323,7 +323,7 @@ TEST_F(RoundTrip, RoundTripKeepsEveryParameterBitForBit) {
   for (const auto& [address, bits] : before) EXPECT_EQ(after.at(address), bits) << address;
   EXPECT_EQ(app::scene::write_scene(again), text);
 
-  // And the test would notice a parameter that was left alone.
+  // The test notices a parameter that was left alone.
   int same = 0;
   for (const auto& [address, bits] : before)
     same += unchanged.contains(address) && unchanged.at(address) == bits;

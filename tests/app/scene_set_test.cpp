@@ -122,7 +122,7 @@ TEST(Set, UnknownAddressesNameTheNearest) {
   EXPECT_EQ(override_error("hardening=5"),
             "--set hardening=5: error: unknown parameter \"hardening\"; did you mean "
             "\"material.snow.hardening\"?");
-  // Of another table, and misspelt.
+  // The suggestion for a misspelt name may be of another table.
   EXPECT_EQ(
       override_error("body.ball.densty=300"),
       "--set body.ball.densty=300: error: unknown parameter \"body.ball.densty\"; did you mean "

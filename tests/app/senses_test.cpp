@@ -1,4 +1,4 @@
-/// What a check says of numbers that mean something else than their writer thinks.
+/// Findings on numbers that mean something else than their writer thinks.
 
 #include <gtest/gtest.h>
 

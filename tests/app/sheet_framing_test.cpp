@@ -157,7 +157,7 @@ class Sheet {
     return found;
   }
 
-  /// Between the outermost columns with snow, as a share of the width of the tile.
+  /// Returns the distance of the outermost columns with snow, as a share of the width of the tile.
   double snow_width(const Tile& tile) const {
     std::vector<int> columns;  // words are above
     for (int y = tile.y + tile.height / 5; y < tile.y + tile.height; ++y)
@@ -178,7 +178,7 @@ class Sheet {
             static_cast<std::size_t>(x)) *
                static_cast<std::size_t>(image_.channels);
   }
-  /// In the shade, too: blue. Grounds are darker, colliders are grey.
+  /// True for snow, which is blue in the shade too. Grounds are darker, colliders are grey.
   bool is_snow(int x, int y) const {
     const std::uint8_t* rgb = at(x, y);
     return rgb[2] > 150 && rgb[2] - rgb[0] >= 4;
@@ -309,7 +309,7 @@ TEST_F(SheetFraming, NumbersOfFramesAreOfAllRuns) {
   EXPECT_THROW(framed("", "handles = [0, 4]"), scene::toml::SceneError);
 }
 
-/// What a person has written into the look is used for tiles of any size, and never lost.
+/// A camera that a person has written into the look is used for tiles of any size, and never lost.
 TEST(SharedLook, ACameraThatIsWrittenIntoItStays) {
   const test::TemporaryFolder folder;
   plan::SweepOptions options;

@@ -1,4 +1,4 @@
-/// Which parts of a scene its states depend on.
+/// Parts of a scene on which its states depend.
 
 #include <gtest/gtest.h>
 

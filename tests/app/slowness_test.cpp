@@ -1,4 +1,4 @@
-/// What a check says of scenes that take long for a reason.
+/// Findings on scenes that take long for a reason.
 
 #include "app/health/slowness.h"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr const char* slow_ball =
     "[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\n";
 
-/// What is known of a ball of 10 000 particles whose first frame takes so many steps, all of one
+/// Returns a check of a ball of 10 000 particles whose first frame takes so many steps, all of one
 /// limit, where sound asks for 417 of 1e-4 s.
 health::Check check_of(sim::DtLimit limit, double steps) {
   health::Check check;

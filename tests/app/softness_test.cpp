@@ -96,7 +96,7 @@ TEST(Softness, CrushedSnowRunsOnAndTheRunSaysSo) {
     const scene::Scene scene = impact_scene(impact, sim::Material{}.min_J_P);
     const sim::Simulation crushed = run_impact(scene);
     if (crushed.divergence()) {
-      // Too much of it, and not just an edge.
+      // Too much snow is crushed, and not just an edge.
       EXPECT_EQ(crushed.divergence()->rule, "packed");
       continue;
     }

@@ -1,4 +1,4 @@
-/// The foreseen cost of the runs of a study, and the order and threads that it gives them.
+/// The foreseen cost of the runs of a sweep, and the order and threads that it gives them.
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST_F(StudyForecasts, ARunWithoutACopyCostsAsTheNearestWithOne) {
   ASSERT_EQ(some.own.size(), 4u) << "efforts grow by less than a copy costs";
   for (const std::size_t k : {2u, 3u, 4u, 5u})
     EXPECT_EQ(std::count(some.own.begin(), some.own.end(), k), 0) << "corners have copies first";
-  // Beside a corner, and far from it.
+  // Forecasts are near the full ones beside a corner, and far from it.
   EXPECT_NEAR(some.work[2].expected / some.work[0].expected,
               whole.work[2].expected / whole.work[0].expected, 0.3);
   EXPECT_NEAR(some.work[5].expected / some.work[7].expected,

@@ -108,7 +108,7 @@ TEST(SurfaceTable, VerticesHaveTheAttributesOfParticlesAround) {
     const auto near = static_cast<std::size_t>(id[row]);
     const sim::Vec3d x(table.places()[3 * row], table.places()[3 * row + 1],
                        table.places()[3 * row + 2]);
-    // As far as the kernel's width, and a spacing to the outermost particles.
+    // The outermost particles are within the kernel's width and a spacing.
     EXPECT_LT((x - axes.scaled(moment.state->particles.x[near])).norm(),
               2 * particle_spacing(scene));
     for (int a = 0; a < 3; ++a)

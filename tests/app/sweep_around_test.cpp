@@ -87,7 +87,7 @@ TEST(ValuesAround, AllValuesAreValidAndThePresentOneIsAmongThem) {
         app::scene::read_scene_text(around_scene, "s.toml", "",
                                     {{param.address, app::scene::toml::toml_literal(value)}});
       } catch (const std::exception& error) {
-        // Only what belongs together may object.
+        // Only rules for values that belong together may object.
         EXPECT_EQ(std::string(error.what()).find("expected"), std::string::npos) << error.what();
       }
     }

@@ -161,7 +161,7 @@ TEST_F(ScriptedRuns, ARunCostsWhatItsResultHasTaken) {
   status.attempts = 1;
   app::sweep::store::write_status(folder_of(0), status);
   options_.retry_failed = {app::sweep::store::RunState::failed};
-  // Who looks while it is made finds no result.
+  // A command that reads the status while the run is made finds no result.
   run("grep -q '\"running\"' status.json || sleep 0.2\ncp status.json seen\nexit 3\n", {0});
   status = app::sweep::store::read_status(folder_of(0));
   EXPECT_EQ(status.attempts, 2);

@@ -55,7 +55,7 @@ TEST(Statistics, TwoPointsDifferBeyondWelchsInterval) {
   // Equal variances of four values each: t of 6 degrees, 2.446912, times sqrt(2 / 4).
   EXPECT_FALSE(differ(point(0, 1), point(1.730, 1)));
   EXPECT_TRUE(differ(point(0, 1), point(1.731, 1)));
-  // Only one varies: t of 3 degrees, 3.182446, times sqrt(1 / 4).
+  // Only one point varies: t of 3 degrees, 3.182446, times sqrt(1 / 4).
   EXPECT_FALSE(differ(point(0, 0), point(-1.591, 1)));
   EXPECT_TRUE(differ(point(0, 0), point(-1.592, 1)));
   // Variances of 1 and 9, three and five values: 5.455 degrees, t = 2.507 by interpolating tables.
@@ -229,7 +229,7 @@ TEST(Noise, ATileSaysWhatIsPredictedAndWhichIntervalsOverlap) {
   EXPECT_TRUE(seals.key[0].text.starts_with("all tiles are too close to call: "));
   const sheet::Seals apart = sheet::seals_of(study.manifest, study.results,
                                              {predictions[0], prediction_of(0.6), predictions[2]});
-  // What a stranger asks of each mark on the tiles: letters, white, blue and yellow.
+  // The key explains each mark on the tiles: letters, white, blue and yellow.
   const auto explained = [](const sheet::Seals& of, sheet::KeyLine::Mark mark) {
     const auto found = std::find_if(of.key.begin(), of.key.end(),
                                     [&](const sheet::KeyLine& line) { return line.mark == mark; });

@@ -365,7 +365,7 @@ TEST_F(SweepFileTest, RangesOfOtherProgramsAndComponentsAreExplained) {
     }
     return "";
   };
-  // With the ends that were typed.
+  // The hint repeats the ends that were typed.
   for (const char* range : {"2.5:1e2:3", "linspace(2.5,1e2,3)", "range(2.5,1e2)", "2.5..1e2"})
     EXPECT_TRUE(hint("material.snow.hardening=" + std::string(range))
                     .starts_with("for a range write { linspace = [2.5, 1e2], num = 3 }"))
@@ -417,7 +417,7 @@ TEST(SweepLabels, LabelsHaveTheFewestWordsThatDiffer) {
   EXPECT_EQ(app::sweep::plan::value_text("48000"), "48000");
   EXPECT_EQ(app::sweep::plan::value_text("140000"), "1.4e5");
   EXPECT_EQ(app::sweep::plan::value_text("-1000000"), "-1e6");
-  // As written, so that runs that differ are called differently.
+  // These values stay in full, so that runs that differ have different names.
   EXPECT_EQ(app::sweep::plan::value_text("20240101"), "20240101");
   EXPECT_EQ(app::sweep::plan::value_text("1400001"), "1400001");
   EXPECT_EQ(app::sweep::plan::value_text("400.0001"), "400.0001");

@@ -67,7 +67,7 @@ TEST(Metrics, SnowHasBrokenOnceAHundredthOfItsLargestPieceIsApart) {
   EXPECT_EQ(app::record::has_broken(first, last), true);
   last.largest_fragment = 0;
   EXPECT_FALSE(app::record::has_broken(first, last).has_value()) << "a sink has taken all of it";
-  // What an emitter adds breaks nothing, and what a sink takes cannot be told from what came off.
+  // Snow that an emitter adds breaks nothing; nothing tells what a sink took from what came off.
   first = {}, last = {};
   first.largest_fragment = 1;
   first.particles = 1000;
@@ -150,7 +150,7 @@ shape = { box = { center = [0, 0.25, 0], size = [0.5, 0.5, 0.5] } }
   EXPECT_EQ(measured(of_sand).fragments, 2u);
 }
 
-/// Of frames that have sand and no snow any more, too.
+/// Frames that have sand and no snow any more have no such numbers either.
 TEST(Metrics, OfNoSnowAreNoNumbersInRunJson) {
   app::record::FrameRecord frame;
   frame.summary.particles = 7;
@@ -468,7 +468,7 @@ TEST(RunResults, FramesOfKilledRunsHaveTheirPictures) {
   app::sweep::store::write_status(folder.path() / "runs/0000", status);
   EXPECT_EQ(app::sweep::store::read_result(folder.path(), m.runs[0], m.view).frames,
             (std::vector<int>{0, 1}));
-  // Once it is to be drawn otherwise, they are pictures of the drawing before.
+  // A run that is to be drawn otherwise has pictures of the drawing before, which do not count.
   status.state = app::sweep::store::RunState::pending;
   app::sweep::store::write_status(folder.path() / "runs/0000", status);
   EXPECT_TRUE(app::sweep::store::read_result(folder.path(), m.runs[0], m.view).frames.empty());
@@ -536,7 +536,7 @@ TEST(SweepReport, SweepReportKeepsParametersAsTheyWereWritten) {
   EXPECT_NE(html.find("\"texts\":{\"1\":\"1.40e5\"}"), std::string::npos);
 }
 
-/// Those that are interrupted or in progress, too, which are no failures.
+/// Runs that are interrupted or in progress, which are no failures, have none either.
 TEST(SweepReport, SweepReportHasNoMetricsOfRunsThatDidNotEnd) {
   const app::sweep::store::Manifest m = manifest_of({2});
   std::vector<app::sweep::store::RunResult> results(2);
@@ -570,7 +570,7 @@ TEST(Stars, StarsStayWithTheirRunWhenTheSweepHasOthers) {
   const Manifest before = sweep_over({"0.3", "0.6", "0.9"}, "x");
   write_marks(folder.path(), before, {{{1, {true, "wet"}}, {2, {true, ""}}}, {}});
   for (const std::string kind : {"x", "another build "}) {
-    // It grows: what was run 1 is run 2. Of the run that it has no more the mark is kept and named.
+    // The sweep grows: run 1 becomes run 2. The mark of a run that it has no more is named.
     const Manifest after = sweep_over({"0.3", "0.45", "0.6"}, kind);
     const KeptMarks kept = read_marks(folder.path(), after);
     ASSERT_EQ(kept.marks.size(), 1u);
@@ -686,7 +686,7 @@ TEST(RunWarnings, WarningsAreReadFromRunJsonAndCountedInTableAndReport) {
   EXPECT_EQ(rows[2][column], "0");
   const std::string html = app::sweep::sheet::report_html(
       "out", m, results, app::sweep::sheet::layout_sheet(m, false, 8192), {});
-  // As script_json writes "<".
+  // The "<" is escaped by script_json.
   EXPECT_NE(html.find("\"warnings\":[\"CFL \\u003c 4\",\"odd\"]"), std::string::npos);
 }
 

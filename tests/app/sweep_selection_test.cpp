@@ -1,4 +1,4 @@
-/// Which runs are meant, and how job arrays take them.
+/// Selections of runs of a sweep, and job arrays that take them.
 
 #include "app/sweep/plan/selection.h"
 

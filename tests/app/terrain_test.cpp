@@ -64,7 +64,7 @@ TEST_F(TerrainScene, ACoverLiesWhereItsTerrainIs) {
   const sim::shapes::Solid cover(scene.bodies[0].shape);
   const sim::Vec3d middle = cover.center() + cover.inner_point();
   const sim::shapes::Surface ground = sim::shapes::surface_at(scene.colliders[0], 0, middle);
-  // Half of the depth above the ground, and lifted by the y of its centre.
+  // The middle is half of the depth above the ground, and lifted by the y of its centre.
   EXPECT_NEAR(ground.distance, (0.1 + 0.1) * ground.normal.y(), 1e-12);
 }
 

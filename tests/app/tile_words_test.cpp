@@ -10,7 +10,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// A study of three parameters.
+/// A sweep of three parameters.
 store::Manifest study_of(const std::vector<std::vector<const char*>>& values) {
   store::Manifest m;
   m.tile_label = "differences";

@@ -108,7 +108,7 @@ std::uint64_t hash_after(int frames, const scene::Scene& scene,
   return run.simulation().state_hash();
 }
 
-/// As a process writes it, and the next one reads it.
+/// Returns the moment that one process writes and the next one reads.
 Moment through_a_file(const Timeline& timeline) {
   output::Checkpoint checkpoint = output::parse_checkpoint(
       output::encode_checkpoint(timeline::to_checkpoint(timeline.moment(), "identity", "simd")));
@@ -204,7 +204,7 @@ TEST(Timeline, ContinuesFromAMomentAtAnyStep) {
     while (run->timeline.here().frame < 3) {
       run->stop_after = length;
       run->timeline.advance_frame();
-      // As a process that is interrupted, and the one that resumes.
+      // A process is interrupted here, and the next one resumes.
       auto next = std::make_unique<Counted>(scene, session.changes);
       next->timeline.restore(through_a_file(run->timeline));
       EXPECT_EQ(next->timeline.here().advance.steps, run->timeline.here().advance.steps);
@@ -247,14 +247,14 @@ keyframes = [{ time = 0, value = 1.4e5 }, { time = 0.16, value = 8e5 }]
     const Moment left = run->timeline.moment();
     EXPECT_EQ(left.state, before.state) << frame;
     EXPECT_EQ(left.advance.steps, before.advance.steps) << frame;
-    // As a process that is interrupted, and the one that resumes.
+    // A process is interrupted here, and the next one resumes.
     auto next = std::make_unique<Counted>(scene);
     next->timeline.restore(through_a_file(run->timeline));
     run = std::move(next);
     ASSERT_TRUE(run->timeline.advance_frame());
   }
   EXPECT_EQ(run->simulation().state_hash(), whole.simulation().state_hash());
-  // So does a time between the end of a frame and that of its next step.
+  // A time between the end of a frame and that of its next step leads to the same state.
   Counted between(scene);
   for (int frame = 1; frame <= 3; ++frame) {
     ASSERT_TRUE(between.timeline.go_to((frame - 1) / 24.0 + 1e-7));
@@ -373,7 +373,7 @@ shape = { plane = {} }
                                 "s.toml");
 }
 
-/// What a person changes in steps of the window is made again by the run of its list.
+/// Changes that a person makes in steps of the window are made again by the run of their list.
 TEST(Timeline, AChangeInsideAFrameThatGoesBackWaitsForItsEnd) {
   const scene::Scene scene = scene_that_goes_back();
   const auto seeded = std::make_shared<const setup::SeededScene>(setup::seed_scene(scene));
@@ -470,14 +470,14 @@ TEST(Timeline, TakesNoStepToAMomentThatIsKept) {
     EXPECT_EQ(run.timeline.here().history.size(), static_cast<std::size_t>(frame) + 1);
   }
   EXPECT_EQ(run.steps, before);
-  // From the nearest one before a time it takes the steps that are missing.
+  // The timeline takes the steps that are missing from the nearest moment before a time.
   ASSERT_TRUE(run.timeline.go_to(2.5 / 24));
   EXPECT_GT(run.steps, before);
   EXPECT_EQ(run.timeline.here().frame, 2);
-  // A run that takes another way has none of the moments after it.
+  // A run that forks has none of the moments after it.
   run.timeline.fork();
   EXPECT_EQ(run.timeline.moments().frames(), (std::vector<int>{0, 1, 2}));
-  // How long the run is meant to be is no matter of one of its moments.
+  // The planned length of the run belongs to none of its moments.
   scene::Scene longer = *run.timeline.here().scene;
   longer.frames = 99;
   run.timeline.change(longer);

@@ -92,7 +92,7 @@ particles = { color_by = "speed", range = [0, 1] }
 size = [1280, 720]
 )";
 
-/// Deterministic: the same mutations on every machine.
+/// Makes the same mutations on every machine.
 class Mutator {
  public:
   std::string operator()(std::string text) {

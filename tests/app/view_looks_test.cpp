@@ -257,7 +257,7 @@ TEST(Mosaic, MosaicIsAsWideAsTheOutput) {
   EXPECT_EQ(layout.tiles[1].y, layout.tiles[0].y);
 }
 
-/// What comes in the middle of a film, as a rule that is ignored, must not change the height.
+/// A line that comes in the middle of a film, as of an ignored rule, must not change the height.
 TEST(Mosaic, ItsHeightIsKnownBeforeTheRun) {
   scene::Scene scene = scene_with("");
   scene.title.clear();

@@ -101,7 +101,7 @@ TEST(BenchCase, BenchCaseIsTheCommonCase) {
   EXPECT_EQ(packed.particles.x.size(), 97336u);
   EXPECT_EQ(app::bench::packed_cells_a_side(97336), 23);
   EXPECT_EQ(app::bench::packed_cells_a_side(0), 1);
-  // As much comes as goes.
+  // The stream gains as many particles as it loses.
   const app::bench::BenchCase stream =
       app::bench::stream_case(12, app::bench::BenchMethod::flip_cubic, true);
   sim::Simulation flowing(stream.settings, {stream.material}, {}, stream.particles, 1,

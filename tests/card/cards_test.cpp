@@ -173,7 +173,7 @@ keyframes = [{ time = 0, value = 2e4 }, { time = 1, value = 3e4 }]
   EXPECT_THROW(stiffness_with("material.snow.youngs_modulus=1e6"), UsageError);
 }
 
-/// What is asked for counts, also where the run of the picture has changed it on its way.
+/// Settings that are asked for count, also where the run of the picture has changed them later.
 TEST_F(CardSubjects, OfAPictureHaveWhatIsSetAndOtherwiseWhatItsRunChanged) {
   neve::app::record::PictureRecord record;
   record.scene = neve::app::scene::write_scene(
@@ -210,7 +210,7 @@ TEST(Cards, AnExperimentThatDivergesSaysSo) {
   const Experiment pressed = press(subject), torn = tear(subject), sheared = shear(subject);
   EXPECT_NE(pressed.failure.find("diverged"), std::string::npos) << pressed.failure;
   EXPECT_FALSE(pressed.shown.particles.x.empty()) << "it has a picture all the same";
-  // What did not end is no verdict.
+  // Experiments that did not end give no verdict.
   for (const Experiment& stopped : {drop(subject), column(subject), pressed, torn, sheared}) {
     ASSERT_NE(stopped.failure, "");
     EXPECT_TRUE(stopped.words.empty()) << stopped.words.front();

@@ -57,8 +57,8 @@ TEST(CardPress, WhatYieldsAtOnceHasASlopeToo) {
   EXPECT_FALSE(pressed.measures.front().formula);
 }
 
-/// Known when the stress has fallen behind that of the law without yielding by 3 %: after theta_c,
-/// by what it takes to fall so far, and by a sample of the plate, each at most 0.07 of it.
+/// Snow has yielded when its stress is behind that of the law without yielding by 3 %: after
+/// theta_c, by what it takes to fall so far, and by a sample of the plate, each at most 0.07 of it.
 TEST(CardPress, SnowYieldsAtItsCriticalCompression) {
   for (const Preset preset : {Preset::paper, Preset::powder, Preset::wet}) {
     const Material m = preset_snow(preset);
@@ -66,7 +66,7 @@ TEST(CardPress, SnowYieldsAtItsCriticalCompression) {
   }
 }
 
-/// By the strain of the snow in the middle: a hundredth more of it is a tenth more stress.
+/// The stress is at the strain of the snow in the middle: a hundredth more is a tenth more stress.
 TEST(CardPress, ThePressFollowsTheLawToAFifth) {
   for (const Preset preset : {Preset::paper, Preset::powder, Preset::packed}) {
     const Material m = preset_snow(preset);
@@ -134,7 +134,7 @@ TEST(CardShear, ShearedSandHasTheFrictionOfItsAngle) {
                 0.05);
 }
 
-/// Whatever holds the snow, and for soft laws too, whose stress is no line.
+/// The pressure is right for any transfer and contact, and for soft laws, whose stress is no line.
 TEST(CardShear, TheBlockIsPressedByFiveHundredPascal) {
   using neve::sim::ContactAt, neve::sim::Kernel, neve::sim::Transfer;
   Material m = preset_snow(Preset::wet, neve::sim::laws::model::neo_hookean);
@@ -161,7 +161,7 @@ TEST(CardShear, SnowThatYieldsBeforeIsPressedOn) {
     EXPECT_NEAR(value(shear(subject_of(law)), "pressure") / 500, 1, 0.12) << law.friction_angle;
 }
 
-/// What bears less at 5 % says so, and has no friction once it does not press any more.
+/// Snow that bears less at 5 % says so, and has no friction once it does not press any more.
 TEST(CardShear, SnowTooWeakForThePressureSaysUnderWhich) {
   Material weak = preset_snow(Preset::paper);
   weak.critical_compression = weak.critical_stretch = 5e-4;

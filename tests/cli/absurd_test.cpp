@@ -1,4 +1,4 @@
-/// Scenes and sweeps that ask for more than there is: refused before anything is there.
+/// Scenes and sweeps that ask for more than there is: refused before anything exists.
 
 #include "tests/support/costly_cli.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 class Absurd : public CostlyCli {
  protected:
-  /// Whether it ends with 8, within 1 s and 256 MiB.
+  /// True where the command ends with 8, within 1 s and 256 MiB.
   bool is_refused(const std::string& arguments) {
     const Cost cost = cost_of(arguments);
     const std::string said = read_text(folder / "said").substr(0, 300);

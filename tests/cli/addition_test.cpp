@@ -97,7 +97,7 @@ views = ["slice", "close"]
     const auto refused = render({"b", "--view", "close", "--no-movie"}, app::exit_invalid_scene);
     EXPECT_TRUE(contains(refused.errors, "b/run.json (its scene):")) << refused.errors;
   }
-  // Without a name those that the folder has, and no others.
+  // Without --view the views are those that the folder has, and no others.
   render({"scene.toml", "--view", "close", "--out", "c", "--no-movie"});
   render({"c", "--size", "32x32", "--out", "d", "--no-movie"});
   EXPECT_EQ(json_of("d/run.json")["views"], app::Json{"close"});
@@ -126,7 +126,7 @@ TEST_F(Addition, AFilmInAnotherFormatIsMadeFromThePictures) {
   EXPECT_TRUE(contains(more.errors, "nothing to draw")) << more.errors;
   EXPECT_TRUE(exists("a/particles.gif"));
   EXPECT_TRUE(exists("a/particles.webp"));
-  // The same film in another quality would replace the one that is there.
+  // The same film in another quality would replace the existing one.
   const auto other = render({"a", "--movie", "gif", "--movie-fps", "12"}, 2);
   EXPECT_TRUE(contains(other.errors, "it would replace particles.gif; add --replace"))
       << other.errors;
@@ -329,7 +329,7 @@ TEST_F(Addition, AnotherLengthOfARunIsThatOfItsScene) {
   EXPECT_TRUE(exists("a/exports/csv/0005.csv"));
 }
 
-/// As those of its scene do.
+/// Later frames of a run start as later frames of its scene do.
 TEST_F(Addition, LaterFramesOfARunKnowWhatWasBeforeThem) {
   render({"scene.toml", "--out", "a", "--no-movie"});
   render({"scene.toml", "--frames", "2-3", "--out", "b", "--no-movie"});
@@ -384,7 +384,7 @@ TEST_F(Addition, ExportsOfARunStayWhenAViewIsAdded) {
   const auto refused =
       render({"scene.toml", "--out", "a", "--no-movie", "--set", "export.mesh.scale=2"}, 2);
   EXPECT_TRUE(contains(refused.errors, "other exports")) << refused.errors;
-  // What goes is not listed.
+  // Files that --replace removes are not listed.
   render({"scene.toml", "--out", "a", "--no-movie", "--set", "export.mesh.every=2", "--replace"});
   for (const app::Json& file : json_of("a/run.json")["exports"][0]["files"])
     EXPECT_EQ(file["number"].get<int>() % 2, 0) << file.dump();
@@ -405,7 +405,7 @@ TEST_F(Addition, AnotherDrawingOfAnExtendedRunHasAllOfItsFrames) {
   EXPECT_EQ(hashes("c").size(), 5u);
 }
 
-/// By its own numbers the frames of a run were others, or none: frame 0 had the state of frame 1.
+/// A run under its own numbers had other frames, or none: frame 0 had the state of frame 1.
 TEST_F(Addition, FramesOfARunKeepTheirStatesUnderOtherNumbers) {
   render({"scene.toml", "--out", "a", "--no-movie"});
   const auto before = hashes("a");
@@ -435,7 +435,7 @@ TEST_F(Addition, FramesOfOtherNumbersAreNotMixedWithThoseThatAreThere) {
     const auto added = render({"scene.toml", "--set", change, "--out", "a", "--view", "smoke"}, 2);
     EXPECT_TRUE(contains(added.errors, "a has frames from 0 on, and these begin with ")) << change;
     EXPECT_TRUE(contains(added.errors, "add --replace, or choose another folder with --out"));
-    // In its own folder a run would lose what it has besides its pictures.
+    // A run that replaces itself in its own folder would lose what it has besides its pictures.
     const auto own = render({"a", "--set", change, "--view", "smoke", "--replace"}, 2);
     EXPECT_TRUE(contains(own.errors, "; choose another folder with --out")) << own.errors;
   }
@@ -444,7 +444,7 @@ TEST_F(Addition, FramesOfOtherNumbersAreNotMixedWithThoseThatAreThere) {
   EXPECT_EQ(hashes("a").begin()->first, 2);
   EXPECT_EQ(hashes("a").size(), 5u);
   expect_whole("a");
-  // Neither are the files of an export.
+  // Files of an export are not replaced either.
   const std::vector<std::string> exported{"export", "scene.toml", "--format", "csv", "--out", "e"};
   EXPECT_EQ(neve(exported).exit_code, 0);
   const std::string first = read_text(folder / "e/csv/0000.csv");
@@ -558,7 +558,7 @@ TEST_F(Addition, AFinishedRunIsFinishedAgainOnceItsPicturesAreDrawn) {
   expect_whole("a");
 }
 
-/// What it was to replace was gone before it was told that it cannot be written.
+/// Pictures that were to be replaced were gone before it was told that they cannot be written.
 TEST_F(Addition, ALinkInThePlaceOfAViewCostsNoPicture) {
   render({"scene.toml", "--out", "a", "--no-movie"});
   render({"a", "--view", "smoke", "--no-movie"});
@@ -712,7 +712,7 @@ TEST_F(Addition, ARunWithAMosaicWithoutACaptionIsContinued) {
   EXPECT_TRUE(pictures("a/both") == pictures("whole/both"));
 }
 
-/// What a run consists of is replaced by commands that draw the run, by no other.
+/// Files of a run are replaced by commands that draw the run, and by no other.
 TEST_F(Addition, OtherOutputsDoNotReplaceItsFiles) {
   render({"scene.toml", "--out", "a", "--no-movie"});
   const std::string record = read_text(folder / "a/run.json");
@@ -766,7 +766,7 @@ TEST_F(Addition, AnInterruptedDrawingOfAWholeRunIsFinishedByItsCommand) {
   expect_whole("a");
 }
 
-/// What was simulated is known, drawn or not.
+/// The record keeps all frames that were simulated, drawn or not.
 TEST_F(Addition, ADrawingThatFailsKeepsTheRecordsOfTheFrames) {
   render({"scene.toml", "--out", "a", "--no-movie"});
   const auto before = hashes("a");

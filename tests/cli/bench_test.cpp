@@ -113,7 +113,7 @@ TEST_F(Cli, BenchRenderNamesWhatScriptsDependOn) {
     ASSERT_TRUE(rows.contains(name)) << name;
     EXPECT_EQ(rows[name]["unit"], "ms");
   }
-  // So few are not many layers of the slab: one more or less is a sixth of them.
+  // The slab has few layers for so few particles: one more or less is a sixth of them.
   EXPECT_NEAR(rows["particles_4k"]["particles"].get<double>(), 4000, 700);
   EXPECT_EQ(rows["particles_4k"]["threads"], 2);
   EXPECT_GT(rows["particles_300k"]["median"], rows["spheres_300k_by_cpu"]["median"]);

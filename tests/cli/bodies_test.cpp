@@ -116,7 +116,7 @@ size = [64, 36]
   }
 }
 
-/// Whatever kills the run, and in pictures, plots and the stage too.
+/// A run that is killed and resumed has the same bodies in pictures, plots and the stage too.
 TEST_F(Bodies, KilledAndResumedTheyAreWhereTheyWere) {
   ASSERT_EQ(render({"scene.toml", "--out", "whole"}).exit_code, 0);
   EXPECT_EQ(kill_and_resume(folder / "scene.toml", folder / "parts", {4, 0.6, 7}), 4);
@@ -150,7 +150,7 @@ TEST_F(Bodies, AStageThatARunGetsLaterHasAllTheirPlaces) {
   EXPECT_EQ(json_of("later/run.json")["exports"], json_of("whole/run.json")["exports"]);
 }
 
-/// Nor does the scene alone say where colliders are that follow a curve, wait, or were changed.
+/// The scene alone does not say where colliders are that follow a curve, wait, or were changed.
 TEST_F(Bodies, AStageThatARunGetsLaterHasPlacesThatTheSceneDoesNotSay) {
   const std::string plain =
       std::string(tiny_scene) +
@@ -230,7 +230,7 @@ TEST_F(Bodies, TheStageHasThemAtFramesWithoutAFileToo) {
   EXPECT_EQ(movements("some"), movements("all"));
   EXPECT_EQ(read_text(folder / "parts/exports/usda.usda"),
             read_text(folder / "some/exports/usda.usda"));
-  // So does an export of times.
+  // The stage of an export of times has the same movements.
   const auto result = neve({"export", "scene.toml", "--format", "usda", "--at",
                             "0,0.16666666666666666", "--out", "times", "--quiet"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;

@@ -9,7 +9,7 @@ namespace {
 
 class BuildOrigin : public Cli {
  protected:
-  /// What cmake/WriteBuildOrigin.cmake writes for the folder `checkout`.
+  /// Returns the source that cmake/WriteBuildOrigin.cmake writes for the folder `checkout`.
   std::string origin() {
     const auto cmake = app::output::find_program("cmake");
     const auto result = app::output::run_process(

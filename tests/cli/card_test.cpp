@@ -68,7 +68,7 @@ TEST_F(CardCommand, AnotherCardIsReplacedOnlyWhenAskedFor) {
             "--out\n");
   EXPECT_EQ(read_text(folder / "out/quick/card.png"), first);
   EXPECT_EQ(read_text(folder / "out/quick/card.json"), numbers);
-  // Made again it loses nothing.
+  // A card that is made again loses nothing.
   EXPECT_EQ(card({}).exit_code, 0);
   EXPECT_EQ(read_text(folder / "out/quick/card.png"), first);
   ASSERT_EQ(card({"--set", "material.snow.hardening=6", "--replace"}).exit_code, 0);

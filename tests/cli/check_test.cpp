@@ -186,7 +186,7 @@ TEST_F(Check, CheckNamesEachMistake) {
 TEST_F(Check, AdaptiveStepsThatCannotHoldAreAnError) {
   EXPECT_EQ(findings(scene("acoustic_cfl = 20\nmax_dt = 0.01", floor_plane), 9).at(0),
             "error solver.acoustic_cfl");
-  // As --fast has it.
+  // The value that --fast sets is no finding.
   EXPECT_EQ(findings(scene("acoustic_cfl = 0.85", floor_plane)), Findings{});
   // The limit is a number of cells, whatever their size.
   folder.write("scene.toml", scene("acoustic_cfl = 20\nmax_dt = 0.01", floor_plane));
@@ -194,8 +194,8 @@ TEST_F(Check, AdaptiveStepsThatCannotHoldAreAnError) {
   EXPECT_TRUE(contains(coarse.output, "solver.acoustic_cfl = 0.5 holds")) << coarse.output;
 }
 
-/// An emitter has no particle yet when it is checked: its snow is as stiff as that of a body.
-/// Of new snow of the paper it is 19.72 m/s, and e^(xi (1 - J_P) / 2) times that of what is packed.
+/// An emitter has no particle yet when it is checked: its snow is as stiff as that of a body. Sound
+/// in new snow of the paper has 19.72 m/s, and e^(xi (1 - J_P) / 2) times that at another J_P.
 TEST_F(Check, SoundInEmittedSnowKnowsHowItIsPacked) {
   for (const double J_P : {0.8, 1.0, 1.5}) {
     folder.write("scene.toml",
@@ -290,7 +290,7 @@ TEST_F(Check, CheckSaysThatThePapersTransferMovesSnowByWhatDoesNotStrainIt) {
 
 TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
   EXPECT_EQ(findings(scene("", "", 6)), Findings{"warning body.ball"});
-  // Nor can what it does not meet crush it.
+  // A ball that meets nothing is not crushed.
   folder.write("scene.toml", scene("", "", 6));
   EXPECT_FALSE(contains(
       neve({"check", "scene.toml", "--set", "body.ball.velocity=[0, -25, 0]"}).output, "crush"));
@@ -306,7 +306,7 @@ TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
   const auto text = neve({"check", "scene.toml"});
   EXPECT_TRUE(contains(text.output, "nearest is wall, 0.177 m away at 0 s")) << text.output;
   EXPECT_EQ(findings(scene("", wall, 6), 0).size(), 1u);
-  // Thrown at it, the ball meets it.
+  // A ball that is thrown at the wall meets it.
   folder.write("scene.toml", scene("", wall, 6));
   EXPECT_FALSE(
       contains(neve({"check", "scene.toml", "--set", "body.ball.velocity=[3, 1, 0]"}).output,
@@ -325,7 +325,7 @@ TEST_F(Check, CheckFindsSnowThatMeetsNothing) {
   EXPECT_TRUE(contains(neve(high).output,
                        "ball meets nothing until the scene ends, at 0.25 s; "
                        "nearest is"));
-  // Nor does one that a sink takes on its way fly until the end.
+  // A ball that a sink takes on its way does not fly until the end.
   folder.write("scene.toml",
                scene("",
                      pile + "[[sink]]\nname = \"drain\"\nshape = { box = { center = [1.5, 1, "
@@ -564,7 +564,7 @@ TEST_F(Check, CheckForeseesThatSprayIsDear) {
   EXPECT_GT(dearest(spray), 4);
 }
 
-/// Which particles an impact crushes is chance: the range says what one of them would cost.
+/// Chance decides which particles an impact crushes: the range says what one of them would cost.
 TEST_F(Check, CheckForeseesThatAHardImpactMayCrushAParticle) {
   const std::string ball =
       "frames = 12\n[solver]\ncell_size = 0.02\nshock_viscosity = "

@@ -69,7 +69,7 @@ TEST_F(Compare, AFolderGetsEveryModeOfEveryFrameAndTheNumbers) {
   const app::Json json = app::parse_json(std::string_view(done.output));
   EXPECT_EQ(json["differing"], app::Json::array({"body.ball.velocity"}));
   ASSERT_EQ(json["frames"].size(), 5u);
-  // Half a metre a second faster: in flight the particles part at that speed.
+  // One ball is half a metre a second faster: in flight the particles part at that speed.
   const app::Json& first = json["frames"][1];
   EXPECT_NEAR(first["displacement_mean"].get<double>(), 0.5 / 24, 1e-3);
   EXPECT_EQ(json["frames"][0]["displacement_largest"], 0.0);
@@ -189,7 +189,7 @@ TEST_F(Compare, AnotherComparisonReplacesTheFilesOfTheOneBefore) {
   ASSERT_NO_FATAL_FAILURE(render_both());
   ASSERT_EQ(compare("a", "b", {"--out", "both", "--mode", "beside"}).exit_code, 0);
   folder.write("both/beside/mine.txt", "kept");
-  // Not without a word, but for what is made again.
+  // Files of another comparison need --replace; those that are made again need no word.
   const auto refused = [&](const char* a, std::vector<std::string> words, const std::string& part) {
     words.insert(words.begin(), {"--out", "both", "--mode"});
     const auto result = compare(a, "b", words);
@@ -215,7 +215,7 @@ TEST_F(Compare, AnotherComparisonReplacesTheFilesOfTheOneBefore) {
   folder.write("both/compare.json", list.dump());
   EXPECT_TRUE(contains(neve({"verify", "both"}).output, "the comparison is not finished"));
   refused("a", {"metrics"}, "files, from beside/0001.png");
-  // Of what is nobody's it is told, too.
+  // A folder with files that no comparison made is refused too.
   folder.write("results/metrics.csv", "mine");
   const auto foreign = compare("a", "b", {"--out", "results", "--mode", "metrics"});
   EXPECT_EQ(foreign.exit_code, 2) << foreign.errors;
@@ -441,7 +441,7 @@ TEST_F(Compare, BirthsAreTheSameSnowOnlyWhereTheirOrderSaysSo) {
                  "which of several emitters");
   expect_refused(left, "emitter.left.rate=20", "emitter.left.rate differs");
   expect_refused(left, "material.snow.density=300", "materials of other densities");
-  // In the floor: its snow cannot leave.
+  // The emitter lies in the floor: its snow cannot leave.
   expect_refused(emitter("left", "-0.5", "0.02"), "solver.max_dt=2e-4",
                  "snow was in the way of emitter.left");
 }
@@ -500,7 +500,7 @@ TEST_F(Compare, BurnInsSayWhatWasChanged) {
     render(b, {"--set", "material.snow.hardening=11"});
     EXPECT_EQ(compare(a, b, {"--out", "x.png", "--mode", "wipe", "--wipe", "0"}).exit_code, 0);
     render::Image image = picture("x.png");
-    // Without the words around it, which name the runs.
+    // The words around the picture name the runs, so these rows are cut off.
     const std::ptrdiff_t row = image.width * image.channels;
     image.pixels.erase(image.pixels.begin(), image.pixels.begin() + 60 * row);
     image.pixels.resize(static_cast<std::size_t>(80 * row));

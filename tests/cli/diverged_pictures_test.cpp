@@ -1,5 +1,5 @@
-/// What a diverged run leaves behind is the same for any number of threads: where numbers are not
-/// finite, sums, ranges, light and smoke have a defined answer.
+/// Files of a diverged run are the same for any number of threads: where numbers are not finite,
+/// sums, ranges, light and smoke have a defined answer.
 
 #include <algorithm>
 

@@ -31,7 +31,7 @@ const app::Json& quantity(const app::Json& dump, const std::string& name) {
 }
 
 TEST_F(Dump, AHealthyStepIsAsExpected) {
-  // Early in flight: gravity alone changes the velocities of nodes.
+  // The ball is early in flight: gravity alone changes the velocities of nodes.
   const app::Json dump = json({"--at", "0.01s", "--stage", "grid_velocities", "--set",
                                "body.ball.shape.sphere.center=[0,0.5,0]"});
   EXPECT_GT(dump["nodes"].get<int>(), 50);
@@ -146,7 +146,7 @@ TEST_F(Dump, ATableHasOneLineForEach) {
   std::istringstream lines(result.output);
   std::string line;
   std::size_t comments = 0, rows = 0;
-  // First, for numpy.genfromtxt(file, names=True).
+  // The names come first, for numpy.genfromtxt(file, names=True).
   std::getline(lines, line);
   EXPECT_EQ(line, "id\tv_x\tv_y\tv_z");
   while (std::getline(lines, line)) {
@@ -278,7 +278,7 @@ TEST_F(Dump, ATimeAfterTheEndIsRefusedByAllThatTakeOne) {
   EXPECT_EQ(neve({"dump", "scene.toml", "--at", "0.167"}).exit_code, 0);  // as the end is written
   refused({"dump", "scene.toml", "--at", "2"}, "; frame 2 is at 0.08333333333333333 s");
   EXPECT_EQ(neve({"dump", "scene.toml", "--at", "0.5", "--set", "frames=12"}).exit_code, 0);
-  // Of a run that was made longer than its scene the end is that of the run.
+  // A run that was made longer than its scene ends at its own end.
   const std::vector<std::string> render{"render", "scene.toml", "--out", "a", "--no-movie"};
   ASSERT_EQ(neve(render).exit_code, 0);
   const std::string run = "--at: 0.25 s is after the end of the run, 0.167 s (frame 4); ";
@@ -339,7 +339,7 @@ TEST_F(Dump, ARunIsDumpedFromTheMomentsThatItKeeps) {
   EXPECT_TRUE(contains(set.errors, "a run has the scene it was made from")) << set.errors;
 }
 
-/// At the end of a frame they were those of the step before.
+/// The values at the end of a frame were those of the step before.
 TEST_F(Dump, TheNextStepHasTheValuesThatCurvesGiveIt) {
   folder.write("scene.toml", std::string(tiny_scene) + R"(
 [[curve]]

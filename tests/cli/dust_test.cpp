@@ -85,7 +85,7 @@ TEST_F(DustRun, ForkContinuesTheCloud) {
   const auto fork = neve({"render", "whole", "--from", "0.125s", "--set", "dust.life=9", "--out",
                           "fork", "--no-movie"});
   ASSERT_EQ(fork.exit_code, 0) << fork.errors;
-  // Lives are chosen at birth: the dust of the start goes on, and more is born.
+  // Lives are chosen at birth: the dust of the start lives on, and more is born.
   EXPECT_EQ(dust_of("fork")["born"], dust_of("whole")["born"]);
   EXPECT_EQ(hashes("fork")[5], hashes("whole")[5]);
 }

@@ -205,7 +205,7 @@ TEST_F(Export, ARunContinuesFromItsCheckpoint) {
       neve({"export", "out/scene", "--format", "csv", "--frames", "3-4", "--out", "late"});
   EXPECT_EQ(late.exit_code, 0) << late.errors;
   EXPECT_TRUE(contains(late.errors, "continues from the checkpoint of frame 3")) << late.errors;
-  // On the way to later frames it takes what is kept, too; the scene alone gives the same.
+  // An export takes what is kept on its way to later frames, too; the scene alone gives the same.
   const auto early =
       neve({"export", "out/scene", "--format", "csv", "--frames", "1-4", "--out", "early"});
   EXPECT_TRUE(contains(early.errors, "continues from the checkpoint of frame 3")) << early.errors;
@@ -366,7 +366,7 @@ TEST_F(Export, ColumnsOfPointFilesComeOutAsTheyWentIn) {
                   "id,temperature,x,body,weight,brush,mark", "--out", "all", "--frames", "4-4"});
   const auto same = run_script(*python, "check_carried.py", {"check", "all", "4"}, folder.path());
   EXPECT_EQ(same.output, "same\n") << same.errors;
-  // Beside a render, in a worker.
+  // A render exports the same columns in a worker.
   ASSERT_EQ(neve({"render", "carried.toml", "--no-movie"}).exit_code, 0);
   EXPECT_EQ(read_text(folder / "out/carried/exports/npz/0000.npz").size(),
             read_text(folder / "out/carried/exports/npz/0004.npz").size());
@@ -421,7 +421,7 @@ TEST_F(Export, AStageHasTheShapesThatAForkGivesCollidersAlsoAfterAResume) {
   EXPECT_EQ(stage, read_text(folder / "parts/exports/usda.usda"));
 }
 
-/// Where they are follows from no time of the scene.
+/// The places of these colliders follow from no time of the scene.
 TEST_F(Export, TheStageOfCollidersThatWaitIsTheSameAfterAResume) {
   folder.write("waits.toml",
                std::string(tiny_scene) +
@@ -490,7 +490,7 @@ TEST_F(Export, NoExportIsReplacedWithoutAWord) {
           "another simulation of the scene");
   refused({"scene.toml", "--format", "npz", "--frames", "1-2", "--body", "ball"},
           "the export npz with other attributes, bodies, units or axes");
-  // What is made again, and more frames of it, loses nothing; nor does another way to its scene.
+  // Files that are made again, more frames of them, and another path to the scene lose nothing.
   json_of_export(first);
   EXPECT_EQ(read_text(folder / "x/export.json"), list);
   json_of_export(
@@ -537,7 +537,7 @@ TEST_F(Export, FilesAndListsThatItHasNotMadeAreNotReplacedInSilence) {
   folder.write("a/export.json", begun.dump());
   json_of_export(into("a"));
   EXPECT_EQ(read_text(folder / "a/export.json"), list);
-  // What it has made stays in no sequence of another simulation, and goes with a word only.
+  // Files of the cut-off export join no sequence of another simulation, and need a word to go.
   begun["begun"] = {"csv/0000.csv", "csv/0001.csv", "csv/0002.csv", "csv/0003.csv"};
   folder.write("a/export.json", begun.dump());
   folder.write("a/csv/0003.csv", "of the export that was cut off");
@@ -749,7 +749,7 @@ TEST_F(Export, AStageHasTheCamerasOfViewsToo) {
   const auto is_of_close = [](const std::string& prim) {
     return contains(prim, "horizontalAperture = 24\n") && contains(prim, "translate.timeSamples");
   };
-  // Of views alone: the first is the camera of the stage.
+  // The first view is the camera of the stage where the scene has views alone.
   const std::string without = stage_of(scene, "without");
   EXPECT_TRUE(is_of_close(camera(without, "camera"))) << without;
   EXPECT_TRUE(contains(camera(without, "side"), "translate = (3, 0, 0)"))

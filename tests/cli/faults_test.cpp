@@ -218,8 +218,8 @@ TEST_F(Faults, FailedRunsAreRepeatedByTheirState) {
   EXPECT_TRUE(contains(wrong.errors, "timeout")) << wrong.errors;
 }
 
-/// What cannot be read is not what is not there: nothing is collected without it, and nothing that
-/// it lists stays behind.
+/// A file that cannot be read is not a missing one: nothing is collected without it, and nothing
+/// that it lists stays behind.
 TEST_F(Faults, AFileThatCannotBeReadEndsTheCommandAndIsNotTakenForMissing) {
   ASSERT_EQ(failing("", sweep).exit_code, 0);
   for (const char* file : {"status.json", "run.json", "particles/0001.png"}) {
@@ -248,7 +248,7 @@ TEST_F(Faults, AFileThatCannotBeReadEndsTheCommandAndIsNotTakenForMissing) {
   EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
 }
 
-/// Of two that collect, the second one waits.
+/// The second of two that collect waits.
 TEST_F(Faults, OneCollectsAtATime) {
   ASSERT_EQ(failing("", sweep).exit_code, 0);
   const auto result = app::output::run_process(

@@ -40,7 +40,7 @@ TEST_F(FlowCli, SnowThatComesAndGoesIsCounted) {
   EXPECT_GT(last["mass"].get<double>(), 1);
 }
 
-/// Only `check` told: a render made pictures of nothing.
+/// Only `check` told of such emitters: a render made pictures of nothing.
 TEST_F(FlowCli, RenderTellsOfEmittersThatNeverEmit) {
   const auto late = neve(
       {"render", "flow.toml", "--out", "late", "--frames", "0", "--set", "emitter.spout.start=5"});

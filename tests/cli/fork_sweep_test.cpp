@@ -187,7 +187,7 @@ TEST_F(ForkSweep, TheBeginningIsComputedOnce) {
             "--frames", "8", "--size", "96x54", "--json", "--out", "f.cdb"});
   EXPECT_EQ(json_in(more)["started"], 1);
   EXPECT_EQ(json_of("f.cdb/beginning/status.json")["attempts"], 1);
-  // At another time all of them part anew.
+  // At another time all runs fork anew.
   const auto later = neve({"sweep", "scene.toml", "-p", "material.snow.hardening=4,10", "--fork",
                            "0.2", "--frames", "8", "--size", "96x54", "--json", "--out", "f.cdb"});
   EXPECT_EQ(json_in(later)["started"], 2);
@@ -228,7 +228,7 @@ TEST_F(ForkSweep, SingleRunsAndSharesFindOrMakeTheBeginning) {
   EXPECT_EQ(json_of("f.cdb/beginning/status.json")["attempts"], 1);
   ASSERT_EQ(sweep({"--shard", "3/3"}).exit_code, 0);
   EXPECT_EQ(all_hashes(), whole);
-  // Alone, as a job before an array is.
+  // A job before an array makes the beginning alone in this way.
   std::filesystem::remove_all(folder / "f.cdb/beginning/checkpoint");
   const auto alone = neve({"sweep", "run", "f.cdb", "--beginning"});
   EXPECT_EQ(alone.exit_code, 0) << alone.errors;
@@ -322,7 +322,7 @@ shape = { plane = { point = [0, 0, 0], normal = [0, 1, 0] } }
     EXPECT_EQ(late[1].metrics[k], whole[1].metrics[k]) << name;
   }
   EXPECT_EQ(compared, 4);
-  // Where nothing says what was before, nothing is told.
+  // A run without a record of what was before tells nothing of it.
   app::Json run = json_of("late.cdb/runs/0001/run.json");
   run["start"].erase("before");
   run.erase("hash");

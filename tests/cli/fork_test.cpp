@@ -1,4 +1,4 @@
-/// Runs that take another way from a moment of another run.
+/// Runs that fork at a moment of another run.
 
 #include "app/record/picture_record.h"
 #include "app/record/run_json.h"
@@ -52,7 +52,7 @@ TEST_P(ForkOf, BranchEqualsTheWholeRunWithThatChangeAtThatStep) {
                     "solver.transfer=" + transfer, "--set", "solver.beta=" + beta})
                 .exit_code,
             0);
-  // From a checkpoint, at the end of frame 3.
+  // The branch continues from a checkpoint, at the end of frame 3.
   const auto branch =
       render({"a", "--from", "0.125s", "--set", "material.snow.hardening=4", "--out", "b"});
   ASSERT_EQ(branch.exit_code, 0) << branch.errors;
@@ -170,12 +170,12 @@ TEST_F(Fork, APictureAndASceneAreForkedLikeTheRunThatMadeThem) {
   EXPECT_EQ(of_run.size(), 1u);
   EXPECT_EQ(fork("a/particles/0002.png", "c"), of_run);
   EXPECT_EQ(fork("scene.toml", "d"), of_run);
-  // What was greatest before them, too.
+  // All branches also know what was greatest before them.
   const app::Json start = json_of("b/run.json")["start"];
   ASSERT_TRUE(start.contains("before"));
   for (const char* of : {"c", "d"})
     EXPECT_EQ(json_of(std::string(of) + "/run.json")["start"], start) << of;
-  // Without a change it is the run itself.
+  // Without a change the branch is the run itself.
   ASSERT_EQ(render({"a", "--from", "0.125", "--out", "same"}).exit_code, 0);
   EXPECT_EQ(hashes("same")[4], hashes("a")[4]);
 }
@@ -232,7 +232,7 @@ TEST_F(Fork, ABranchBeginsAtItsForkWhateverIsDrawnOfItLater) {
   EXPECT_TRUE(exists("b/exports/csv/0003.csv") && exists("b/exports/csv/0005.csv"));
 }
 
-/// Drawn elsewhere it began with the frames of the run that it left.
+/// A branch that was drawn elsewhere began with the frames of the run that it left.
 TEST_F(Fork, ABranchIsOneWhereverItIsDrawn) {
   ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
   ASSERT_EQ(render({"a", "--from", "0.084", "--set", "material.snow.hardening=4", "--out", "b"})
@@ -333,7 +333,7 @@ TEST_F(Fork, OnlyWhatMayChangeInARunIsTaken) {
   refused({"--frames", "2"}, "is at or after frame 2, the last one");
   refused({"--out", "a"}, "a is the run that is forked");
   EXPECT_EQ(hashes("a").size(), 5u);
-  // What concerns the run alone changes no state.
+  // Changes that concern the run alone change no state.
   const auto allowed =
       render({"a", "--from", "0.1", "--set", "limits.particles=5000", "--out", "b"});
   EXPECT_EQ(allowed.exit_code, 0) << allowed.errors;
@@ -344,7 +344,7 @@ TEST_F(Fork, OnlyWhatMayChangeInARunIsTaken) {
   EXPECT_TRUE(contains(negative.errors, "as in --from 0.25s")) << negative.errors;
 }
 
-/// As where a run starts, in either order.
+/// A number counts in either order with a preset, as where a run starts.
 TEST_F(Fork, ANumberBesideAPresetCounts) {
   ASSERT_EQ(render({"scene.toml", "--out", "a"}).exit_code, 0);
   const std::string number = "material.snow.hardening=4", preset = "material.snow.preset=wet";

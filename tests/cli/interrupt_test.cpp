@@ -27,7 +27,7 @@ TEST_F(Cli, AnInterruptKeepsEveryFrameAndAMovieOfThem) {
   const app::Json run = json_of("out/run.json");
   EXPECT_EQ(run["status"], "interrupted");
   EXPECT_EQ(static_cast<int>(run["frames"].size()), frames);
-  // The movie was counted when it was made; that it is there says that it is whole.
+  // The movie was counted when it was made; its presence says that it is whole.
   EXPECT_EQ(exists("out/particles.mp4"), app::output::find_program("ffmpeg").has_value());
 }
 

@@ -111,7 +111,7 @@ TEST_F(KeptStates, ADamagedStateCostsItsFrameAloneAndIsMended) {
   EXPECT_TRUE(pictures("s.cdb") == pictures("fresh.cdb"));
   sweep("s.cdb", {"--size", "64x36"});
   EXPECT_EQ(from_states("s.cdb/runs/0001"), 4);
-  // Without any of them the run is simulated.
+  // Without kept states the run is simulated.
   std::filesystem::remove_all(folder / "s.cdb/runs/0001/states");
   sweep("s.cdb", {"--size", "96x54"});
   EXPECT_EQ(from_states("s.cdb/runs/0000"), 4);

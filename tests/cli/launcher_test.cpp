@@ -158,7 +158,7 @@ TEST_F(Launcher, ABuildThatCannotStartOrIsOfElsewhereIsMadeAnew) {
     EXPECT_EQ(launch({"doctor"}).output, "built doctor\n");
     EXPECT_EQ(calls(), "") << why;
   };
-  // Of another machine's instruction set, or a library has gone.
+  // The program is for another machine's instruction set, or misses a library.
   for (const char* code : {"2", "127"}) {
     folder.write("checkout/build/release/neve", std::string("#!/bin/bash\nexit ") + code + "\n");
     fs::last_write_time(folder / "checkout/build/release/.up-to-date",

@@ -24,7 +24,7 @@ std::vector<std::string> answer_lines(const std::string& text, const std::string
   return lines;
 }
 
-/// What is said on standard error; else the warnings and errors of neve check.
+/// Returns the lines on standard error; without any, the warnings and errors of neve check.
 std::vector<std::string> answer_of(const app::output::ProcessResult& result,
                                    const std::string& folder) {
   std::vector<std::string> said = answer_lines(result.errors, folder);

@@ -34,7 +34,7 @@ TEST_F(MovieFlags, AFinishedRunGetsAnotherMovieWithoutARun) {
     EXPECT_FALSE(exists(movie)) << movie;
 }
 
-/// What is seen on a movie and not in its pictures is said before it is made.
+/// A line that is seen on a movie and not in its pictures is told before the movie is made.
 TEST_F(MovieFlags, ALineOfBlackBesideOddPicturesIsTold) {
   const auto odd = neve(
       {"render", "scene.toml", "--frames", "1", "--set", "output.size=[161, 90]", "--out", "a"});

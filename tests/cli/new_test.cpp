@@ -154,7 +154,7 @@ TEST_F(New, NothingIsOverwritten) {
   EXPECT_TRUE(contains(schema.errors, "did you mean scene?")) << schema.errors;
 }
 
-/// Of its two files the schema comes first: without the scene the same command makes the rest.
+/// The schema is written before the scene: without the scene the same command makes the rest.
 TEST_F(New, OneThatFailsAnywhereIsRepeatedByTheSameCommand) {
   ASSERT_EQ(neve({"new", "fresh"}).exit_code, 0);
   const std::string scene = read_text(folder / "fresh.toml"),

@@ -107,7 +107,7 @@ TEST_F(Origins, APictureWhoseStateIsNotReachedAgainIsWarnedOf) {
     return neve({"render", "a/particles/0001.png", "--out", "b", "--yes"});
   };
   EXPECT_FALSE(contains(again().errors, "has another state")) << again().errors;
-  // As of a program whose steps were others.
+  // The picture seems to be of a program whose steps were others.
   const std::vector<std::uint8_t> bytes = app::output::read_file(folder / "a/particles/0001.png");
   render::PngText text = render::read_png_text(bytes);
   text.at("neve:state_hash") = "0123456789abcdef";
@@ -120,7 +120,7 @@ TEST_F(Origins, APictureWhoseStateIsNotReachedAgainIsWarnedOf) {
                        "frame 1 has another state than a/particles/0001.png shows: its bits came"))
       << other.errors;
   EXPECT_EQ(json_of("b/run.json")["warnings"].size(), 1u);
-  // Of another parameter it says nothing.
+  // A picture made with another parameter is not warned of.
   const auto changed =
       neve({"render", "a/particles/0001.png", "--out", "c", "--set", "material.snow.hardening=3"});
   EXPECT_FALSE(contains(changed.errors, "has another state")) << changed.errors;

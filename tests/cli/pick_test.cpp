@@ -51,7 +51,7 @@ TEST_F(PickCli, ADryRunSaysWhatTheRoundsCostAndWritesNothing) {
   EXPECT_EQ(plan["runs_in_all"], 54);
   EXPECT_EQ(plan["refinement"]["runs"], 2);
   EXPECT_GE(plan["seconds_in_all"].get<double>(), 3 * plan["seconds"].get<double>());
-  // Of a search that has an answer the next round is told, as it will be.
+  // With --dry-run a search that has an answer tells its next round.
   ASSERT_EQ(pick("1\n", "b", {"--rounds", "2"}).exit_code, 0);
   const auto next = neve({"pick", "scene.toml", "--out", "b", "--frames", "2", "--size", "64x36",
                           "--rounds", "3", "-p", "material.snow.hardening=2,20", "-p",
@@ -257,7 +257,7 @@ TEST_F(PickCli, MistakesAreToldBeforeAnythingIsMade) {
 
 class PickOnAFullDisk : public FaultyCli {
  protected:
-  /// On a screen that a script works.
+  /// Returns the command for a search on a screen that a script works.
   std::string command(const std::string& script) {
     folder.write("script.json", script);
     return "pick scene.toml --out a --frames 2 --size 64x36 --replay script.json "

@@ -73,7 +73,7 @@ TEST_F(PointFiles, ParticlesHaveThePositionsVelocitiesAndMassesOfTheFile) {
   ASSERT_EQ(render({"--frames", "0-0"}).exit_code, 0);
   const app::Json frame = json_of("out/run.json")["frames"][0];
   EXPECT_EQ(frame["particles"], 1000);
-  // Kept as numbers of 32 bits.
+  // Momenta are kept as numbers of 32 bits.
   EXPECT_NEAR(frame["momentum"][1].get<double>(), -3.2, 1e-5);
   EXPECT_NEAR(frame["max_speed"].get<double>(), 1, 1e-6);
   EXPECT_NEAR(frame["centre_of_mass"][0].get<double>(), 0.09, 1e-6);
@@ -157,7 +157,7 @@ TEST_F(PointFiles, PointFilesAreExaminedByTheirDistanceAndMass) {
   folder.write("scene.toml", far);
   EXPECT_TRUE(contains(warnings(), "body.block.shape.points: the points of block are 1 in a cell"))
       << warnings();
-  // In centimetres; what the file says of masses and volumes fits.
+  // The points are in centimetres; the masses and volumes of the file fit them.
   folder.write("points/block.csv", block_csv(3.2e-3, 2));
   folder.write("scene.toml", block_scene);
   EXPECT_TRUE(contains(warnings(), "shape.points: the points of block are too far apart"))
@@ -192,7 +192,7 @@ TEST_F(PointFiles, PackingOfPointsOutsideTheRangeOfTheirMaterialIsSaid) {
       << told;
 }
 
-/// Of factors of the file that no material may have.
+/// The file has factors of thresholds that no material may have.
 TEST_F(PointFiles, ThresholdsWithWhichSnowNeverYieldsAreSaid) {
   std::istringstream block(block_csv(3.2e-3));
   std::string varied, line;

@@ -1,4 +1,4 @@
-/// What coarse copies say of the full run.
+/// Predictions of the full run by its coarse copies.
 
 #include <fmt/core.h>
 
@@ -156,7 +156,7 @@ TEST_F(Prediction, PicturesAndRunJsonSayWhatTheFullRunDoes) {
   const auto again = neve(resumed);
   EXPECT_FALSE(contains(again.errors, "coarse copies")) << "a run that is resumed knows it";
   EXPECT_EQ(json_of("run/run.json").at("prediction"), prediction);
-  // So does one that is named by its folder, whatever is drawn of it, longer or not.
+  // A run that is named by its folder knows it too, with any drawing of it, longer or not.
   const auto longer = neve({"render", "run", "--frames", "6", "--no-movie"});
   EXPECT_EQ(longer.exit_code, 0) << longer.errors;
   EXPECT_FALSE(contains(longer.errors, "coarse copies")) << longer.errors;
@@ -274,7 +274,7 @@ TEST_F(Prediction, DamagedRunsAtFullResolutionAreToldByCollect) {
   EXPECT_TRUE(contains(collected.errors, "0002.png")) << collected.errors;
   EXPECT_FALSE(contains(collected.errors, "by runs of 1 point")) << "it tells nothing";
   EXPECT_EQ(neve({"verify", "study"}).exit_code, app::exit_check_failed);
-  // By a metric that no point has nothing is chosen, and that is said.
+  // A metric that no point has chooses nothing, and that is said.
   std::vector<std::string> by_bodies = words;
   by_bodies.insert(by_bodies.end(), {"--refine", "1", "--best", "body_fall"});
   const auto none = neve(by_bodies);
@@ -292,7 +292,7 @@ class RefinedSeeds : public Prediction {
             "--out",     out};
   }
 
-  /// Of the runs at full resolution, by the run that each is of.
+  /// Returns the hashes of the runs at full resolution, by the run that each is of.
   std::map<int, std::map<int, std::string>> full_hashes(const std::string& out) {
     std::map<int, std::map<int, std::string>> all;
     const app::Json manifest = json_of(out + "/manifest.json");

@@ -53,7 +53,7 @@ TEST_F(Cli, RenderMakesPicturesMovieAndRunJson) {
   EXPECT_EQ(run["frames"][4]["state_hash"].get<std::string>().size(), 16u);
 }
 
-/// What --fast sets is a change like any other: run.json, the picture and its copy have it.
+/// Settings of --fast are changes like any other: run.json, the picture and its copy have them.
 TEST_F(Cli, FastRunsSayWhatWasSetAndTheirPicturesMakeThemselvesAgain) {
   const auto result = neve({"render", "scene.toml", "--fast", "--frames", "2", "--out", "fast"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
@@ -107,7 +107,7 @@ TEST_F(Cli, AMosaicIsAFolderOfPicturesAndAMovieLikeAView) {
   EXPECT_EQ(exists("a/both.mp4"), app::output::find_program("ffmpeg").has_value());
   EXPECT_EQ(json_of("a/run.json")["views"], (app::Json{"particles", "snow", "speed", "both"}));
 
-  // Alone, and again from its picture: the same bytes.
+  // A picture drawn alone, and again from itself, has the same bytes.
   ASSERT_EQ(
       neve({"render", "mosaic.toml", "--view", "both", "--frames", "2-2", "--out", "b"}).exit_code,
       0);
@@ -297,7 +297,7 @@ TEST_F(Cli, DoctorAndParamsAreJson) {
   EXPECT_GT(app::parse_json(std::string_view(params.output)).size(), 20u);
 }
 
-/// From four threads on the next frame is simulated while one is drawn.
+/// With four threads and more the next frame is simulated while one is drawn.
 TEST_F(Cli, DrawingBesideTheSimulationChangesNoBit) {
   for (const char* threads : {"1", "4"})
     ASSERT_EQ(neve({"render", "scene.toml", "--threads", threads, "--out", threads,

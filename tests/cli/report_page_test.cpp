@@ -38,7 +38,7 @@ RunResult result_of(const app::sweep::Run& run, int frame_count) {
   return result;
 }
 
-/// A made study on a grid of a logarithmic axis, a choice and more.
+/// A made sweep on a grid of a logarithmic axis, a choice and more.
 struct Study {
   Manifest manifest;
   std::vector<RunResult> results;
@@ -142,7 +142,7 @@ class ReportPage : public testing::Test {
     }
     return false;
   }
-  /// After the page has drawn what changed: it learns one picture later what came into sight.
+  /// Waits until the page has drawn what changed: it learns one picture later what came into sight.
   void settle() {
     value(
         "(async () => { for (let k = 0; k < 4; ++k) await new Promise(requestAnimationFrame); "
@@ -173,7 +173,7 @@ class ReportPage : public testing::Test {
     browser->click(x, y);
     settle();
   }
-  /// From one place of an element to another.
+  /// Drags from one place of an element to another.
   void drag(const std::string& selector, double x0, double y0, double x1, double y1,
             int steps = 8) {
     const auto [ax, ay] = place_of(selector, x0, y0);
@@ -198,7 +198,7 @@ class ReportPage : public testing::Test {
                 ".every(i => i.complete && i.naturalWidth > 0)"));
     settle();
   }
-  /// What is out of sight is not drawn.
+  /// Returns the number of tiles in the page, once they are in sight: others are not drawn.
   int tiles() {
     place_of("#tiles", 0.5, 0.5);
     return value("document.querySelectorAll('.tile').length");
@@ -385,7 +385,7 @@ TEST_F(ReportPage, StarsAndNotesAreOnTilesInTheTableAndOfferedToTheFolder) {
   click("#only-stars input");
   EXPECT_EQ(text_of("#count"), "3 of 9 runs");
   click("#only-stars input");
-  // They are there when the page is opened again; those that the folder has are not offered.
+  // Marks exist when the page is opened again; those that the folder has are not offered.
   study.manifest.marks[2] = {true, ""};
   open(study);
   EXPECT_EQ(value("rows[0].mark.star && rows[2].mark.star"), true);
@@ -415,7 +415,7 @@ TEST_F(ReportPage, CellsOfTheHeatMapAreRunsAndArrowKeysMoveThere) {
   EXPECT_EQ(value("document.querySelector('[data-plate=b]').classList.contains('failed')"), true);
 }
 
-/// Not the geometric mean, although the scale of values a factor of 20 apart is logarithmic.
+/// Cells tell the arithmetic mean, although values a factor of 20 apart have a logarithmic scale.
 TEST_F(ReportPage, CellsOfSeveralRunsTellTheMeanOfTheirValues) {
   Study study({2, 2, 3}, 1);
   for (std::size_t k = 0; k < study.results.size(); ++k)
@@ -533,7 +533,7 @@ TEST_F(ReportPage, CommandsAreCopiedAndOpenTheRun) {
   EXPECT_TRUE(becomes("document.querySelector('#shown-links button').textContent === 'copied'"));
   EXPECT_EQ(value("navigator.clipboard.readText()"),
             "neve view 'out/a b.cdb/runs/0000/scene.toml'");
-  // As where a browser keeps the clipboard from files.
+  // A browser may keep the clipboard from files.
   value("Object.defineProperty(navigator, 'clipboard', {value: undefined})");
   value("document.querySelector('#shown-links div:nth-child(2) button').focus()");
   value(
@@ -611,7 +611,7 @@ TEST_F(ReportPage, LargeSweepsLoadAndDrawOnlyWhatIsInSight) {
   std::printf("500 runs: open in %.0f ms\n", opened);
   const auto counts = [&](const char* when) {
     settle();
-    // Those of the window's height and a little more, however many runs there are.
+    // The page has the pictures of the window's height and a little more, for any number of runs.
     EXPECT_LE(value("document.querySelectorAll('img[src]').length"), 60) << when;
     EXPECT_LE(value("document.querySelectorAll('#walk *, #table *, #tiles *').length"), 2500)
         << when;
@@ -630,7 +630,7 @@ TEST_F(ReportPage, LargeSweepsLoadAndDrawOnlyWhatIsInSight) {
   };
   frames("a brush", "k => setBrush(1, [0.01 * k, 0.01 * k + 0.4])");
   counts("after a brush");
-  // Of many changes before the next picture, one is drawn.
+  // One of many changes before the next picture is drawn.
   EXPECT_LE(
       value("(async () => { await new Promise(requestAnimationFrame); const before = work.paints;"
             "for (let k = 0; k < 100; ++k) setBrush(1, [0, 0.01 * k]);"

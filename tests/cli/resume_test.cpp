@@ -39,7 +39,7 @@ TEST_F(Resume, AFinishedRunIsExtended) {
   ASSERT_EQ(more.exit_code, 0) << more.errors;
   EXPECT_TRUE(contains(more.errors, "resumed after frame 2")) << more.errors;
   expect_same("whole", "parts");
-  // Once more: there is nothing left to do.
+  // The command has nothing left to do.
   EXPECT_EQ(render("parts", {"--frames", "0-4", "--resume"}).exit_code, 0);
   expect_same("whole", "parts");
 }
@@ -123,7 +123,7 @@ TEST_F(Resume, AnotherSceneIsRefusedAndNothingIsTouched) {
   EXPECT_TRUE(contains(other.errors, "material.snow.hardening was 10")) << other.errors;
   EXPECT_TRUE(contains(other.errors, " and is 5")) << other.errors;
   EXPECT_EQ(files_of(folder / "out").pictures, before.pictures);
-  // Without --resume it is replaced where that is asked for, checkpoints too.
+  // Without --resume the run is replaced where that is asked for, checkpoints too.
   ASSERT_EQ(render("out", {"--frames", "0-1", "--checkpoint-every", "0", "--replace", "--set",
                            "material.snow.hardening=5"})
                 .exit_code,
@@ -168,7 +168,7 @@ TEST_F(Resume, ARunWithoutACheckpointStartsAtTheBeginning) {
   EXPECT_EQ(render("out", {"--checkpoint-every", "-1"}).exit_code, 2);
 }
 
-/// After an early picture was made again, it went on from the newest state, past what was missing.
+/// A run whose early picture was made again went from the newest state, past what was missing.
 TEST_F(Resume, PicturesThatAreMissingAfterTheCheckpointAreMadeToo) {
   ASSERT_EQ(render("whole").exit_code, 0);
   ASSERT_EQ(render("parts", {"--checkpoint-every", "2"}).exit_code, 0);

@@ -92,7 +92,7 @@ TEST_F(Shots, AreResumedAndMadeAgainByTheirNumbers) {
             run_json("whole")["frames"][3]["state_hash"]);
 }
 
-/// As in run.json, the time of a picture is 0 at the first handle, whatever its number.
+/// The time of a picture is 0 at the first handle, whatever its number, as in run.json.
 TEST_F(Shots, HaveTheirNumbersInForecastsNotesAndAdvice) {
   const auto check = neve({"check", "shot.toml", "--json"});
   const app::Json frames = app::parse_json(check.output)["frames"];
@@ -115,7 +115,7 @@ TEST_F(Shots, PassesHaveTheTimeOfTheRun) {
   EXPECT_NEAR(std::stod(text.at("neve:time")), 1.0 / 24, 1e-12);
 }
 
-/// As SMPTE 12M packs them: two digits in a byte, frames lowest.
+/// SMPTE 12M packs two digits in a byte, frames lowest.
 TEST_F(Shots, PassesHaveTheTimeCodeOfTheShot) {
   run({"render", "shot.toml", "--out", "a", "--no-movie", "--quiet", "--frames", "1002-1002",
        "--passes", "depth", "--set", "shot.time_code=10:20:30:11"});

@@ -15,7 +15,7 @@ constexpr const char* scontrol = "echo 'MaxArraySize = 3'\n";
 constexpr const char* squeue =
     "echo look >> looks; [ $(($(wc -l < looks) % 3)) = 0 ] && rm -f living full\n"
     "echo 'Maintenance on Monday'; cat living 2>/dev/null; exit 0\n";
-/// While there is a file `full`, one job a time is taken.
+/// An sbatch that takes one job a time while the file `full` exists.
 constexpr const char* sbatch =
     "cp out/slurm/jobs.json seen.json 2>/dev/null\n"
     "if [ -e full ] && [ -s living ]; then echo 'QOSMaxSubmitJobPerUserLimit' >&2; exit 1; fi\n"
@@ -73,7 +73,7 @@ TEST_F(SlurmSites, RunsThatAreRefusedAreSubmittedLaterAndNoneTwice) {
   for (std::string line; std::getline(calls, line);)
     if (contains(line, "--array")) offsets.push_back(line.substr(line.rfind(' ') + 1));
   EXPECT_EQ(offsets, (std::vector<std::string>{"0", "3", "6"}));
-  // What was queued was on disk before the next job was asked for.
+  // The queued job was on disk before the next job was asked for.
   EXPECT_EQ(json_of("seen.json").back()["runs"], app::Json({6}));
 }
 
@@ -310,7 +310,7 @@ TEST_F(SlurmForks, AFirstSubmissionThatRetriesTriesABeginningOnce) {
   const auto done = forks("array", "--engine slurm --retry-failed");
   EXPECT_EQ(done.exit_code, app::exit_runs_failed) << done.errors;
   EXPECT_EQ(json_of("array/beginning_2/status.json")["attempts"], 1);
-  // By hand a run that failed with it is asked for, and its beginning with it, once.
+  // A run that is asked for by hand is repeated, and its beginning with it, once.
   fs::remove(folder / "before_job");
   const std::vector<std::string> run{"sweep", "run", "array", "--index", "1", "--retry-failed"};
   EXPECT_EQ(neve(run).exit_code, app::exit_runs_failed) << "its scene is still none";

@@ -1,4 +1,4 @@
-/// What is on the disk: one writer for a folder, nothing of others destroyed, no gap called ok.
+/// Files on the disk: one writer for a folder, nothing of others destroyed, no gap called ok.
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -211,7 +211,7 @@ TEST_F(Store, FramesThatWereNeverDrawnAreNoPartOfARunThatIsOk) {
   EXPECT_EQ(neve({"verify", "out"}).exit_code, 0);
 }
 
-/// Those that a later command draws before the first ones of the checkpoint.
+/// Some frames are drawn by a later command, before the first ones of the checkpoint.
 TEST_F(Store, FramesBeforeThoseOfTheCheckpointAreNotMissing) {
   ASSERT_EQ(render("out", {"--frames", "2-3", "--no-movie"}).exit_code, 0);
   ASSERT_EQ(render("out", {"--frames", "0-3", "--no-movie"}).exit_code, 0);

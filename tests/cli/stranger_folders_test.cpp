@@ -1,4 +1,4 @@
-/// Folders of strangers, and files that are not ours: lists, links, locks, logs and outputs.
+/// Folders of strangers, and files that are not of neve: lists, links, locks, logs and outputs.
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -216,7 +216,7 @@ TEST_F(StrangerFolders, SweepsOfStrangersAreCollectedOrRefusedAtOnce) {
   expect_ends("a picture that is a link to itself");
 }
 
-/// Also before the first picture, when there is nothing to draw curves of.
+/// A comparison may be interrupted before its first picture, when no curves can be drawn yet.
 TEST_F(StrangerFolders, AComparisonIsInterruptedAtAnyMoment) {
   ASSERT_EQ(render("run").exit_code, 0);
   for (const char* delay : {"0", "0.02", "0.04", "0.08", "0.2"})

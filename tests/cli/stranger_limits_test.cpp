@@ -121,7 +121,7 @@ TEST_F(StrangerLimits, ListsAreNoLongerThanTheirLimit) {
     EXPECT_LT(cost.memory, 100e6) << command;
   }
   ::unsetenv("NEVE_MAX_MEMORY");
-  // Beyond any list of ours, whatever memory there is.
+  // This file is larger than any list of neve, and is refused with any memory.
   std::filesystem::resize_file(folder / "run/run.json", 140'000'000);
   EXPECT_EQ(cost_of("info run").exit_code, 6);
   EXPECT_TRUE(contains(read_text(folder / "said"), "larger than 134217728 bytes"));

@@ -35,7 +35,7 @@ class StrangerPictures : public CostlyCli {
                             render::encode_png(render::decode_png(bytes), all));
     return "post/" + name;
   }
-  /// Within 5 s and 500 MB, and not with an internal error.
+  /// Expects an end within 5 s and 500 MB, and no internal error.
   void expect_ends(const std::string& arguments) {
     const Cost cost = cost_of(arguments);
     EXPECT_LT(cost.seconds, 5) << arguments;
@@ -43,7 +43,8 @@ class StrangerPictures : public CostlyCli {
     EXPECT_NE(cost.exit_code, 1) << arguments << "\n" << read_text(folder / "said");
     EXPECT_NE(cost.exit_code, -1) << arguments << ": a signal";
   }
-  /// Where nobody can be asked. @param command  with PICTURE in the place of the picture
+  /// Expects a refusal that asks for --yes, as nobody can be asked.
+  /// @param command  with PICTURE in the place of the picture
   void expect_asks(std::string command, const std::string& picture, const std::string& reason) {
     while (contains(command, "PICTURE")) command.replace(command.find("PICTURE"), 7, picture);
     const Cost cost = cost_of(command + " </dev/null");
@@ -148,7 +149,7 @@ TEST_F(StrangerPictures, WhatTakesLongIsSaidAndAskedFor) {
   EXPECT_EQ(neve({"render", frames, "--out", "again"}).exit_code, 0) << "a short one asks nothing";
   const Cost agreed = cost_of("render " + late + " --yes --dry-run");
   EXPECT_EQ(agreed.exit_code, 0) << read_text(folder / "said");
-  // A picture in the folder of its run is one of ours.
+  // A picture in the folder of its run is the user's own.
   fs::copy_file(folder / late, folder / "run/particles/late.png");
   EXPECT_EQ(cost_of("render run/particles/late.png --out late & sleep 2; kill -INT $!; wait $!; "
                     "test $? = 75 -o $? = 130")
@@ -196,7 +197,7 @@ TEST_F(StrangerPictures, EveryCommandThatOpensOneAsks) {
     expect_asks(command, large, "of memory");
 }
 
-/// Once, for all of them; not in its own folder, nor in that of its run.
+/// A picture asks once for all such files; not in its own folder, nor in that of its run.
 TEST_F(StrangerPictures, FilesElsewhereAreReadAfterAWord) {
   folder.write("project/m.obj",
                "v 0 0 0\nv .2 0 0\nv 0 .2 0\nv 0 0 .2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
@@ -242,7 +243,7 @@ TEST_F(StrangerPictures, NeitherALookNorAChangeReadsAFileWithoutItsHash) {
   }
 }
 
-/// So many zeros as they are packed best, in little memory: that of a test counts for its children.
+/// Returns packed zeros, made in little memory: that of a test counts for its children.
 std::vector<std::uint8_t> packed_zeros(std::size_t size) {
   std::vector<std::uint8_t> packed, zeros(1 << 20), out(1 << 20);
   z_stream stream{};

@@ -68,7 +68,7 @@ TEST_F(Strangers, ClosedStandardStreamsAreNoFiles) {
   EXPECT_EQ(neve({"verify", "out/scene"}).exit_code, 0);
 }
 
-/// What was meant comes first: nothing listens yet that one could be warned of.
+/// The suggestion comes first: nothing listens yet that one could be warned of.
 TEST_F(Strangers, APortIsNoAddressAndNothingElseIsSaid) {
   folder.write("clicks.txt", "1\n");
   for (const char* command :

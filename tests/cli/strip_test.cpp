@@ -73,7 +73,7 @@ TEST_F(Strip, ARunWithCheckpointsGivesTheSamePictureAsItsScene) {
             0);
 }
 
-/// Whatever is before the plane of a slice: its camera was not found anew.
+/// The camera of a slice was not found anew: anything might be before its plane.
 TEST_F(Strip, ARunWithSlicesGivesTheSamePictureAsItsScene) {
   folder.write("slices.toml", std::string(falling) + R"(
 [[view]]
@@ -169,7 +169,7 @@ TEST_F(Strip, RefusesNumbersAndNamesThatItCannotUse) {
   expect_refused({"fall.toml", "--view", "slcie"}, "slice");
 }
 
-/// Above the tiles: 40 rows of a picture of 640.
+/// A fork tells its changes above the tiles: in 40 rows of a picture of 640.
 TEST_F(Strip, SaysWhatAForkChanged) {
   ASSERT_EQ(neve({"render", "fall.toml", "--no-movie", "--out", "run"}).exit_code, 0);
   ASSERT_EQ(neve({"render", "run", "--from", "0.1", "--set", "material.snow.hardening=11",
@@ -187,8 +187,8 @@ TEST_F(Strip, SaysWhatAForkChanged) {
   EXPECT_EQ(render::compare(words("run", "0.05"), words("fork", "0.05")).max, 0);
 }
 
-/// What a picture of the slice says at its lower edge: above the tiles, or in those where it
-/// differs.
+/// A picture of the slice says its place at its lower edge: a strip says it above the tiles, or in
+/// those where it differs.
 TEST_F(Strip, SaysWhereItsSlicesAre) {
   folder.write("slices.toml", (falling + 16) + std::string(R"(
 [[view]]

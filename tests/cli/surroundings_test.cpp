@@ -32,7 +32,7 @@ TEST_F(Surroundings, ASceneIsReadFromStandardInputAndItsFolderHasAName) {
   // Files of such a scene are looked for in the current folder.
   const auto mesh = shell("\"$0\" check - < mesh.toml");
   EXPECT_EQ(mesh.exit_code, 0) << mesh.errors;
-  // Those that read it twice.
+  // These commands read it twice.
   EXPECT_EQ(shell("cat scene.toml | \"$0\" render - --fast --dry-run").exit_code, 0);
   const auto sweep = shell("cat scene.toml | \"$0\" sweep - -p seed=1,2 --frames 0-1 -q");
   EXPECT_EQ(sweep.exit_code, 0) << sweep.errors;
@@ -143,7 +143,7 @@ TEST_F(Surroundings, AFolderThatCannotBeWrittenNamesTheWayToAnother) {
   }
 }
 
-/// Not to an option that the command does not have.
+/// The advice names no option that the command does not have.
 TEST_F(Surroundings, AFolderThatCannotBeWrittenNamesTheWayThatTheCommandHas) {
   ASSERT_EQ(shell("\"$0\" render scene.toml --out a --frames 0-1 --no-movie --quiet").exit_code, 0);
   for (const auto& [command, advice] :

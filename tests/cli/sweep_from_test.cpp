@@ -1,4 +1,4 @@
-/// Sweeps whose runs leave a run, or a picture, that is there.
+/// Sweeps whose runs fork from an existing run, or a picture.
 
 #include "app/record/picture_record.h"
 #include "tests/cli/run_neve.h"
@@ -56,7 +56,7 @@ TEST_F(SweepFrom, BranchesOfARunAreThoseOfRenderAndOfWholeRuns) {
   EXPECT_NE(hashes("f.cdb/runs/0000").at(6), hashes("a").at(6));
 }
 
-/// As branches of render do.
+/// Branches of a sweep know the same start as branches of render.
 TEST_F(SweepFrom, BranchesOfARunKnowWhatWasBeforeThem) {
   render({"scene.toml", "--frames", "6", "--out", "a"});
   render({"a", "--from", "0.125s", "--set", "material.snow.hardening=4", "--frames", "6", "--out",

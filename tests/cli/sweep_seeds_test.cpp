@@ -128,7 +128,7 @@ TEST_F(ForkedSeeds, FurtherSeedsKeepTheBeginningsThatAreThere) {
   EXPECT_EQ(started_in("f.cdb", {"--seeds", "3"}), 0);
   for (const char* beginning : {"beginning", "beginning_2", "beginning_3"})
     EXPECT_EQ(json_of(std::string("f.cdb/") + beginning + "/status.json").at("attempts"), 1);
-  // Alone, as a job before an array is: all of them.
+  // A job before an array makes all beginnings alone in this way.
   std::filesystem::remove_all(folder / "f.cdb/beginning_2/checkpoint");
   EXPECT_EQ(neve({"sweep", "run", "f.cdb", "--beginning"}).exit_code, 0);
   EXPECT_EQ(json_of("f.cdb/beginning/status.json").at("attempts"), 1);
@@ -167,7 +167,7 @@ class FailingSeeds : public ForkedSeeds {
   static constexpr int seeds = 4;
 
   FailingSeeds() {
-    // At the edge of stability chance decides: steps with which some of the seeds diverge.
+    // Chance decides at the edge of stability: with one of these steps some of the seeds diverge.
     for (const char* dt : {"7e-4", "7.5e-4", "8e-4", "8.5e-4", "9e-4"}) {
       std::vector<std::string> words = start_words(dt);
       words.insert(words.begin(), {"render", "scene.toml"});

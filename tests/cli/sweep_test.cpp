@@ -119,7 +119,7 @@ TEST_F(SweepCli, ParametersThatTheSceneDoesNotUseAreNamed) {
   EXPECT_FALSE(contains(both.errors, "changes nothing")) << both.errors;
 }
 
-/// With --coarsen a remedy has the number that the next sweep is given.
+/// A remedy in a sweep with --coarsen has the number that the next sweep is given.
 TEST_F(SweepCli, RemediesOfCoarseRunsHaveTheNumbersToType) {
   const auto result =
       neve({"sweep", "scene.toml", "--coarsen", "2", "--set", "solver.time_step=fixed", "-p",
@@ -227,7 +227,7 @@ TEST_F(SweepCli, DryRunsMarkRunsOverTheLimitAndShowCommonFrames) {
   EXPECT_TRUE(contains(result.output, "2 runs need more than [limits] memory = 60.0 MiB"))
       << result.output;
   EXPECT_TRUE(contains(result.output, ", up to frame 2, view")) << result.output;
-  // And are not started.
+  // Runs that need more memory are not started.
   const auto made = neve({"sweep", "tight.toml"});
   EXPECT_EQ(made.exit_code, 7);
   EXPECT_TRUE(contains(made.errors, "OUT OF MEMORY needs")) << made.errors;
@@ -373,7 +373,7 @@ TEST_F(SweepCli, TilesShowTheViewAndTheQualityThatAreAskedFor) {
   EXPECT_EQ(sweep({"--view", "smok"}).exit_code, 2);
 }
 
-/// From a coarse, fast tile to the scene that makes it in its own resolution, as it was written.
+/// A coarse, fast tile leads to the scene that makes it in its own resolution, with its comments.
 TEST_F(SweepCli, ATileBecomesASceneOfItsOwn) {
   folder.write("scene.toml", "# mine\n" + std::string(tiny_scene) +
                                  "[material.snow]\nhardening = 10  # first guess\n");
@@ -425,7 +425,7 @@ TEST_F(SweepCli, AFileThatASceneNamesAndThatChangedSinceIsTold) {
   const auto later = neve({"sweep", "promote", "s", "1"});
   EXPECT_EQ(later.exit_code, 0) << later.errors;
   EXPECT_TRUE(contains(later.errors, "mesh.obj has changed since the sweep")) << later.errors;
-  // Nor are runs of a larger rock seen by the camera of the smaller one.
+  // Runs of a larger rock are not seen by the camera of the smaller one.
   const std::string before = read_text(folder / "s/look.toml");
   write_mesh("1.5");
   const auto again = neve({"sweep", "shots/scene.toml", "-p", "material.snow.hardening=5,7",
@@ -523,7 +523,7 @@ TEST_F(SweepCli, NothingOfAnEarlierSweepStaysAsIfItWereOfThisOne) {
   for (const char* file :
        {"strips.png", "sheet/0000.png", "sheet/0003.png", "plots.svg", "review/run_0000.0000.png"})
     EXPECT_TRUE(exists(std::string("s.cdb/") + file)) << file;
-  // What earlier sweeps of other methods and sizes left, and what is no result of neve.
+  // The folder has files of earlier sweeps of other methods and sizes, and files not of neve.
   const std::vector<std::string> old{"effects.csv",     "effects.svg",  "points.csv",
                                      "sheet_2.png",     "strips_2.png", "sheet.mp4",
                                      "sheet_2/0000.png"},
@@ -632,7 +632,7 @@ TEST_F(SweepCli, EmittedCommandsMakeTheSweepAnywhere) {
   ASSERT_EQ(emitted.exit_code, 0) << emitted.errors;
   EXPECT_TRUE(contains(emitted.errors, "4 commands in commands.txt")) << emitted.errors;
   EXPECT_EQ(status("0003")["state"], "pending");
-  // From another folder: nothing in them is relative.
+  // The commands run in another folder: nothing in them is relative.
   const auto made = app::output::run_process(
       "/bin/sh", {"-c", "cd / && sh -e \"$0\"", (folder / "commands.txt").string()}, folder.path());
   ASSERT_EQ(made.exit_code, 0) << made.errors;
@@ -641,7 +641,7 @@ TEST_F(SweepCli, EmittedCommandsMakeTheSweepAnywhere) {
   EXPECT_TRUE(exists("out/sweep.cdb/report.html"));
   ASSERT_EQ(neve({"sweep", "sweep.toml", "--emit", "commands.txt"}).exit_code, 0);
   EXPECT_EQ(read_text(folder / "commands.txt"), "") << "nothing is left to do";
-  // What is damaged is to be made again, here as by Slurm.
+  // A damaged run is to be made again, here as by Slurm.
   std::filesystem::resize_file(folder / "out/sweep.cdb/runs/0001/run.json", 100);
   ASSERT_EQ(neve({"sweep", "sweep.toml", "--emit", "commands.txt"}).exit_code, 0);
   EXPECT_TRUE(contains(read_text(folder / "commands.txt"), "--index 1"));

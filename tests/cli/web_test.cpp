@@ -5,7 +5,7 @@
 namespace neve::test {
 namespace {
 
-/// Of keys and of long pastes, from a page that is visible or hidden.
+/// Keys and long pastes flood the viewer, from a page that is visible or hidden.
 TEST_F(WebView, AFloodEndsWithItsViewerAndTakesNoMemory) {
   start();
   {

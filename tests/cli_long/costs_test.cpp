@@ -1,4 +1,4 @@
-/// What an input of a stranger costs when it is twice as long, for every kind that can be long.
+/// Costs of an input of a stranger that is twice as long, for every kind that can be long.
 
 #include <cmath>
 #include <cstdio>
@@ -36,7 +36,7 @@ class Costs : public CostlyCli {
                  last = seconds_of(write(8)) - none;
     const double exponent = last < least_seconds || first <= 0 ? 0 : std::log2(last / first) / 3;
     std::printf("%-28s %8.3f s %8.3f s   exponent %.2f\n", kind, first, last, exponent);
-    // Where the shortest takes no time, the exponent says nothing.
+    // The exponent says nothing if the shortest input takes no time.
     if (first > 0.01) {
       EXPECT_LE(exponent, largest_exponent) << kind;
     }
@@ -128,7 +128,6 @@ TEST_F(Costs, OfScenesGrowWithTheirLength) {
   });
 }
 
-/// What came after snow, floors and points.
 TEST_F(Costs, OfCurvesBodiesAndDustGrowWithTheirLength) {
   const auto number = [](double x) {
     char digits[32];

@@ -1,4 +1,4 @@
-/// What goes wrong by chance, often. NEVE_WHOLE=1 repeats it as often as docs/developers.md says.
+/// Tests of what goes wrong by chance. NEVE_WHOLE=1 repeats as often as docs/developers.md says.
 
 #include <sys/wait.h>
 
@@ -31,7 +31,7 @@ class Counts : public FaultyCli {
         .output;
   }
 
-  /// Whether there is in the folder `out` what a command makes of it alone.
+  /// True where the folder `out` has what a command makes of it alone.
   bool is_what_it_makes_alone(const std::string& command) {
     std::filesystem::remove_all(folder / "found");
     std::filesystem::rename(folder / "out", folder / "found");
@@ -45,7 +45,7 @@ class Counts : public FaultyCli {
   }
 };
 
-/// Of a run with pictures and a movie, at any instant; then of one that is asked to end.
+/// A run with pictures and a movie is killed at any instant; then it is asked to end.
 TEST_F(Counts, KilledAtAnyInstantItEndsWithTheSameBits) {
   // Frames enough that the kills do not run out of them.
   std::string text(tiny_scene);
@@ -70,7 +70,7 @@ TEST_F(Counts, KilledAtAnyInstantItEndsWithTheSameBits) {
   }
 }
 
-/// ffmpeg is there for a part of a second only: the kill waits for it.
+/// ffmpeg runs for a part of a second only: the kill waits for it.
 TEST_F(Counts, KilledWhileItMakesAMovieItLeavesNoProcess) {
   const std::string render = "render scene.toml --out out --quiet";
   const auto is_encoding = [&] {
@@ -178,7 +178,7 @@ TEST_F(Counts, OfAViewThatRecordsAndARenderOneWins) {
   EXPECT_EQ(won, count);
 }
 
-/// Whoever collects meanwhile: the sweep ends with all of its runs collected.
+/// A collect may run meanwhile: the sweep ends with all of its runs collected.
 TEST_F(Counts, ACollectBesideASweepTakesNothingFromIt) {
   const std::string sweep = "sweep scene.toml --out out --frames 0-3 --quiet -p seed=1,2,3",
                     collect = "sweep collect out --quiet";
@@ -240,10 +240,10 @@ TEST_F(Counts, ASweepOf64EndsWellAfterAFullDisk) {
   EXPECT_EQ(neve({"verify", "s"}).exit_code, 0);
 }
 
-/// Of many views, of large pictures and of much snow. The program itself takes what it takes for
+/// Scenes have many views, large pictures or much snow. The program itself takes what it takes for
 /// the least of scenes.
-/// Of final pictures that of a frame in which nothing moves, which has all samples at once: the
-/// moments of a shutter share them, but any run may come to rest.
+/// Estimates of final pictures are those of a frame in which nothing moves, which has all samples
+/// at once: the moments of a shutter share them, but any run may come to rest.
 TEST_F(CostlyCli, EstimatesAreTheMemoryThatIsTaken) {
   const auto estimate_of = [&](const std::string& arguments) {
     cost_of("render " + arguments + " --dry-run --json");

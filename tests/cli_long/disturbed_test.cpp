@@ -34,12 +34,12 @@ TEST_P(EveryCommand, RemovesWhatKilledOnesLeft) {
   expect_to_tidy();
 }
 
-/// No process is there after a second, and the same command ends as if nothing had been.
+/// No process exists after a second, and the same command ends as if nothing had been.
 TEST_P(EveryCommand, KilledAtAnyMomentContinues) {
   kill_at_any_moment(count_or_whole(3, 25));
 }
 
-/// Within a second, once.
+/// A command that is interrupted once ends within a second, and the same command continues.
 TEST_P(EveryCommand, InterruptedAtAnyMomentContinues) {
   interrupt_at_any_moment(count_or_whole(3, 25));
 }

@@ -85,7 +85,7 @@ std::string shortened(std::string command) {
   // It ends after a sixth of a second, those of the pages later.
   if (is_tiny || command.find(" out/") != std::string::npos)
     command = std::regex_replace(command, std::regex("--at [^ ]+"), "--at 0.1s");
-  // Each render has a folder of its own: what is there is not replaced.
+  // Each render has a folder of its own: existing files are not replaced.
   const std::string own = "--out drawn_" + std::to_string(std::hash<std::string>()(command));
   command = std::regex_replace(command, std::regex("--out [^ ]+"),
                                name == "dump"     ? "--out dumped"
@@ -199,7 +199,7 @@ TEST_F(CommandsOfDocs, TheSceneOfTheTutorialBreaksInThePreviewAndInTheFilm) {
     EXPECT_EQ(result.errors, "") << "nobody begins with a warning";
     const fs::path out = folder / words[8];
     const app::Json last = json_of((out / "run.json").string())["frames"].back();
-    // Of 0.5 m. In the preview 14 pieces were counted and 0.24 m, in the film 274 and 0.21 m.
+    // The wall has 0.5 m; in the end the preview has 0.24 m and 14 pieces, the film 0.21 m and 274.
     EXPECT_LT(last["height"].get<double>(), 0.35);
     EXPECT_GT(last["fragments"].get<int>(), is_preview ? 5 : 100);
     EXPECT_GT(white_share(render::decode_png(app::output::read_file(out / "snow/0036.png"))), 0.4);

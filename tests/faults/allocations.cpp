@@ -20,7 +20,7 @@
 #include <cstring>
 #include <initializer_list>
 
-// What glibc's own malloc and its relatives are also called.
+// Other names of glibc's own malloc and its relatives.
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
@@ -68,7 +68,7 @@ bool has_any(const char* text, std::initializer_list<const char*> parts) {
   return false;
 }
 
-/// Whether the OpenGL driver asked for it, itself or through another library.
+/// True where the OpenGL driver asked for it, itself or through another library.
 bool is_of_driver(void* const* frames, int count) {
   for (int k = 0; k < count; ++k) {
     Dl_info info{};
@@ -82,7 +82,7 @@ bool is_of_driver(void* const* frames, int count) {
   return false;
 }
 
-/// Whether this allocation fails; errno is set then.
+/// True where this allocation fails; errno is set then.
 bool allocation_fails(std::size_t size) {
   if (size <= large || !plan.count || is_inside) return false;
   is_inside = true;

@@ -95,7 +95,7 @@ std::string absolute(const char* path) {
   return std::string(here) + "/" + path;
 }
 
-/// Of a path that may begin at an open folder.
+/// Returns the whole path of one that may begin at an open folder.
 std::string absolute(int folder, const char* path) {
   return folder == AT_FDCWD || path[0] == '/' ? absolute(path) : path_of(folder) + "/" + path;
 }
@@ -112,7 +112,7 @@ void journal(const char* operation, const std::string& path, const std::string& 
   next<int(int)>("close")(fd);
 }
 
-/// Whether this call fails; errno is set then.
+/// True where this call fails; errno is set then.
 bool fails(const char* operation, const std::string& path) {
   Fault& f = fault();
   if (f.operation != operation || path.find(f.part) == std::string::npos) return false;

@@ -20,7 +20,7 @@ Bytes bytes_in(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// In the order of their names.
+/// Returns the contents of all files, in the order of their names.
 std::vector<Bytes> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;

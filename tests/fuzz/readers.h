@@ -24,7 +24,7 @@ const std::vector<Reader>& readers();
 /// The files of the corpus, then the seeds, then what earlier searches found (found.tar.xz).
 std::vector<Bytes> corpus_of(const Reader& reader);
 
-// Of files, in readers_of_files.cpp.
+// Readers of files, in readers_of_files.cpp.
 void read_scene(std::span<const std::uint8_t> bytes);
 void read_set(std::span<const std::uint8_t> bytes);
 std::vector<Bytes> settings();
@@ -35,14 +35,14 @@ void read_heights(std::span<const std::uint8_t> bytes);
 void read_script(std::span<const std::uint8_t> bytes);
 void read_clicks(std::span<const std::uint8_t> bytes);
 
-// Of runs, in readers_of_runs.cpp.
+// Readers of runs, in readers_of_runs.cpp.
 void read_checkpoint(std::span<const std::uint8_t> bytes);
 void read_run_json(std::span<const std::uint8_t> bytes);
 void read_manifest(std::span<const std::uint8_t> bytes);
 std::vector<Bytes> checkpoints();
 std::vector<Bytes> run_records();
 
-// Of pictures, plates and looks, in readers_of_pictures.cpp.
+// Readers of pictures, plates and looks, in readers_of_pictures.cpp.
 void read_picture(std::span<const std::uint8_t> bytes);
 void read_exr(std::span<const std::uint8_t> bytes);
 void read_jpeg(std::span<const std::uint8_t> bytes);
@@ -51,7 +51,7 @@ std::vector<Bytes> pictures();
 std::vector<Bytes> exr_pictures();
 std::vector<Bytes> jpeg_pictures();
 
-// Of the web page, in readers_of_web.cpp.
+// Readers of the web page, in readers_of_web.cpp.
 void read_http(std::span<const std::uint8_t> bytes);
 void read_web_socket(std::span<const std::uint8_t> bytes);
 void read_page_message(std::span<const std::uint8_t> bytes);

@@ -48,7 +48,8 @@ name = "points"
 format = "ply"
 )";
 
-/// In the scene above. @param address  with NAME or N where a scene has names and numbers
+/// Returns an address of the scene above.
+/// @param address  with NAME or N where a scene has names and numbers
 std::string named(std::string address) {
   constexpr std::pair<std::string_view, std::string_view> names[] = {
       {"body.NAME", "body.ball"},

@@ -68,14 +68,14 @@ render::ExrPicture small_exr(int width, int height) {
 
 }  // namespace
 
-/// As neve info reads it, and neve compare its pixels.
+/// Reads the picture as neve info does, and its pixels as neve compare does.
 void read_picture(std::span<const std::uint8_t> given) {
   const Bytes bytes = with_right_checksums(given);
   try_picture([&] { record::picture_record_of(render::read_png_text(bytes), "picture.png"); });
   try_picture([&] { render::decode_png(bytes, room); });
 }
 
-/// As neve info reads it, and neve render as a plate.
+/// Reads the picture as neve info does, and its channels as neve render does with a plate.
 void read_exr(std::span<const std::uint8_t> bytes) {
   try_picture([&] { record::picture_record_of(render::read_exr_text(bytes), "picture.exr"); });
   try_picture([&] {

@@ -119,7 +119,7 @@ void read_checkpoint(std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// As --resume and neve verify read it.
+/// Reads run.json as --resume and neve verify do.
 void read_run_json(std::span<const std::uint8_t> bytes) {
   Json json;
   try {

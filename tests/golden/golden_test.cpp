@@ -18,10 +18,9 @@ namespace fs = std::filesystem;
 
 const fs::path goldens = fs::path(NEVE_SOURCE_DIR) / "tests" / "golden";
 
-/// With the driver that made them the pictures are equal, whatever the way of drawing particles.
-/// Half a grey level on average, and 12 on the worst 8x8 pixels, is what other drivers may round at
-/// the edges of particles and letters; the negative control below says that no two goldens are so
-/// near.
+/// Pictures of the driver that made them are equal, whatever the way of drawing particles. Half a
+/// grey level on average, and 12 on the worst 8x8 pixels, is what other drivers may round at the
+/// edges of particles and letters; the negative control below says that no two goldens are so near.
 constexpr double mean_allowed = 0.5, local_allowed = 12;
 
 bool is_near(const render::Difference& difference) {

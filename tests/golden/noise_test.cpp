@@ -223,8 +223,7 @@ TEST(Noise, GrainRemainsWhereSnowIsBlurredByItsMotion) {
   EXPECT_NEAR(brightness_of(with.mean()), brightness_of(without.mean()), 3);
 }
 
-/// Where a crumb still rolls by some pixels, the rest is not drawn with all samples for each
-/// moment.
+/// A crumb that still rolls by some pixels must not make the rest cost all samples in each moment.
 TEST(Noise, SomeMomentsOfMotionBlurShareTheSamplesOfAPixel) {
   const auto moments_at = [](const char* velocity, int supersampling) {
     const Shaded moving(velocity);
@@ -264,7 +263,7 @@ TEST(Noise, WordsStayWhereMomentsShareSamples) {
       << "no label";
 }
 
-/// What stands still beside fast snow is as sharp as without motion blur.
+/// Snow that stands still beside fast snow is as sharp as without motion blur.
 TEST(Noise, SnowAtRestKeepsItsGrainWhereMomentsShareSamples) {
   OPEN_OR_SKIP(context, "auto");
   render::Renderer renderer(*context);

@@ -109,8 +109,8 @@ Finding Laboratory::examine(const Mistake& mistake) const {
       if (is_source(edit) && !fs::exists(copies / (fs::path(edit.file).stem().string() + ".o")))
         add(edit.file);
     std::vector<std::string> link = objects;
-    // Where the build compiles many files as one, the library has all of a file that was changed a
-    // second time; the first is taken.
+    // A build that compiles many files as one has all of a changed file in its library a second
+    // time; the first is taken.
     link.insert(link.end(),
                 {NEVE_PROBE, NEVE_SIM, "-Wl,-z,muldefs", "-pthread", "-lz", NEVE_BULLET,
                  NEVE_BULLET_COLLISION, NEVE_BULLET_MATH, "-o", (copies / "probe").string()});

@@ -9,7 +9,7 @@
 
 namespace neve::test {
 
-/// Which checks noticed a mistake.
+/// The checks that noticed a mistake.
 struct Finding {
   std::string trouble;  ///< why there is no finding: a lost place, a compiler's message
   std::vector<std::string> self_tests, drop, spin;

@@ -63,7 +63,7 @@ std::string number(double x) {
   return out.str();
 }
 
-/// As the cell of a table.
+/// Returns the text as the cell of a table.
 std::string cell(const std::string& text) {
   std::string escaped;
   for (const char c : text) escaped += c == '|' ? "\\|" : std::string(1, c);

@@ -110,7 +110,7 @@ TEST(OracleMaterials, PathsAgree) {
     kernels::Particle<double> p = record_of<double>(m, Mat3d::Identity(), 1);
     const auto rows = entry["p"].size();
     RelativeError pressure, q, alpha;
-    // Where one of the two is rounding, it is weighed against the strength.
+    // The error of one that is rounding is weighed against the strength.
     for (RelativeError* error : {&pressure, &q})
       error->add(m.consolidation_pressure, m.consolidation_pressure);
     alpha.add(1, 1);

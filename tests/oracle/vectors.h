@@ -97,7 +97,7 @@ inline bool is_known(const Json& material) {
   return model == "corotated" || model == "neo_hookean";
 }
 
-/// The reference starts from alpha0, we from the pressure that belongs to it.
+/// The reference starts from alpha0, and neve from the pressure that belongs to it.
 inline neve::sim::Material cam_clay_material(const Json& j) {
   namespace cam_clay = neve::sim::laws::cam_clay;
   neve::sim::Material m;
@@ -161,7 +161,7 @@ inline Mat3d strain_of(const neve::sim::Material& material, const Mat3d& F_E) {
   return has_alpha(material) ? Mat3d(F_E * F_E.transpose()) : F_E;
 }
 
-/// A scene of the reference as settings of ours. Nodes of the reference are ours plus `first_node`.
+/// A scene of the reference as settings. A node is that of the reference plus `first_node`.
 struct Setup {
   neve::sim::SolverSettings settings;
   neve::sim::Material material;

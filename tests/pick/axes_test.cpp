@@ -21,7 +21,7 @@ TEST(PickAxes, ARangeIsItsTwoEnds) {
     EXPECT_EQ(with_two_ends(other), other);
 }
 
-/// And not by a place in a file of the search, which nobody has written.
+/// The refusal names the flag and not a place in a file of the search, which nobody has written.
 TEST(PickAxes, AParameterThatFollowsACurveIsRefusedByItsFlag) {
   test::TemporaryFolder folder;
   folder.write("scene.toml", R"(

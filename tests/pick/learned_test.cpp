@@ -1,4 +1,4 @@
-/// What a search says it has learned.
+/// Sentences on what a search has learned.
 
 #include "app/pick/learned.h"
 

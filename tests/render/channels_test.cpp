@@ -288,7 +288,7 @@ TEST_P(PartsOfLight, TheBackgroundBehindAHoldoutIsEmission) {
 TEST_P(PartsOfLight, SnowEmitsNone) {
   OPEN_OR_SKIP(context, "auto");
   Frame frame = scene();
-  // On the way of the sun.
+  // The box lies between the sun and the snow.
   frame.meshes.push_back(shapes::box_mesh({-0.45f, 0.45f, 0.3f}, {0.3f, 0.1f, 0.3f}));
   const Drawn drawn(*context, frame, request_for(frame));
   const auto id = drawn.all("id.Y"), albedo = drawn.all("albedo.G"),
@@ -381,7 +381,7 @@ TEST(SnowValues, AColorIsThatOfTheSnowAroundItsPlaceByOpenGlAndOnTheCpu) {
   }
 }
 
-/// As shaders/shade.frag has it.
+/// Returns the tone of shaders/shade.frag.
 float tone_mapped(float c) {
   c *= 0.8f;
   c = c * (1 + c / 4.84f) / (1 + 0.55f * c);
@@ -606,7 +606,7 @@ TEST(Exr, HeadersSayNoMoreThanTheirFileHolds) {
   tiled.erase(tiled.begin() + size_at + 4 + 9, tiled.begin() + size_at + 4 + 12);
   EXPECT_THROW(decode_exr(tiled, room), ImageSizeError);
   EXPECT_THROW(decode_exr(with("chunkCount", "int", {1u << 30}), room), ImageError);
-  // What the library would read from another place than the check.
+  // The library would read these attributes from another place than the check.
   EXPECT_NO_THROW(read_exr_text(with("ours", "float", {1})));
   EXPECT_THROW(decode_exr(with("ours", "float", {1, 2}), room), ImageError);
   EXPECT_THROW(decode_exr(with("ours", "chlist", {82, 2, 0, 1, 1}), room), ImageError);

@@ -11,7 +11,7 @@
 namespace neve::render {
 namespace {
 
-// From the published tables of 256 colours, at entries 0, 64, 128, 255.
+// Colours of the published tables of 256, at entries 0, 64, 128, 255.
 struct Spot {
   ColorMap map;
   Rgb8 at_0, at_64, at_128, at_255;

@@ -31,7 +31,7 @@ TEST(CubeLut, CurvesActOnEachChannelAndAlphaStays) {
             (std::vector<std::uint8_t>{0, 51, 255, 77}));
   EXPECT_EQ(through("LUT_1D_SIZE 2\n1 1 1\n0 0 0\n", image),
             (std::vector<std::uint8_t>{255, 204, 0, 77}));
-  // What is outside the domain is as its end.
+  // A value outside the domain is as its end.
   EXPECT_EQ(through("LUT_1D_SIZE 2\nDOMAIN_MAX 0.5 0.5 0.5\n0 0 0\n1 1 1\n", image),
             (std::vector<std::uint8_t>{0, 102, 255, 77}));
 }

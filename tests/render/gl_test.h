@@ -37,7 +37,7 @@ inline Pixel pixel(const Image& image, int x, int y) {
   return {image.pixels.at(at), image.pixels.at(at + 1), image.pixels.at(at + 2)};
 }
 
-/// Looking along -z from distance 2 at the origin; one unit there is as high as the picture.
+/// Returns a frame seen along -z from distance 2; one unit at the origin is as high as the picture.
 inline Frame small_frame(int width = 120, int height = 90) {
   Frame frame;
   frame.width = width;

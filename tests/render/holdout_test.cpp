@@ -8,7 +8,7 @@
 namespace neve::render {
 namespace {
 
-/// Drawn by OpenGL and on the CPU.
+/// The ways to draw particles: by OpenGL and on the CPU.
 constexpr ParticlePath both_paths[]{ParticlePath::gl, ParticlePath::cpu};
 
 Frame ball_of_snow() {
@@ -58,7 +58,7 @@ TEST(Holdouts, HideSnowAndShowTheBackgroundInstead) {
     frame.meshes = {before_the_ball()};
     const Image image = renderer.draw(frame);
     EXPECT_NEAR(pixel(image, 80, 60).brightness(), pixel(nothing, 80, 60).brightness(), 3);
-    // Without snow nothing is seen of it at all.
+    // Without snow nothing of the holdout is seen at all.
     Frame alone = small_frame(160, 120);
     alone.meshes = frame.meshes;
     EXPECT_EQ(pixels_that_differ(renderer.draw(alone), nothing), 0);
@@ -128,7 +128,7 @@ TEST(Holdouts, LetAPlateThroughWithTheShadowOfTheSnow) {
   EXPECT_LT(count(image, 1), count(open, 1) / 2) << "the ball before the snow hides it";
 }
 
-/// What lies below a plane is hidden by it, over a plate as over nothing.
+/// A plane hides the box below it, over a plate as over nothing.
 TEST(Holdouts, GroundsOfAPlateHideWhatIsBelowThem) {
   OPEN_OR_SKIP(context, "auto");
   Renderer renderer(*context, {}, nullptr, ParticlePath::cpu);

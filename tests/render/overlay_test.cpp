@@ -264,7 +264,7 @@ TEST(Legend, ASingleNumberStandsAtItsValue) {
     const Image middle = renderer.draw(frame);
     return changed(with, middle);
   };
-  // At a third of the bar, not in the middle.
+  // The number 0.5 is at a third of the bar, not in the middle.
   EXPECT_GT(number_at(0.3f, 0.9f).count, 20);
   EXPECT_EQ(number_at(0.4f, 0.6f).count, 0);
 }
@@ -279,7 +279,7 @@ TEST(Legend, SeveralLegendsAreStacked) {
     const Changed one = changed(nothing, renderer.draw(frame));
     frame.legends.push_back({.title = "velocity", .unit = "m/s"});
     const Changed two = changed(nothing, renderer.draw(frame));
-    // As narrow as the wider title, and above the caption's third only where it must.
+    // Both are as narrow as the wider title, and above the caption's third only where they must.
     EXPECT_GT(two.left, 0.7 * width) << width;
     EXPECT_LT(two.top, one.top - 20) << width;
     EXPECT_GT(two.top, 5) << width;

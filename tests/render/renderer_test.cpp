@@ -38,7 +38,7 @@ TEST(Renderer, SameFrameGivesTheSameBytes) {
   EXPECT_EQ(with_threads.draw(frame).pixels, first.pixels);
 }
 
-/// Through pixel buffers or at once: the same bytes, in the order in which they were asked for.
+/// Both ways through pixel buffers and at once bring the same bytes, in the order of the requests.
 TEST(Renderer, PicturesComeBackInOrderEitherWay) {
   OPEN_OR_SKIP(context, "auto");
   Frame clear = ball_over_ground();

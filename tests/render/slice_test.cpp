@@ -183,8 +183,8 @@ TEST(HeatMapPass, ACoverIsShownFromAHalfOn) {
   frame.heat_maps = {full_map({1, 1, 1, 1}, 2, 2)};
   frame.heat_maps[0].cover = {1, 0.2f, 1, 0.2f};
   const Image image = renderer.draw(frame);
-  // From 1 in the middle of the left half to 0.2 in that of the right one: a half at 62.5 % of the
-  // way from pixel 15 (x = -0.5 of 90 pixels a unit) to pixel 105.
+  // The cover falls from 1 in the middle of the left half to 0.2 in that of the right one: it is a
+  // half at 62.5 % of the way from pixel 15 (x = -0.5 of 90 pixels a unit) to pixel 105.
   EXPECT_EQ(count_changed(background, image, 0, 70), 70 * 90);
   EXPECT_EQ(count_changed(background, image, 73, 120), 0);
   EXPECT_TRUE(is_close(pixel(image, 68, 45), map_color(ColorMap::viridis, 1), 3));

@@ -92,7 +92,7 @@ TEST(Smoke, SmokeIsHiddenByWhatIsInFrontAndHidesWhatIsBehind) {
   Renderer renderer(*context);
   const int open = red_of_plate(renderer, 0.6f, false);
   ASSERT_GT(open, 80);
-  // In front of the smoke only the light on the plate differs a little.
+  // Before the smoke only the light on the plate differs a little.
   EXPECT_NEAR(red_of_plate(renderer, 0.6f, true), open, 12);
   const int near = red_of_plate(renderer, 0.15f, true), far = red_of_plate(renderer, -0.15f, true),
             behind = red_of_plate(renderer, -0.6f, true);

@@ -58,8 +58,8 @@ std::vector<std::uint32_t> pixels_of(const std::vector<double>& values) {
   return picture;
 }
 
-/// Against the share of each pixel that the light half covers: a half and more of the error goes
-/// where a step is no longer than an edge is followed.
+/// The error is against the share of each pixel that the light half covers: a half and more of it
+/// goes where a step is no longer than an edge is followed.
 TEST(SmoothEdges, AStraightEdgeComesNearWhatItCovers) {
   for (const double slope : {0.1, 0.3, 0.7, 1.5, 8.0}) {
     const std::vector<double> exact = half_plane(slope, 16);

@@ -1,4 +1,4 @@
-/// What kernels find for the samples of the view snow: the same on each instruction set.
+/// Results of kernels for the samples of the view snow: the same on each instruction set.
 
 #include <algorithm>
 #include <bit>
@@ -16,7 +16,7 @@ namespace {
 
 using snow::Body;
 
-/// Those of each instruction set that this machine runs.
+/// Returns the kernels of each instruction set that this machine runs.
 std::vector<const cpu::DrawKernels*> all_kernels() {
   std::vector<const cpu::DrawKernels*> kernels{&cpu::draw_baseline};
   if (&cpu::chosen_draw_kernels() != &cpu::draw_baseline)

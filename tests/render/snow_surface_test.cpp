@@ -1,4 +1,4 @@
-/// Where rays meet the surface of the view snow, and what a cut shows.
+/// Places where rays meet the surface of the view snow, and the face of a cut.
 
 #include <algorithm>
 #include <bit>

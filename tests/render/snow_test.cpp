@@ -93,7 +93,7 @@ TEST(Snow, GrainMovesWithTheParticles) {
   EXPECT_GT(other, 5 * same);
 }
 
-/// By a quarter turn about y, which takes the field's lattice to itself.
+/// Turns by a quarter about y, which takes the field's lattice to itself.
 Vec3f quarter(Vec3f v) {
   return {v.z, v.y, -v.x};
 }

@@ -50,7 +50,8 @@ TEST(Splat, SplattingDrawsThePictureOfOpenGlNearAndFar) {
 
 TEST(Splat, SphereThatFillsThePictureIsTheSame) {
   OPEN_OR_SKIP(context, "auto");
-  // In front, so near that it fills the picture, and beside the eye, reaching across its plane.
+  // The spheres are in front, so near that they fill the picture, and beside, across the eye's
+  // plane.
   for (const Vec3f center :
        {Vec3f{0.1f, 0.2f, 0.8f}, Vec3f{0.1f, 0.2f, 0.95f}, Vec3f{1, 0.2f, 1.9f}}) {
     Frame frame = small_frame(160, 100);
@@ -131,7 +132,7 @@ TEST(Splat, OrderOfPointsDoesNotMatterAndEqualsGoByTheirId) {
 }
 
 TEST(Splat, HidingChangesNothing) {
-  // Without what lies behind, which is what hiding leaves out, the front half is the same.
+  // Hiding omits what lies behind: the front half without it is the same.
   Frame frame = rough_ball(300, 200);
   const Samples all = splat(frame, render::cpu::chosen_draw_kernels(), nullptr);
   const Vec3f toward_eye = normalized(frame.camera.eye);
@@ -149,7 +150,7 @@ TEST(Splat, HidingChangesNothing) {
   EXPECT_TRUE(splat(frame, render::cpu::chosen_draw_kernels(), nullptr) == all);
 }
 
-/// In double, from the quadratic equation of the ray and the sphere.
+/// The expected depth is that of the quadratic equation of the ray and the sphere, in double.
 TEST(Splat, DepthAndNormalAreThoseOfTheSphere) {
   for (const Vec3f center :
        {Vec3f{0.1f, -0.2f, 0}, Vec3f{0.5f, 0.4f, -3}, Vec3f{0.3f, 0.3f, 1.6f}}) {

@@ -38,8 +38,8 @@ struct Snow {
   }
 };
 
-/// Jittered as bodies are: one particle in each cube of a spacing, off its middle by as much as a
-/// third of it.
+/// Returns snow jittered as bodies are: one particle in each cube of a spacing, off its middle by
+/// as much as a third of it.
 Snow seeded(int half, const std::function<bool(Vec3f)>& is_inside) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> place(0.2f, 0.8f);
@@ -97,7 +97,7 @@ TEST(CellTable, TrianglesOfOneCellDoNotCross) {
   std::uniform_real_distribution<double> unit(0.01, 0.99);
   std::size_t pairs = 0;
   for (int trial = 0; trial < 100; ++trial) {
-    // Half of them with all vertices as close to corners as they come.
+    // Half of the trials have all vertices as close to corners as they come.
     const PointsOfEdges points = cut_edges([&] {
       const double u = unit(random);
       return trial % 2 == 0 ? u : u < 0.5 ? 0.01 : 0.99;
@@ -184,7 +184,7 @@ TEST(Surface, EveryTriangleStaysInItsCell) {
 
 /// A kernel of width w on a surface with curvatures k1 and k2 lets it recede by w^2 (k1 + k2) / 2:
 /// a ball of radius R loses 3 (w / R)^2, 0.75 % here, and a box of side 40 w the edges and corners
-/// that are rounded, below 1 %. Where particles happen to lie adds a few tenths of a percent.
+/// that are rounded, below 1 %. The places of the particles add a few tenths of a percent.
 TEST(Surface, EnclosesTheVolumeOfItsParticles) {
   const Snow box = seeded(20, [](Vec3f) { return true; });
   for (const Snow& snow : {ball(20), box}) {

@@ -67,7 +67,7 @@ TEST(Transparent, SmoothEdgesHaveTheColourOfTheSnow) {
       ++edges;
     }
   EXPECT_GT(edges, 100);
-  // With nothing mixed in, a pixel of which a quarter is covered would have a quarter of it.
+  // With nothing mixed in, a pixel that is covered by a quarter would have a quarter of it.
   EXPECT_GT(darkest_edge, darkest_inside / 2);
 }
 

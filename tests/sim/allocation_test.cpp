@@ -28,7 +28,7 @@ void* operator new(std::size_t bytes) {
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return counted(bytes, static_cast<std::size_t>(alignment));
 }
-// std::stable_sort asks for its buffer so; what deletes it is ours too.
+// std::stable_sort asks for its buffer so; what deletes it is defined here too.
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   return counted(bytes, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
 }

@@ -50,7 +50,7 @@ void advance(Simulation& simulation, int steps) {
   for (int k = 0; k < steps; ++k) simulation.step(simulation.choose_dt(1).dt);
 }
 
-/// In the middle of the impact.
+/// Returns a simulation in the middle of the impact.
 Simulation crushed(const World& world, int threads = 1) {
   Simulation simulation = world.simulate(ball_of_two_materials(), threads);
   advance(simulation, 40);
@@ -108,7 +108,7 @@ TEST(Apply, ApplyingRefusesChangesThatNeedARestart) {
   refused([](World& w) { w.materials.emplace_back(); });
   refused([](World& w) { w.colliders.resize(65, w.colliders[0]); });
   refused([](World& w) { w.colliders[1].shape.form = shapes::Points{}; });
-  // Not even the dt of the next step has changed.
+  // The dt of the next step has not changed either.
   const Simulation again = crushed(world);
   EXPECT_EQ(simulation.choose_dt(1).dt, again.choose_dt(1).dt);
 }
@@ -168,7 +168,7 @@ TEST(Apply, AModelIsThatOfTheParticlesFromNowOn) {
   const double worst = simulation.summary().min_J_P;
   advance(simulation, 60);
   EXPECT_FALSE(simulation.divergence());
-  // Only what is snow now yields.
+  // Only particles that are snow now yield.
   const ParticleArrays later = simulation.particles();
   std::size_t yielded = 0;
   for (std::size_t q = 0; q < later.x.size(); ++q) {
@@ -244,7 +244,7 @@ TEST(Apply, AChangeAloneBreaksNoRule) {
                   1e-12 * (before.scale + after.scale))
           << change.what;
       EXPECT_GE(after.scale, before.scale) << change.what;
-      // To the end of a frame, where energy is looked at; few steps where they are tiny.
+      // The run reaches the end of an advance, where energy is looked at, in a hundred steps.
       simulation.advance_to(simulation.time() + 100 * simulation.choose_dt(1).dt);
       EXPECT_FALSE(simulation.divergence())
           << change.what << ": " << simulation.divergence()->sentence;
@@ -329,8 +329,7 @@ TEST(Apply, ManyChangesAtOneStepAreOneChange) {
   EXPECT_EQ(at_once.state_hash(), in_pieces.state_hash());
 }
 
-/// Also where a session looks at an older moment between two changes, and comes back by a saved
-/// state.
+/// A session may look at an older moment between two changes, and come back by a saved state.
 TEST(Apply, ManyChangesAtOneStepAreOneChangeAlsoAcrossASavedState) {
   using Edit = std::function<void(World&)>;
   const Edit stiffer = [](World& w) { w.materials[0].youngs_modulus *= 2; };
@@ -367,8 +366,8 @@ TEST(Apply, ManyChangesAtOneStepAreOneChangeAlsoAcrossASavedState) {
     }
 }
 
-/// What viscosity adds to the stress of a shock is of the step that made it: changes of almost
-/// nothing in each step, as a curve makes them, do almost nothing. The bound is rounding in double
+/// The stress that viscosity adds in a shock is of the step that made it: changes of almost nothing
+/// in each step, as a curve makes them, do almost nothing. The bound is rounding in double
 /// precision over 60 steps; without that stress the energies differ by percents.
 TEST(Apply, AChangeKeepsTheStressOfShocks) {
   World world;
@@ -489,7 +488,7 @@ shapes::Pose pose_of(const Simulation& simulation, std::size_t k) {
 }
 
 TEST(AppliedCollider, AppliedColliderContinuesFromItsPlaceWithItsNewMotion) {
-  // Also where there is no snow to step.
+  // The same holds without snow to step.
   for (const ParticleArrays& particles : {ParticleArrays{}, ball_of_two_materials()}) {
     World world;
     Simulation simulation = world.simulate(particles);

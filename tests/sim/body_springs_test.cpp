@@ -15,7 +15,7 @@ namespace {
 using namespace neve::sim;
 using namespace neve::test;
 
-/// However stiff, it comes to rest where the load is the spring's.
+/// A body on a spring of any stiffness comes to rest where the load is the spring's.
 TEST(BodySprings, SpringsHoldTheirLoad) {
   for (const double stiffness : {1e2, 1e4, 1e8}) {
     SCOPED_TRACE(stiffness);

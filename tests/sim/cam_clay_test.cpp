@@ -38,14 +38,14 @@ void expect_surface(double tolerance) {
       EXPECT_LE((sample.F() - trial_F).norm(), 1e-6);
     }
     if (r < 1 + 1e-3) continue;
-    // On the ellipse of p0 before the step.
+    // A returned state lies on the ellipse of p0 before the step.
     const double M = laws::critical_slope(m.friction_angle), beta = m.own[cam_clay::cohesion];
     const double p = sample.p(), q = sample.q();
     const double y = (1 + 2 * beta) * q * q + M * M * (p + beta * before) * (p - before);
     const double size = M * (1 + beta) * before;
     EXPECT_LE(std::abs(y), tolerance * size * (size + m.youngs_modulus)) << trial;
     deviators += q > 0.1 * before;
-    // What the elastic volume lost, the plastic one has.
+    // The plastic volume has what the elastic one lost.
     const double start = sample.J_P() / volume;
     EXPECT_NEAR(cam_clay::p0(m, start), before, tolerance * m.youngs_modulus);
   }
@@ -128,7 +128,7 @@ TEST(CamClay, OedometerKeepsItsAxisAndItsVolume) {
   const double sideways = tau(0, 0) / tau(1, 1);
   EXPECT_GT(sideways, 0.3);
   EXPECT_LT(sideways, 1.0);
-  // On the surface, but for the growth of a step.
+  // The state lies on the surface, but for the growth of a step.
   EXPECT_NEAR(cam_clay::nearness_to_yield(m, sample.F(), sample.J_P()), 1, 0.02);
 }
 
@@ -174,7 +174,7 @@ double energy_gained(const Material& m) {
   return most / (0.5 * centre * centre / K);
 }
 
-/// From the angle that `neve check` names, for every stiffness and cohesion; below, it does.
+/// Flow makes energy only below the angle that `neve check` names, at any stiffness and cohesion.
 TEST(CamClay, FlowMakesNoEnergyFromTheLeastFrictionAngle) {
   for (const double nu : {0.05, 0.2, 0.4})
     for (const double cohesion : {0.05, 0.4, 0.8}) {
@@ -197,7 +197,7 @@ TEST(CamClay, SnowTornByTensionLosesItsStrengthForGood) {
   const Material m = clay();
   Sample<double> sample(m);
   sample.strain(0.2 * Mat3d::Identity());
-  // At the tip: -beta p0 of the start.
+  // The state is at the tip: -beta p0 of the start.
   EXPECT_NEAR(sample.p(), -m.own[cam_clay::cohesion] * m.consolidation_pressure,
               1e-8 * m.youngs_modulus);
   EXPECT_LE(sample.q(), 1e-9 * m.youngs_modulus);

@@ -30,7 +30,7 @@ constexpr double h = 0.1;
 constexpr int block[3] = {-4, 8, 4};
 const Vec3d place_of_block = h * Vec3d(-4, 8, 4);
 
-/// As the kernels of a precision see a place, in every lane the same.
+/// Returns the surface that the kernels of a precision see from a place, in every lane the same.
 template <class Real>
 Seen seen_by_kernel(const sim::kernels::ColliderPose& pose, const Vec3d& x) {
   using V = Quad<Real>;
@@ -161,7 +161,7 @@ TEST(ContactKernel, NormalIsTheGradientOfTheDistanceInside) {
         gradient[a] = (seen_by_kernel<double>(pose, x + e * Vec3d::Unit(a)).distance -
                        seen_by_kernel<double>(pose, x - e * Vec3d::Unit(a)).distance) /
                       (2 * e);
-      // Within 1e-6 of where two faces are as near, differences mix both: random places are not.
+      // Differences mix two faces within 1e-6 of where both are as near: no random place is there.
       EXPECT_LT((gradient - here.normal).norm(), 1e-6);
     }
   }
@@ -202,7 +202,7 @@ TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
        -0.1},
       {{sim::shapes::Cylinder{middle_of_shapes, 0.2, 0.4}, none}, {0, 0, 0}, {1, 0, 0}, -0.2},
       {{sim::shapes::Cylinder{middle_of_shapes, 0.4, 0.2}, none}, {0, 0, 0}, {0, 1, 0}, -0.1},
-      // As near to the wall as to an end: the wall.
+      // A place as near to the wall as to an end belongs to the wall.
       {{sim::shapes::Cylinder{middle_of_shapes, 0.25, 0.5}, none},
        {-0.125, -0.125, 0},
        {-1, 0, 0},
@@ -229,7 +229,7 @@ TEST(ContactKernel, TiesAndCentresAreAsDocumented) {
     EXPECT_NEAR(lane.distance, c.distance, 1e-12);
     EXPECT_NEAR(host.normal.norm(), 1, 1e-12);
     EXPECT_NEAR(lane.normal.norm(), 1, 1e-12);
-    // At the very place, in the shape's own arithmetic.
+    // The shape moves to the origin, where its own arithmetic has the very place.
     collider.shape = c.shape;
     std::visit(
         [&](auto& form) {

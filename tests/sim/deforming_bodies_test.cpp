@@ -25,8 +25,8 @@ class DeformingBodies : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// Up and to the side at once, under a box that friction carries: files of it say the same as a
-/// mesh with the velocity. What is left is when a contact is found: a thousandth of its size.
+/// A plate moves up and to the side at once, under a box that friction carries: its files say the
+/// same as a mesh with the velocity. Only the times of contacts differ: a thousandth of its size.
 TEST_F(DeformingBodies, FilesOfARigidMotionCarryThemAsThatMotion) {
   const Vec3d velocity(0.3, 0.8, 0);
   const shapes::MeshSequence sequence = written_sequence(folder_, "rise", 12, 20, [&](int k) {
@@ -43,7 +43,7 @@ TEST_F(DeformingBodies, FilesOfARigidMotionCarryThemAsThatMotion) {
     EXPECT_LT((world->pose(1).velocity - velocity).norm(), 1e-2) << "a box rocks a little";
 }
 
-/// Without gravity and friction, and nothing bounces: the ball goes with the speed of the face.
+/// Gravity and friction are zero, and nothing bounces: the ball goes with the speed of the face.
 TEST_F(DeformingBodies, APistonThrowsABallWithItsSpeed) {
   const shapes::MeshSequence sequence = written_sequence(folder_, "piston", 11, 100, [&](int k) {
     return plate_obj(Vec3d(1, 1, 1), 1,

@@ -90,7 +90,7 @@ TEST(DeformingMesh, AnyFileThatIsWrittenAnewIsReadAnew) {
   const MeshSequence sequence =
       test::written_sequence(folder, "plate", 3, 10, [&](int k) { return lifted(k); });
   EXPECT_NEAR(deforming_mesh(sequence)->mesh_at(0.1).vertices[0].y(), 1 - 0.1, 1e-12);
-  // In its place, as an editor may: neither its neighbours nor the folder change.
+  // A file may change in its place, as in an editor: neither its neighbours nor the folder change.
   std::ofstream(folder / "plate_0001.obj") << lifted(1.25);
   EXPECT_NEAR(deforming_mesh(sequence)->mesh_at(0.1).vertices[0].y(), 1.25 - 0.1, 1e-12);
 }

@@ -67,9 +67,9 @@ class DeformingRun : public testing::Test {
 
 /// A thick plate rises and carries the snow up, once as a rigid mesh with a velocity and once as
 /// files of it. Vertices on straight lines are the motion itself, both lattices have their samples
-/// half a cell apart, and the plate is flat where the snow is: distances are exact in both. What
-/// differs is rounding of distances to float, 1e-7 m of 0.04 m, in contact that switches on and
-/// off: thousandths of the impulse after a hundred steps.
+/// half a cell apart, and the plate is flat where the snow is: distances are exact in both. Only
+/// rounding of distances to float differs, 1e-7 m of 0.04 m, in contact that switches on and off:
+/// thousandths of the impulse after a hundred steps.
 TEST_F(DeformingRun, FilesOfARigidMotionAreTheRigidMotion) {
   const Vec3d size(1.3, 0.32, 1.3), velocity(0.3, 0.8, 0);
   const auto sequence = test::written_sequence(folder_, "rigid", 6, 20, [&](int k) {
@@ -99,8 +99,8 @@ TEST_F(DeformingRun, FilesOfARigidMotionAreTheRigidMotion) {
   }
 }
 
-/// A paddle that turns: files hold chords of the circle, (w / rate)^2 / 8 of the radius within it:
-/// 2e-4 m at the rim, a two-hundredth of a cell. Where snow is pressed into it, files have the
+/// Files of a paddle that turns hold chords of the circle, (w / rate)^2 / 8 of the radius within
+/// it: 2e-4 m at the rim, a two-hundredth of a cell. Snow that is pressed into it meets the
 /// velocity of the nearest place: less than that of a rigid body by w times the depth, half a cell.
 /// That is 5 % of the speed at the rim.
 TEST_F(DeformingRun, FilesOfARotationAreNearlyTheRotation) {
@@ -143,7 +143,7 @@ class FlappingPlate : public DeformingRun {
                              [&](double x) { return Vec3d(0, height(x, k), 0); });
     });
   }
-  /// Of the plate's middle surface; its vertices are on straight lines.
+  /// Returns the height of the plate's middle surface; its vertices are on straight lines.
   static double middle_at(double x, double time) {
     const double k = std::min(time * rate, 9.0), first = std::floor(k);
     return height(x, first) +
@@ -175,7 +175,7 @@ TEST_F(FlappingPlate, LetsNoSnowThrough) {
   }
 }
 
-/// What snow loses in momentum the plate gets, as from rigid colliders.
+/// The plate gets the momentum that snow loses, as rigid colliders do.
 TEST_F(FlappingPlate, GetsTheMomentumThatSnowLoses) {
   const shapes::MeshSequence sequence = plate();
   for (const Way& way : ways) {

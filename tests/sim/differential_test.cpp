@@ -124,7 +124,7 @@ TEST(StressChange, StressChangeOfABodyAtRestIsHookesLaw) {
   }
 }
 
-/// What a law takes that has no derivative of its own.
+/// Laws without a derivative of their own take this one.
 TEST(StressChange, SmallStrainIsHookesLawWhateverTheStrain) {
   using V = Quad<double>;
   const Material material = material_of(laws::model::snow);

@@ -208,9 +208,9 @@ TEST(DistanceField, FacesInsideAreNoSurface) {
       "v 0.5 0.1 0.1\nv 1.5 0.1 0.1\nv 1.5 0.9 0.1\nv 0.5 0.9 0.1\n"
       "v 0.5 0.1 0.9\nv 1.5 0.1 0.9\nv 1.5 0.9 0.9\nv 0.5 0.9 0.9\n"
       "f 9 12 11 10\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n"));
-  // On the wall of the second box that is in the first.
+  // This place is on the wall of the second box that is in the first.
   EXPECT_NEAR(surface->signed_distance({0.5, 0.5, 0.5}), -0.5, 1e-12);
-  // In the mouth of the first box under the second: pieces end within 1/128 of the mesh.
+  // This place is in the first box's mouth under the second: pieces end within 1/128 of the mesh.
   EXPECT_NEAR(surface->signed_distance({1, 0.5, 0.5}), -0.4, 1.5 / 128);
   EXPECT_NEAR(surface->signed_distance({2, 0.5, 0.5}), 0.5, 1e-12);
 }
@@ -231,7 +231,7 @@ TEST(DistanceField, DistanceFieldNamesTheDefectOfAMesh) {
   EXPECT_NE(said.find("mesh.obj:9: face 1 crosses itself"), std::string::npos) << said;
   EXPECT_NE(mesh_complaint({(folder / "none.obj").string(), 1, {0, 0, 0}}, 0.05).find("none.obj"),
             std::string::npos);
-  // As thin as paper: no place of the lattice is inside. Too long for a finer lattice.
+  // Paper is so thin that no place of the lattice is inside, and too long for a finer lattice.
   const std::string paper = box_obj({4, 0.001, 4});
   EXPECT_NE(mesh_complaint(written_mesh(folder, paper), 0.05).find("thinner"), std::string::npos);
 }

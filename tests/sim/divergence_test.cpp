@@ -71,7 +71,7 @@ TEST(Divergence, SoftSnowIsCrushedAndRunsOn) {
   simulation.advance_to(0.1);
   ASSERT_FALSE(simulation.divergence()) << simulation.divergence()->sentence;
   EXPECT_FLOAT_EQ(static_cast<float>(simulation.warnings().least_J_P), 0.1F);
-  // Without the range it ends here.
+  // Without the range of J_P the run ends here.
   m.min_J_P = 1e-6;
   EXPECT_EQ(rule_of(with_held_nodes(), m, falling_ball(30)), "J_P");
 }
@@ -103,7 +103,7 @@ TEST(Divergence, SnowWithoutRoomIsFound) {
   EXPECT_NE(d.what.find("of the snow is packed to J_P = 0.1"), std::string::npos) << d.what;
 }
 
-/// However much sand lies beside it.
+/// The sand beside the snow does not count.
 TEST(Summary, SharesAreOfTheSnow) {
   ParticleArrays p = falling_ball(0);
   const std::size_t snow = p.x.size();

@@ -76,15 +76,15 @@ void fly(
   }
 }
 
-/// From rest, with drag that balances the weight at the settling speed w and time w / g:
-/// y = y0 - w (t - T (1 - e^(-t/T))).
+/// A mote falls from rest, with drag that balances the weight at the settling speed w and time w /
+/// g: y = y0 - w (t - T (1 - e^(-t/T))).
 TEST(Dust, SettlesInStillAirAsTheClosedFormSays) {
   const DustSettings settings = still_air();
   const double w = settings.settling_speed, T = w / 9.81;
   for (const double dt : {0.01, 0.04}) {
     dust::Cloud cloud = cloud_of(1, {0.1, 1.9, 0.2});
     fly(cloud, settings, dust::NoSolids(), dt, 2, [&](double t) {
-      // Exact for any dt, but for rounding.
+      // The fall is exact for any dt, but for rounding.
       ASSERT_NEAR(cloud.motes[0].x[1], 1.9 - w * (t - T * (1 - std::exp(-t / T))), 1e-12);
       ASSERT_EQ(cloud.motes[0].x[0], 0.1);
     });
@@ -101,7 +101,7 @@ TEST(Dust, ReachesTheGroundWhenItHasSunkToItAndIsCounted) {
     expect_accounts(cloud);
     if (landed == 0 && cloud.motes.empty()) landed = t;
   });
-  // Later by the time in which it takes on its speed, and by less than a step.
+  // The dust lands later by the time in which it takes on its speed, and by less than a step.
   EXPECT_NEAR(landed, 0.6 / w + w / 9.81, 0.0101);
   EXPECT_EQ(cloud.totals.settled, 8u);
   EXPECT_EQ(cloud.totals.settled_mass, 2.0);
@@ -232,7 +232,7 @@ TEST(Air, FollowsSnowAndMakesRoomForIt) {
   // It returns around the block, and upwards before its front.
   EXPECT_LT(air.velocity({1.75, 2.6, 1.75}, Vec3d::Zero()).x(), 0);
   EXPECT_GT(air.velocity({2.25, 2.2, 1.75}, Vec3d::Zero()).y(), 0.05);
-  // What enters a box leaves it: over relaxation ends at a per cent of the speed.
+  // The air that enters a box leaves it: over relaxation ends at a per cent of the speed.
   double sum = 0;
   const double h = 0.125;
   for (double a = 1.0625; a < 2.5; a += h)
@@ -359,7 +359,7 @@ TEST(DustOfARun, HasTheSameBitsAtAnyNumberOfThreads) {
 TEST(DustOfARun, ContinuesWithTheSameBitsFromASavedState) {
   Simulation whole = dusty_impact(dusty(), powder(), 2);
   whole.advance_to(0.04);
-  // In the middle of a frame, and of a step of the dust.
+  // The state is saved in the middle of a frame, and of a step of the dust.
   whole.advance_to(0.08, {}, whole.steps() + 17);
   const std::vector<std::uint8_t> bytes = whole.save();
   Simulation again = dusty_impact(dusty(), powder(), 1);

@@ -101,7 +101,7 @@ TEST(Flow, BirthsDoNotDependOnWhenTheyAreAskedFor) {
   EXPECT_GT((births_of(other, 0.25)[0].x - once[0].x).norm(), 1e-3) << "emitters share a pattern";
 }
 
-/// At the rate that its velocity carries away, a jet is as dense as packed snow, everywhere.
+/// A jet at the rate that its velocity carries away is as dense as packed snow, everywhere.
 TEST(Flow, AJetHasTheDensityOfItsMaterial) {
   const Material snow;
   seeding::Emitter e = spout(0.001);
@@ -153,7 +153,7 @@ TEST(Flow, ASceneMayBeginEmpty) {
   EXPECT_FALSE(simulation.divergence());
   EXPECT_EQ(simulation.particle_count(), seeding::count_emitted(spout(2), Material{}, 0.02, 0.1));
   EXPECT_EQ(simulation.flow_totals().emitted, simulation.particle_count());
-  // With snow there are steps that its sound allows: 0.5 h / c.
+  // With snow the steps are those that its sound allows: 0.5 h / c.
   EXPECT_LT(simulation.choose_dt(1).dt, 0.6 * 0.02 / sound_speed(Material{}));
 }
 
@@ -258,7 +258,7 @@ TEST(Flow, ARestoredRunContinuesBitForBit) {
   }
 }
 
-/// What a report says of the start is the same after a restore, and says nothing of later births.
+/// The fastest start in a report is the same after a restore, and knows no later births.
 TEST(Flow, ARestoredRunKnowsTheFastestBirth) {
   seeding::Emitter late = spout(5);
   late.start = 0.1;
@@ -441,7 +441,7 @@ TEST(Flow, FastSnowDoesNotFlyThroughASink) {
   EXPECT_EQ(simulation.choose_dt(1).limit, sim::DtLimit::max_dt) << "what has left limits nothing";
 }
 
-/// Also after steps in which a sink took snow, and in a run that was restored.
+/// The grid is that of the snow also after steps in which a sink took some, and after a restore.
 TEST(Flow, TheGridIsThatOfTheSnowAtAnyTime) {
   ParticleArrays block = box_of_snow({0, 0.1, 0}, {0.1, 0.3, 0.1}, 0.01);
   for (Vec3d& v : block.v) v = {0, -5, 0};
@@ -586,7 +586,7 @@ TEST(FlowRoom, AJetIsAsDenseAsItsSnowAtAnyRateBeyondTheNaturalOne) {
       EXPECT_NEAR((totals.emitted_mass - early) / 0.2 / natural, comes, 0.005);
       EXPECT_NEAR(static_cast<double>(totals.withheld) * one, (ratio - comes) * natural * 0.3,
                   2 * one);
-      // Between the ends of the jet, which are as long as the spout.
+      // Snow counts between the ends of the jet, which are as long as the spout.
       double mass = 0;
       const ParticleArrays particles = simulation.particles();
       for (std::size_t p = 0; p < particles.x.size(); ++p)
@@ -667,7 +667,7 @@ TEST(FlowRoom, TheClockOfAnEmitterStopsWhileABirthWaits) {
   EXPECT_NEAR(static_cast<double>(stream.state().withheld), 0.2 / period, 1.01);
 }
 
-/// What is in the way stays until long after. The birth that waited has no place by then: its snow
+/// The place stays taken until long after. The birth that waited has no place by then: its snow
 /// would have flown on from the shape for as long, and was born far from it.
 TEST(FlowRoom, ABirthThatWaitsWhenItsEmitterClosesIsLeftOut) {
   seeding::Emitter e = spout(3);
@@ -690,7 +690,7 @@ TEST(FlowRoom, ABirthThatWaitsWhenItsEmitterClosesIsLeftOut) {
       EXPECT_EQ(s->state().born + s->state().withheld, seeding::count_emitted(e, snow, 0.02, 7));
     }
   }
-  // Those that nobody looked at before the end were due before it, and are born.
+  // Births that nobody looked at before the end were due before it, and are born.
   seeding::EmitterStream late(e, 0, snow, 1, 0.02);
   EXPECT_EQ(births_of(late, 0.301).size(), seeding::count_emitted(e, snow, 0.02, 7));
 }

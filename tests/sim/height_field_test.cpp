@@ -53,7 +53,7 @@ TEST_F(HeightFields, SurfaceGoesThroughItsPostsAndItsNormalIsExact) {
     const int c = static_cast<int>(16 * unit(random)), r = static_cast<int>(12 * unit(random));
     // Nine digits in the file.
     EXPECT_NEAR(field->at(0.5 * c, 0.5 * r)->height, hills(0.5 * c, 0.5 * r), 1e-6);
-    // Inside a cell, where the surface is smooth.
+    // These places are inside a cell, where the surface is smooth.
     const double x = 0.5 * (c + 0.1 + 0.8 * unit(random)), z = 0.5 * (r + 0.1 + 0.8 * unit(random));
     const auto place = field->at(x, z);
     constexpr double e = 1e-3;  // the surface is quadratic: differences are exact but for rounding
@@ -88,7 +88,7 @@ struct GroundSeen {
 
 constexpr double kernel_cell = 0.1;
 
-/// As the kernels of a precision see a place from a block around it.
+/// Returns the ground that the kernels of a precision see from a place, from a block around it.
 template <class Real>
 GroundSeen seen_from_block(const sim::kernels::ColliderPose& pose, const Vec3d& x) {
   using V = Quad<Real>;

@@ -143,7 +143,7 @@ TEST(HeightReader, APngHasTheHeightsOfItsSceneWithEveryFilter) {
   EXPECT_DOUBLE_EQ(grid.north, 5);
   for (int row = 0; row < 5; ++row)
     for (int column = 0; column < 4; ++column)
-      // Kept in single precision, within 100 m of the middle.
+      // Heights are kept in single precision, within 100 m of the middle.
       EXPECT_NEAR(height_of(grid, static_cast<std::size_t>(column), static_cast<std::size_t>(row)),
                   100 + 200.0 * value(column, row) / 65535, 1e-5);
 }

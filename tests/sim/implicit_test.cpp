@@ -405,7 +405,7 @@ TEST(ImplicitStep, SoundDoesNotLimitIt) {
   EXPECT_TRUE(std::isinf(simulation.step_limits().dt[acoustic]));
   s.beta = 0;
   EXPECT_GT(impact(s, 2).advance_to(0.1).steps, 10 * report.steps);
-  // Below 1/2 sound still limits steps, to 1/sqrt(1 - 2 beta) times the explicit ones.
+  // At beta below 1/2 sound still limits steps, to 1/sqrt(1 - 2 beta) times the explicit ones.
   const double by_force = impact(s, 2).step_limits().dt[acoustic];
   s.beta = 0.375;
   s.acoustic_cfl = 0.1;  // far from where looking ahead shortens steps

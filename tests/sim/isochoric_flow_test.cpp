@@ -59,7 +59,7 @@ void expect_flow(double tolerance) {
     const double J_P = std::exp(0.1 * unit(random)), p0 = cam_clay::p0(m, J_P);
     const Mat3d F = trial_state(random, trial);
     const double p = pressure(m, F), r = cam_clay::nearness_to_yield(m, F, J_P);
-    // Where rounding decides which case it is, there is nothing to expect.
+    // Nothing is expected where rounding decides which case it is.
     const double to_tip = std::min(std::abs(p - p0), std::abs(p + beta * p0));
     if (std::abs(r - 1) < 1e-3 || to_tip < 1e-3 * p0) continue;
     Sample<Real> sample(m, J_P), radial(clay(), J_P);
@@ -97,8 +97,8 @@ TEST(IsochoricFlow, ReturnIsIdempotentWhereTheSurfaceStays) {
   expect_idempotent_return(isochoric_clay());
 }
 
-/// For any angle of friction, also those from which the radial rule makes energy: `neve check`
-/// doubts those, and not these.
+/// Some of these angles of friction are ones at which the radial rule makes energy: `neve check`
+/// doubts those of the radial rule, and not these.
 TEST(IsochoricFlow, ReturnMakesNoEnergyWhateverTheFriction) {
   std::mt19937 random(9);
   for (const double angle : {0.5, 5.0, 39.0, 80.0}) {
@@ -178,7 +178,7 @@ TEST(IsochoricFlow, PressureDoesNotDriftInSinglePrecision) {
   EXPECT_NEAR(sample.J_E() / before, 1, steps * 5e-9);
 }
 
-/// Why it falls apart: without pressure shear only softens it, while the radial rule opens it.
+/// Such snow falls apart: without pressure shear only softens it, while the radial rule opens it.
 TEST(IsochoricFlow, ShearWithoutPressureLeavesNoStrength) {
   Sample<double> isochoric(isochoric_clay()), radial(clay());
   const Mat3d L = paths_of_constant_volume()[0].step - Mat3d::Identity();
@@ -193,7 +193,7 @@ TEST(IsochoricFlow, ShearWithoutPressureLeavesNoStrength) {
   EXPECT_GT(radial.p(), 0.1 * start);
 }
 
-/// Also where no pressure reaches the surface, so that what is crushed is not at a tip.
+/// At some strengths no pressure reaches the surface, so that crushed snow is not at a tip.
 TEST(IsochoricFlow, ReturnIsFiniteForAnyFiniteDeformationAndStrengthAsInRadialFlow) {
   for (Material m : {clay(), isochoric_clay()})
     for (const double p0 : {1e-3, 4500.0, 10 * m.youngs_modulus})
@@ -288,9 +288,9 @@ TEST(IsochoricFlow, HardSnowIsNotTakenForDenseSnow) {
   }
 }
 
-/// Pressed to 60 % between walls: the isochoric rule packs only where the ellipse has followed the
-/// pressure to its tip, where no shear is left, so walls bear what the plate bears. The radial one
-/// keeps the shear of its flow; real snow has 0.3 to 0.5 of the axial stress sideways.
+/// Walls press to 60 %: the isochoric rule packs only where the ellipse has followed the pressure
+/// to its tip, where no shear is left, so walls bear what the plate bears. The radial one keeps the
+/// shear of its flow; real snow has 0.3 to 0.5 of the axial stress sideways.
 TEST(IsochoricFlow, PressedSnowBearsAsMuchSidewaysAsDown) {
   Sample<double> isochoric(isochoric_clay()), radial(clay());
   const Mat3d press = Vec3d(0, -5e-4, 0).asDiagonal();

@@ -75,7 +75,7 @@ TEST_F(KeyframedRun, StepsThatDoNotMoveCollidersDelayThem) {
   step(simulation, 30);
   const Vec3d moved = sim::shapes::pose_at(simulation.colliders()[1], simulation.time()).point;
   EXPECT_LT((moved - sim::shapes::pose_at(colliders_[1], 90 * 5e-4).point).norm(), 1e-12);
-  // And a saved state knows how long.
+  // A saved state also knows how long colliders have waited.
   Simulation again = made();
   again.restore(simulation.save());
   EXPECT_EQ(sim::shapes::pose_at(again.colliders()[1], again.time()).point, moved);

@@ -132,7 +132,7 @@ TEST(Keyframes, AColliderWithoutItsKeyframesContinuesFromItsPlace) {
   sim::shapes::Collider punctual = before;
   punctual.pose_offset = {};
   EXPECT_LT((sim::shapes::pose_at(punctual, 0.65).point - was.point).norm(), 1e-14);
-  // And back: keyframes say where it is.
+  // After a change back, keyframes say where the collider is.
   sim::shapes::Collider again = after;
   again.keyframes = keyframe_path();
   again.velocity.setZero();
@@ -142,7 +142,7 @@ TEST(Keyframes, AColliderWithoutItsKeyframesContinuesFromItsPlace) {
       1e-14);
 }
 
-/// Who gives a body another spin does not take its fall away.
+/// A change of the spin of a body does not take its fall away.
 TEST(Keyframes, ABodyKeepsTheSpeedThatWasNotGiven) {
   sim::shapes::Collider before;
   before.shape = {sim::shapes::Sphere{{0, 3, 0}, 0.1}, {0, 0, 0}};
@@ -207,7 +207,7 @@ TEST(Keyframes, SpinCountsWhereItMovesTheShape) {
   c = {};
   c.shape.form = sim::shapes::Torus{{0, 0, 0}, 0.4, 0.1};
   c.keyframes = {{0, std::nullopt, Vec3d(0, 0, 0)}, {1, std::nullopt, Vec3d(90, 0, 0)}};
-  // From rest to rest, half as quick again in the middle.
+  // From rest to rest, the turn is half as quick again in the middle.
   EXPECT_NEAR(sim::shapes::largest_speed(c), 0.5 * 1.5 * std::acos(0.0), 0.02);
 }
 

@@ -71,7 +71,7 @@ TEST(Lanes, ExponentialIsGoodToTwoUnitsInTheLastPlace) {
       probe.exponential(x.data(), y.data(), many);
       EXPECT_LE(worst_error(x, y, [](long double v) { return std::exp(v); }), 2);
     }
-    // Beyond, it stays where it is; 0 is exact; what is no number stays none.
+    // Beyond these ranges it stays where it is; 0 is exact; a value that is no number stays none.
     std::vector<Real> x(16), y(16);
     const Real infinity = std::numeric_limits<Real>::infinity();
     x = {Real(most),

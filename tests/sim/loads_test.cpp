@@ -44,7 +44,7 @@ ColliderLoad mean_load(Simulation& simulation, double seconds) {
   return load;
 }
 
-/// On a box whose centre is beside the middle of the block: the weight turns it.
+/// The snow lies on a box whose centre is beside the middle of the block: the weight turns it.
 TEST(Loads, SnowAtRestPressesWithItsWeight) {
   for (const LoadCase& c : load_cases()) {
     SCOPED_TRACE(c.name);
@@ -86,8 +86,8 @@ TEST(Loads, TheTorqueOnAMeshIsAboutTheOriginOfItsFile) {
   EXPECT_LT((far.angular_impulse - expected).norm(), 1e-5 * expected.norm());
 }
 
-/// What snow loses in momentum, colliders get. Relative to the impulses: rounding of some hundred
-/// sums of particles' momenta.
+/// Colliders get the momentum that snow loses. The bound is relative to the impulses: rounding of
+/// some hundred sums of particles' momenta.
 TEST(Loads, MomentumCloses) {
   for (const Precision precision : {Precision::real64, Precision::single})
     for (LoadCase c : load_cases()) {
@@ -95,7 +95,7 @@ TEST(Loads, MomentumCloses) {
       c.method.precision = precision;
       SolverSettings s = rest_settings(c.method);
       s.push_out = true;
-      // What a solve leaves undone acts as a force that nobody counts.
+      // The residual of a solve acts as a force that nobody counts.
       s.solve_tolerance = precision == Precision::single ? 1e-5 : 1e-9;
       s.solve_iterations = 500;
       shapes::Collider paddle;

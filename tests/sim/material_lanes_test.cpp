@@ -40,7 +40,7 @@ void check_independence(sim::kernels::SimdLevel level) {
   NastyParticles<Real> nasty(3);
   std::vector<sim::kernels::Particle<Real>> particles;
   for (int q = 0; q < 1500; ++q) particles.push_back(nasty.make(nasty.pick(nasty_kind_count)));
-  // Not even what is no number may reach a neighbour.
+  // A value that is no number may not reach a neighbour either.
   particles[100].F_E[4] = std::numeric_limits<Real>::quiet_NaN();
   particles[200].F_E[8] = std::numeric_limits<Real>::infinity();
   particles[300].J_P = std::numeric_limits<Real>::infinity();

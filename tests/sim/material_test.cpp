@@ -332,8 +332,8 @@ TEST(Arithmetic, ExponentialAndLogarithmMatchTheLibrary) {
   EXPECT_EQ(exponential_of(0.0), 1.0);
 }
 
-/// Against the second derivative of the energy along a plane wave a (k.x), a = k in the direction
-/// of the largest stretch: dF = s a k^T. Central differences of 1e-4 leave 1e-6 of it.
+/// The energy along a plane wave a (k.x) gives the speed by its second derivative, a = k in the
+/// direction of the largest stretch: dF = s a k^T. Differences of 1e-4 leave 1e-6 of it.
 TEST(WaveSpeed, ElasticLawsHaveThatOfTheirEnergy) {
   for (const Model model : {laws::model::corotated, laws::model::neo_hookean})
     for (const double stretch : {0.5, 0.8, 1.0, 1.25}) {

@@ -114,7 +114,7 @@ void expect_links(const engine::Partition& p, const neve::sim::Vec3i& period) {
 TEST(Partition, PartitionKeepsTheOrderOfADefinitionThatKnowsNoHistory) {
   for (const int threads : {1, 2, 3, 7}) {
     ThreadPool pool(threads);
-    // Packed, spray and single particles; slow, and as fast as no stable step allows.
+    // Sizes are packed, spray and single particles; distances slow, and as no stable step allows.
     for (const double size : {10.0, 30.0, 150.0}) {
       for (const double distance : {0.02, 3.0}) {
         Cloud cloud;

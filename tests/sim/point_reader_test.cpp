@@ -123,8 +123,8 @@ TEST(PointReader, RemarksBeforeTheFirstElementOfAPlyArePassedOver) {
   EXPECT_EQ(cloud.x[0], Vec3d(1, 2, 3));
 }
 
-/// What neve exports with --up z --scale 100 of a point at (1, 2, 3) m; other programs' words about
-/// axes mean nothing.
+/// The file is one that neve exports with --up z --scale 100 of a point at (1, 2, 3) m; other
+/// programs' words about axes mean nothing.
 TEST(PointReader, PointReaderTurnsAndScalesBackWhatNeveHasTurnedAndScaled) {
   const auto read = [](const std::string& comments) {
     std::string text = "ply\nformat ascii 1.0\n" + comments + "element vertex 1\n";
@@ -392,7 +392,7 @@ TEST(Points, ThinnedPointsKeepMassAndVolume) {
   }
 }
 
-/// Of a lattice whose points the file has in order or shuffled: as many in every part of it.
+/// A lattice keeps as many points in every part of it, in order in the file or shuffled.
 TEST(PlacedPoints, ThinPointsAreAsEvenInSpaceAsTheyWere) {
   constexpr int side = 32;
   std::vector<Vec3d> lattice;
@@ -407,7 +407,7 @@ TEST(PlacedPoints, ThinPointsAreAsEvenInSpaceAsTheyWere) {
       const std::vector<std::size_t> kept = sim::shapes::kept_points(x, thinning);
       EXPECT_EQ(kept.size(), static_cast<std::size_t>(std::floor(32768 / thinning)));
       EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
-      // In cubes of 8 points a side, and in layers of 4 along each axis.
+      // Points are counted in cubes of 8 a side, and in layers of 4 along each axis.
       int in_cube[4][4][4] = {}, in_layer[3][side / 4] = {};
       for (const std::size_t k : kept) {
         const Eigen::Vector3i cell = x[k].cast<int>();

@@ -126,8 +126,8 @@ TEST(Rasterize, NoParticlesGiveNoBlocksAndLengthsAreChecked) {
   EXPECT_THROW(rasterize(snow, {{1.0, 2.0}}), std::invalid_argument);
 }
 
-/// Particles on one lattice fill space evenly, whatever they weigh. Where densities met, the light
-/// ones got 0.44 of their volume and the heavy ones 1.7 times theirs.
+/// Particles on one lattice fill space evenly, whatever they weigh. Beside other densities, the
+/// light ones got 0.44 of their volume and the heavy ones 1.7 times theirs.
 TEST(EstimatedVolumes, DoNotDependOnTheDensityOfNeighbours) {
   constexpr double spacing = cube_cell / 2;
   ParticleArrays in = box_of_snow(Vec3d(-0.14, -0.14, -0.14), Vec3d(0.14, 0.14, 0.14), spacing);

@@ -114,7 +114,7 @@ std::string boxes_obj(const std::vector<BoxPart>& parts) {
   return text.str();
 }
 
-/// Of boxes added up and taken away.
+/// Returns the mass properties of boxes added up and taken away.
 rigid::MassProperties sum_of(const std::vector<BoxPart>& parts, double density) {
   rigid::MassProperties out;
   out.inertia = Mat3d::Zero();
@@ -176,9 +176,9 @@ TEST(RigidMass, OfPartsInOneAnotherIsThatOfWhatIsFilled) {
   expect_mass_of({cube, inner(0.1, 0.7, 0), inner(2, 0.8, 1)}, Fill::automatic, rounding);
 }
 
-/// Where parts cross, 65536 lines measure: a line that counts as inside of the overlap or not is
-/// one of many along its edge, which is the square root of the lines long: 1e-3 of an overlap that
-/// is smaller than the whole.
+/// Parts that cross are measured by 65536 lines: a line that counts as inside of the overlap or not
+/// is one of many along its edge, which is the square root of the lines long: 1e-3 of an overlap
+/// that is smaller than the whole.
 TEST(RigidMass, OfPartsThatCrossIsThatOfWhatIsFilled) {
   const BoxPart left{{0, 0, 0}, {1, 0.8, 0.6}}, right{{0.6, 0.3, 0.2}, {0.7, 0.9, 0.5}};
   const Vec3d low = (left.centre - 0.5 * left.size).cwiseMax(right.centre - 0.5 * right.size),
@@ -206,8 +206,8 @@ TEST(RigidMass, OfPartsThatCrossIsThatOfWhatIsFilled) {
 TEST(RigidMass, OfAMeshFilledByWindingNumbersIsThatOfItsSamples) {
   expect_mass_of({{{0, 0, 0}, {1, 1, 1}}, {{0.1, 0, 0}, {0.7, 0.7, 0.7}, 0}}, shapes::Fill::winding,
                  1e-2);
-  // One face is missing. Where the number is above 1/2, seen from the hole, is not the whole box:
-  // what is filled lies on the far side of it.
+  // One face is missing. The places with a number above 1/2, seen from the hole, are not the whole
+  // box: what is filled lies on the far side of it.
   const TemporaryFolder folder;
   BoxPart open{{0.3, 0.2, 0.1}, {1, 1, 1}};
   open.is_open = true;
@@ -271,7 +271,7 @@ TEST(RigidBodies, ASpinningPlateWobblesAtItsRate) {
   EXPECT_NEAR((world.pose(0).rotation.col(1) - opposite).norm(), 0, 2e-4);
 }
 
-/// Bullet's own case: two equal balls that do not bounce go on together.
+/// Two balls of one size that do not bounce move on together: Bullet's own case.
 TEST(RigidBodies, BallsThatMeetGoOnTogether) {
   BodiesAlone world({ball_of(700, {-0.3, 0, 0}, 0.1, {2, 0, 0}), ball_of(2100, {0, 0, 0}, 0.1)},
                     Vec3d::Zero());
@@ -316,7 +316,7 @@ TEST(RigidBodies, ABallThatLosesNothingKeepsItsHeight) {
     world.step(1e-3);
     if (step > 8600) highest = std::max(highest, world.pose(1).point.y() - 0.1);
   }
-  // Of second order in the step: g dt^2 / 2 a bounce, and where between two steps the top is.
+  // The error is of second order in the step: g dt^2 / 2 a bounce, and the top between two steps.
   EXPECT_NEAR(highest, 1, 1e-3);
 }
 
@@ -472,9 +472,9 @@ TEST(RigidBodies, ARoundBodyThatComesDownOnItsEdgeDoesNotSpinRound) {
       }
 }
 
-/// Of any size, at the times that belong to it. All factors are powers of two; what is left is that
-/// Bullet takes friction along a velocity above some absolute one, and along fixed axes below: a
-/// body that has nearly come to rest creeps by some ten thousandths of its size.
+/// Bodies of any size move alike, at the times that belong to it. All factors are powers of two,
+/// but Bullet takes friction along a velocity above some absolute one, and along fixed axes below:
+/// a body that has nearly come to rest creeps by some ten thousandths of its size.
 TEST(RigidBodies, SmallAndLargeBodiesMoveAlike) {
   for (std::size_t form = 0; form < 2; ++form)
     for (std::size_t ground = 0; ground < 2; ++ground) {
@@ -495,8 +495,8 @@ TEST(RigidBodies, SmallAndLargeBodiesMoveAlike) {
     }
 }
 
-/// On a plane, a box and a mesh of several triangles. Cylinders that lay on boxes and meshes rolled
-/// away by themselves, and a plate sank through a mesh.
+/// Bodies lie on a plane, a box and a mesh of several triangles. Cylinders that lay on boxes and
+/// meshes rolled away by themselves, and a plate sank through a mesh.
 TEST(RigidBodies, WhatLiesStillStays) {
   const TemporaryFolder folder;
   const std::string plate =
@@ -536,7 +536,7 @@ TEST(RigidBodies, WhatLiesStillStays) {
   }
 }
 
-/// With one point of contact at its end a cylinder rocks, and what stands on it sinks a centimetre.
+/// A cylinder with one point of contact at its end rocks, and what stands on it sinks a centimetre.
 TEST(RigidBodies, WhatStandsOnACylinderStays) {
   std::vector<shapes::Collider> bodies(3);
   const Vec3d low(0.01, 0.05, 0.013), high = low + Vec3d(0, 0.1, 0);
@@ -580,8 +580,8 @@ TEST(RigidBodies, ABlockSlidesBeyondTheFrictionAngle) {
   }
 }
 
-/// Over the faces of a mesh and of a terrain as over a plane. Edges that faces share stopped a box
-/// on a slope without friction, and threw it up.
+/// A block slides over the faces of a mesh and of a terrain as over a plane. Edges that faces share
+/// stopped a box on a slope without friction, and threw it up.
 TEST(RigidBodies, ABlockSlidesOverTheFacesOfASurface) {
   const TemporaryFolder folder;
   const auto level = [](double) { return Vec3d(0, 0, 0); };
@@ -664,8 +664,8 @@ TEST(RigidBodies, WhatTurnsAboutOneAxisDoesNotLean) {
   EXPECT_LT(std::abs(world.pose(1).rotation.col(2).y()), lean + 1e-4);
 }
 
-/// A sign goes through its post. What overlaps at the start is known also of a world that is made
-/// anew, later, when the post moves otherwise.
+/// A sign goes through its post. A world that is made anew, later, when the post moves otherwise,
+/// knows the overlap at the start, too.
 TEST(RigidBodies, ASignPassesItsPostAfterTheSceneWasChanged) {
   shapes::Collider sign = box_of(400, {0, 0.5, 0}, {0.4, 0.3, 0.04});
   sign.body.joint = shapes::Joint::hinge;
@@ -737,7 +737,7 @@ TEST(RigidBodies, EveryFormComesToRestOnTheFloor) {
   }
 }
 
-/// On its base on a floor, and under a box: a cone is as large as its numbers say.
+/// A cone on its base on a floor, and under a box, is as large as its numbers say.
 TEST(RigidBodies, AConeIsNoLargerThanItIs) {
   shapes::Collider cone = box_of(500, {0, 0, 0}, {1, 1, 1});
   for (const auto& [radius, height] : {std::pair{0.5, 1.0}, {0.5, 0.1}, {0.1, 1.0}}) {
@@ -763,7 +763,7 @@ TEST(RigidBodies, AConeIsNoLargerThanItIs) {
   EXPECT_NEAR(slope.pose(1).point.y(), -0.5 + 0.1 * std::hypot(1, 0.5), 1e-3);
 }
 
-/// In steps in which it goes further than a ball is thick.
+/// The collider goes further in a step than a ball is thick.
 TEST(RigidBodies, AFastColliderTakesABodyAtRestAlong) {
   SolverSettings settings;
   settings.gravity.setZero();
@@ -808,7 +808,7 @@ double terrace(double x, double z) {
   return x > 1.5 && z > 1.5 ? 0.5 : 0.2;
 }
 
-/// As snow does: at its sides, at its corners, and far away. What comes to rest may be 2 % of its
+/// Bodies rest as snow does: at the sides, at the corners, and far away. They may be 2 % of their
 /// size from there: contact is soft, and a box that falls on triangles rocks.
 TEST(RigidBodies, BodiesRestOnATerrainBeyondItsPosts) {
   const TemporaryFolder folder;
@@ -933,7 +933,7 @@ TEST(RigidBodies, ABodyThatIsHeldStartsAsItMovesOn) {
   }
 }
 
-/// What a run says of its first frame is how its bodies move.
+/// The motions that a run reports for its first frame are those with which its bodies move.
 TEST(RigidBodies, ASimulationBeginsWithMotionsThatAreAllowed) {
   SolverSettings settings;
   settings.gravity.setZero();

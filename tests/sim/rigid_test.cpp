@@ -79,7 +79,7 @@ Hit hit_plate(Method method, double density, double seconds = 0.03) {
   return hit;
 }
 
-/// Whatever snow loses, the body gets.
+/// The body gets the momentum that snow loses.
 TEST(RigidSnow, MomentumClosesAtAnyRatioOfMasses) {
   for (const Precision precision : {Precision::real64, Precision::single})
     for (Way way : ways())
@@ -93,7 +93,7 @@ TEST(RigidSnow, MomentumClosesAtAnyRatioOfMasses) {
         EXPECT_GT(hit.size, 1e-3);
         // Nothing throws a light plate away: it does not get faster than the snow that hits it.
         EXPECT_LE(hit.fastest, 1.05 * std::hypot(4, 0.5));
-        // Relative to the impulse: rounding of some hundred sums of particles' momenta.
+        // The bound is of the impulse: rounding of some hundred sums of particles' momenta.
         EXPECT_LE(hit.change.norm(), (precision == Precision::single ? 1e-4 : 1e-6) * hit.size);
         // Places move with the velocity at the end of a step, and C carries moment, too: those of
         // the snow are off by a twentieth of what the plate got at an arm of 0.1 m.
@@ -260,7 +260,7 @@ TEST(RigidSnow, ABodyGoesOnWhenParametersChange) {
   EXPECT_EQ(motion_of(run, 2).velocity, Vec3d(0, 3, 0));
   EXPECT_LE((shapes::pose_at(run.colliders()[2], run.time()).point - place).norm(), 1e-12);
   run.advance_to(0.04);
-  // Thrown once: the same parameters again do not throw it again.
+  // A body is thrown once: the same parameters again do not throw it again.
   const Vec3d velocity = motion_of(run, 2).velocity;
   run.apply(settings_with_beta(0), {Material{}}, list);
   EXPECT_EQ(motion_of(run, 2).velocity, velocity);
@@ -277,8 +277,8 @@ TEST(RigidSnow, BothDriversMoveBodies) {
             0.02 * motion_of(fused, 3).angular_velocity.norm());
 }
 
-/// Where no snow shortens the step, a quick body takes it in parts: neither a thin wall nor another
-/// body is passed through.
+/// A quick body takes a step in parts if no snow shortens it: neither a thin wall nor another body
+/// is passed through.
 TEST(RigidSnow, AQuickBodyStopsAtAThinWall) {
   SolverSettings s = settings_with_beta(0);
   s.gravity = Vec3d::Zero();
@@ -294,7 +294,7 @@ TEST(RigidSnow, AQuickBodyStopsAtAThinWall) {
   }
 }
 
-/// What cannot have a mass is refused when the run is made.
+/// A shape that cannot have a mass is refused when the run is made.
 TEST(RigidSnow, APlaneHasNoMass) {
   shapes::Collider floor = plane({0, 0, 0}, {0, 1, 0}, 0.5);
   floor.body.mass = 1;

@@ -66,7 +66,7 @@ TEST(Sand, SandStaysOnItsConeAndKeepsItsVolume) {
   });
 }
 
-/// Thrown apart and pressed together again, it bears pressure where it did before.
+/// Sand that is thrown apart and pressed together again bears pressure where it did before.
 TEST(Sand, SandGivesBackTheVolumeThatItGained) {
   const Material m = dry_sand(30);
   kernels::Particle<double> p = grain<double>(Mat3d::Identity(), 1);
@@ -138,7 +138,7 @@ double acceleration_on_a_slope(double degrees) {
       if (p.x[q][1] > 0.5 * height * h) sum += now.v[q][0], ++count;
     return sum / count;
   };
-  // By then the ringing of the start is gone.
+  // The ringing of the start is gone by then.
   constexpr double from = 0.5, to = 0.8;
   simulation.advance_to(from);
   const double before = speed();
@@ -151,8 +151,8 @@ TEST(Sand, SlopesSlideBeyondTheFrictionAngleAndAsFastAsFrictionAllows) {
   const double slope = laws::critical_slope(30) / std::sqrt(3.0);
   const double critical = std::atan(slope) * 180 / pi;
   EXPECT_NEAR(critical, 34.7, 0.05);
-  // Below, what the fall onto the floor at the start set in motion comes to rest; beyond, the layer
-  // of 8 cells that it loosened slides with up to a sixth more friction.
+  // Below the angle, sand that the fall onto the floor at the start set in motion comes to rest;
+  // beyond, the layer of 8 cells that it loosened slides with up to a sixth more friction.
   EXPECT_LE(acceleration_on_a_slope(critical - 1), 0.01);
   for (const double more : {2.0, 4.0}) {
     const double angle = (critical + more) * pi / 180;

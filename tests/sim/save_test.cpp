@@ -52,7 +52,7 @@ TEST_P(Save, ARestoredRunContinuesBitForBit) {
   settings.transfer = GetParam().transfer;
   settings.precision = GetParam().precision;
   const ParticleArrays particles = two_materials();
-  // Before the first step, within the sorting interval, just before and just after a sort.
+  // States are saved before the first step, within the sorting interval, and around a sort.
   for (const int steps : {0, 7, 32, 45}) {
     Simulation whole = simulate(settings, particles, 2);
     for (int k = 0; k < steps; ++k) whole.step(whole.choose_dt(1).dt);
@@ -161,7 +161,7 @@ class ForgedState : public testing::Test {
     return with(records_at + index * sizeof(Record) + member, value);
   }
 
-  /// Of restore_healthy; "" where it takes the bytes.
+  /// Returns the refusal of restore_healthy; "" where it takes the bytes.
   std::string refusal(const std::vector<std::uint8_t>& bytes) {
     try {
       simulation.restore_healthy(bytes);
@@ -225,7 +225,7 @@ TEST_F(ForgedState, PlacesInMemoryAreRefused) {
   expect_never_taken(with_progress(next_id, ~std::uint64_t{0}), "next_id");
 }
 
-/// As if so many had been emitted and removed: a list with a place for each would take gigabytes.
+/// The state claims so many particles that left: a list with a place for each would take gigabytes.
 TEST_F(ForgedState, IdsOfParticlesThatLeftCostNoMemory) {
   std::vector<std::uint8_t> bytes =
       with_progress(offsetof(engine::Progress, next_id), std::uint64_t{2'147'483'647});
@@ -268,7 +268,7 @@ TEST_F(ForgedState, NumbersThatNoHealthyRunHasAreRefused) {
   expect_refused(with_particle(5, offsetof(Record, F_E), no_number), "F_E");
 }
 
-/// Whatever word of the state is replaced: it is refused, or the run continues in bounded time.
+/// A state with any word replaced is refused, or the run continues in bounded time.
 TEST_F(ForgedState, NoWordOfAStateCrashesOrHangs) {
   const std::uint64_t words[] = {0,
                                  1,

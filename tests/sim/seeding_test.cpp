@@ -65,7 +65,7 @@ TEST(Seeding, ParticlesLieInsideTheirShapeAndFillIt) {
       const sim::shapes::Solid solid(shape);
       sim::shapes::Bounds seen{seeded.x[0], seeded.x[0]};
       for (const Vec3d& x : seeded.x) {
-        // On the surface, there and back through the rotation may round outside.
+        // A place on the surface may round outside, there and back through the rotation.
         const Vec3d inward = x + 1e-12 * (solid.center() - x);
         EXPECT_TRUE(solid.contains(x) || solid.contains(inward));
         seen.min = seen.min.cwiseMin(x);

@@ -113,7 +113,7 @@ SolverSettings spray_settings(Transfer transfer, Kernel kernel) {
   return s;
 }
 
-/// Few enough that most share no nodes, and enough that all kinds of neighbours occur.
+/// So few particles mostly share no nodes, and so many have neighbours of all kinds.
 TEST(Spray, SprayHasTheBitsOfTheGrid) {
   const ParticleArrays p = cloud(700, 85);
   at_every_simd_level([&] {

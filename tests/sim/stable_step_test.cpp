@@ -20,7 +20,7 @@ constexpr std::size_t acoustic = static_cast<std::size_t>(DtLimit::acoustic);
 ParticleArrays trembling(double J_P, double mass_factor) {
   const Vec3d end = Vec3d::Constant(4 * step_cell);
   ParticleArrays p = box_of_snow(Vec3d::Zero(), end, step_cell / 2);
-  // On the lattice: the bulk, without light nodes. Jitter would bring stiff pairs into it.
+  // The lattice is the bulk, without light nodes. Jitter would bring stiff pairs into it.
   for (Vec3d& x : p.x)
     x = ((x / (step_cell / 2)).array().floor().matrix() + Vec3d::Constant(0.5)) * (step_cell / 2);
   disturb(p, 0, 1e-6);

@@ -1,4 +1,4 @@
-/// Which limit rules dt, and that frames end on time.
+/// The limit that rules dt, and frames that end on time.
 
 #include <gtest/gtest.h>
 

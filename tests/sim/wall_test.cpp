@@ -50,7 +50,7 @@ TEST(Wall, ThickWallKeepsSnowApart) {
   EXPECT_LT(std::abs(dragged(Kernel::quadratic, Transfer::mls, 2.5)), 0.03);
 }
 
-/// As docs/scenes.md says and neve check warns.
+/// A thin wall drags snow, as docs/scenes.md says and neve check warns.
 TEST(Wall, ThinWallDragsTheSnowOnItsOtherSide) {
   EXPECT_GT(dragged(Kernel::cubic, Transfer::flip, 1), 0.3);
   EXPECT_GT(dragged(Kernel::cubic, Transfer::flip, 2), 0.05);

@@ -205,7 +205,7 @@ TEST(Places, SnowIsWhereFSaysUnlessItMovesByWhatDoesNotStrainIt) {
   EXPECT_TRUE(is_said);
 }
 
-/// Packed, loose and thin snow on a lattice: 1 to a percent, and in pieces too few to tell 1.
+/// Packed, loose and thin snow has 1 to a percent on a lattice; pieces too few to tell have 1.
 TEST(Places, BelievedVolumeIsOneWhereSnowIsWhereFSays) {
   for (const double stretch : {0.5, 1.0, 1.3}) {
     ParticleArrays p = lattice({0, 0, 0}, Vec3d::Constant(0.2), {16, 16, 16}, 400);

@@ -15,7 +15,7 @@ namespace {
 using sim::Vec3d;
 namespace shapes = sim::shapes;
 
-/// A cube with an edge of 1 m, east, north and up, whose lower corner is there.
+/// Returns a cube with an edge of 1 m, whose lower corner is so far east, north and up.
 std::string cube_obj(double east, double north, double up) {
   std::string text;
   for (int k = 0; k < 8; ++k) {

@@ -110,7 +110,7 @@ TEST(Structure, TheIndexOfTheDocumentationHasEveryPage) {
     }
 }
 
-/// What was before, and who wanted it, is for reports and the changelog. The page of verification
+/// The past, and who wanted something, is for reports and the changelog. The page of verification
 /// is made by a script, which names the commit of its run.
 TEST(Structure, PagesTellWhatIsTrueNow) {
   for (const SourceLine& line : lines_of_pages()) {

@@ -1,4 +1,4 @@
-/// Every file includes what it uses of the standard library, itself or through headers of ours.
+/// Every file includes what it uses of the standard library, itself or through headers of neve.
 /// Precompiled headers, and files that are compiled together, would hide that it does not.
 
 #include <gtest/gtest.h>
@@ -127,7 +127,7 @@ Source read_source(const std::string& file) {
   return source;
 }
 
-/// The standard headers that a file of ours brings, through others of ours too.
+/// The standard headers that a file of neve brings, through others of neve too.
 void add_standard(const std::string& file, const std::map<std::string, Source>& sources,
                   std::set<std::string>& seen, std::set<std::string>& standard) {
   const auto found = sources.find(file);

@@ -58,7 +58,7 @@ TEST(Structure, KernelFilesShareNoFunction) {
     char line[4096];
     while (std::fgets(line, sizeof line, symbols)) {
       const std::string symbol = line;
-      // After the address: the kind. W, V and u are what linkers merge.
+      // The kind follows the address. Linkers merge the kinds W, V and u.
       const std::size_t kind = symbol.find_first_of("WVu", 16);
       if (kind != 17) continue;
       ++shared;

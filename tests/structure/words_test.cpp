@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a phrase is right. Without a file: everywhere.
+/// A place where a phrase is right; without a file it is right everywhere.
 struct Allowed {
   std::string_view phrase, context, file, reason;
 };

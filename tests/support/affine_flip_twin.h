@@ -56,7 +56,7 @@ class AffineFlipTwin {
              Vec3d(C[q](2, 1) - C[q](1, 2), C[q](0, 2) - C[q](2, 0), C[q](1, 0) - C[q](0, 1));
     return sum;
   }
-  /// What C would be of the velocities of the nodes before the last step acted on them, 1/s.
+  /// Returns C of the velocities of the nodes before the last step acted on them, 1/s.
   std::vector<Mat3d> affine_velocity_before() const {
     std::vector<Mat3d> all;
     for (const Vec3d& x : p.x) all.push_back(affine(x, &Node::v_old));

@@ -26,7 +26,7 @@ inline void check_undamped_rebound(BallsCase c) {
               recorded_balls(c).rebound, 0.1);
 }
 
-/// For cases without a reference: momentum must hold, and energy must not come from nowhere.
+/// Checks a case without a reference: momentum must hold, and energy must not come from nowhere.
 inline void check_that_balls_gain_nothing(const BallsCase& c) {
   const BallsHistory h = recorded_balls(c);
   verify_at_most({"balls", c.label(), "momentum of the pair / of one ball"}, 1e-12,

@@ -15,8 +15,8 @@ struct Beam {
   double cell_size = 0.03;
   double length = 0.3, thickness = 0.12, density = 400, youngs_modulus = 5e5;
 
-  /// Of the middle of its last cell, by Timoshenko: bending and shear of a square section (shear
-  /// factor 5/6), nu = 0.
+  /// Returns the sag of the middle of its last cell by Timoshenko, m: bending and shear of a square
+  /// section (shear factor 5/6), nu = 0.
   double sag() const {
     const double T2 = thickness * thickness, q = density * 9.81 * T2;
     const double x = length - cell_size / 2, x2 = x * x, L = length;

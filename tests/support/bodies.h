@@ -31,7 +31,7 @@ inline sim::shapes::Collider box_of(double density, const Vec3d& centre, const V
   return c;
 }
 
-/// How a collider of a simulation moves now.
+/// Returns the place and motion of a collider of a simulation at its time.
 inline sim::shapes::Pose motion_of(const sim::Simulation& simulation, std::size_t k) {
   return sim::shapes::pose_at(simulation.colliders()[k], simulation.time());
 }

@@ -35,7 +35,7 @@ inline int wait_for(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Half a minute at most.
+/// Waits until the file exists, half a minute at most.
 inline bool wait_for_file(const std::filesystem::path& file) {
   for (int k = 0; k < 3000; ++k) {
     if (std::filesystem::exists(file)) return true;
@@ -44,7 +44,7 @@ inline bool wait_for_file(const std::filesystem::path& file) {
   return false;
 }
 
-/// Until the file has something in it, half a minute at most.
+/// Waits until the file has something in it, half a minute at most.
 inline bool wait_for_text(const std::filesystem::path& file) {
   for (int k = 0; k < 3000; ++k) {
     if (!read_text(file).empty()) return true;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run of the program takes.
+/// Time and memory that a run of the program takes.
 
 #include <sys/resource.h>
 

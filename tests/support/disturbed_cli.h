@@ -40,7 +40,7 @@ class DisturbedCli : public FaultyCli, public testing::WithParamInterface<Distur
  protected:
   virtual std::string scene() const { return tiny_scene; }
 
-  /// Half a run, a whole sweep, and a script that saves.
+  /// Prepares half a run, a whole sweep, and a script that saves.
   void SetUp() override {
     folder.write("scene.toml", scene());
     folder.write("exports.toml", scene() + "[[export]]\nname = \"points\"\nformat = \"ply\"\n");
@@ -89,8 +89,8 @@ class DisturbedCli : public FaultyCli, public testing::WithParamInterface<Distur
     return tried;
   }
 
-  /// What killed processes had not finished is removed, wherever the command writes. Runs of a
-  /// sweep that have ended had finished.
+  /// Unfinished files of killed processes are removed, wherever the command writes. Runs of a sweep
+  /// that have ended had finished.
   void expect_to_tidy() {
     shell(GetParam().prepare);
     EXPECT_EQ(failing("", GetParam().arguments).exit_code, 0);
@@ -205,7 +205,7 @@ class DisturbedCli : public FaultyCli, public testing::WithParamInterface<Distur
   }
 };
 
-/// Of a run whose arrays of particles are larger than 64 KiB.
+/// The commands on a run whose arrays of particles are larger than 64 KiB.
 class DisturbedMemoryCli : public DisturbedCli {
  protected:
   std::string scene() const override {

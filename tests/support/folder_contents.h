@@ -1,5 +1,5 @@
 #pragma once
-/// What a command left in a folder, as far as it is the same each time.
+/// The files that a command left in a folder, as far as they are the same each time.
 
 #include <filesystem>
 #include <map>
@@ -25,8 +25,8 @@ inline std::string lasting_contents(const std::filesystem::path& file) {
   return hashes;
 }
 
-/// By the names of all files, without checkpoints, whose number depends on the moments of a run,
-/// and without states, which a run continues without where there is no room.
+/// Returns contents by the names of all files, without checkpoints, whose number depends on the
+/// moments of a run, and without states, which a run continues without where there is no room.
 inline std::map<std::string, std::string> folder_contents(const std::filesystem::path& folder) {
   std::map<std::string, std::string> found;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

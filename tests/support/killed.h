@@ -88,7 +88,7 @@ inline double processor_seconds_of(pid_t process) {
   return seconds;
 }
 
-/// Asks the program to end as Ctrl-C does. What a busy machine does meanwhile is not counted.
+/// Asks the program to end as Ctrl-C does. The work of a busy machine meanwhile is not counted.
 inline Ended interrupt_after(const std::filesystem::path& folder, const std::string& arguments,
                              double seconds) {
   const pid_t child = start_in(folder, arguments);

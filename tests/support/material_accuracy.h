@@ -117,9 +117,9 @@ class MaterialAccuracy {
   MaterialErrors errors_[3][nasty_kind_count];
 };
 
-/// In units. The worst are stretches that differ by a factor of 3 and more: b has the square of
-/// that in its eigenvalues, and in float the last of three sweeps leaves off-diagonal entries of
-/// 1e-5.
+/// The limit in units. The worst are stretches that differ by a factor of 3 and more: b has the
+/// square of that in its eigenvalues, and in float the last of three sweeps leaves off-diagonal
+/// entries of 1e-5.
 template <class Real>
 inline constexpr double material_error_limit = sizeof(Real) == 4 ? 120 : 60;
 

@@ -168,7 +168,7 @@ MaterialReference<Wide> material_reference(const sim::kernels::Particle<Real>& p
   out.tau = svd.U * d.asDiagonal() * svd.U.transpose();
   const double top = static_cast<double>(c.cwiseAbs().maxCoeff());
   const Slopes<Vec> slope(s, c, d, 2 * m * (2 * top + 1), 100 * epsilon * std::max(1.0, largest));
-  // Also a stretch inside the thresholds follows an error of F.
+  // A stretch inside the thresholds follows an error of F, too.
   bool is_any_free = model != sim::laws::model::snow;
   for (int i = 0; i < 3; ++i)
     is_any_free |= std::abs(static_cast<double>(c[i] - s[i])) < 100 * epsilon * largest;

@@ -23,7 +23,7 @@ struct Mould {
   sim::Material snow{};
 
   double side() const { return cells * settings.cell_size; }
-  /// Between the outermost particles.
+  /// Returns the distance of the outermost particles on opposite sides, m.
   double height() const { return side() - 0.5 * settings.cell_size; }
 };
 
@@ -43,7 +43,7 @@ inline std::string in_words(const sim::SolverSettings& s) {
          (s.beta > 0 ? ", beta = " + in_digits(s.beta) : "");
 }
 
-/// In the semi-implicit one, sound crosses three cells in a step.
+/// Returns all moulds; in the semi-implicit one, sound crosses three cells in a step.
 inline std::vector<Mould> moulds() {
   std::vector<Mould> list{mould_of(Transfer::apic, Kernel::cubic, sim::Advect::particle),
                           mould_of(Transfer::asflip, Kernel::cubic, sim::Advect::particle),
@@ -111,7 +111,7 @@ inline Pressed pressed(const sim::Simulation& simulation) {
   return out;
 }
 
-/// At each of some times.
+/// Presses a mould and returns its snow at each of some times.
 inline std::vector<Pressed> run_mould(const Mould& mould, const std::vector<double>& times,
                                       int threads = 1) {
   sim::Simulation simulation(mould.settings, {mould.snow}, walls_of(mould), snow_in(mould),

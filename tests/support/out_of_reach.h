@@ -1,5 +1,5 @@
 #pragma once
-/// What the kernels leave out of contact against the distances of the host.
+/// Places that the kernels leave out of contact, against the distances of the host.
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 #pragma once
-/// What is on a disk after a power cut: the writes of a program, replayed up to some moment,
-/// without some of what was not synced.
+/// A disk after a power cut: the writes of a program, replayed up to some moment, without some of
+/// what was not synced.
 ///
-/// Contents of a file are kept as they were at its last fsync; what was written since is there, not
-/// there, or there in part. Names (files made, moved, removed) are kept in order, up to the last
-/// fsync of their folder at least, and up to a random one of those since.
+/// Contents of a file are kept as they were at its last fsync; later writes are whole, missing, or
+/// partial. Names (files made, moved, removed) are kept in order, up to the last fsync of their
+/// folder at least, and up to a random one of those since.
 
 #include <cstdint>
 #include <filesystem>
@@ -24,7 +24,7 @@ struct DiskCall {
   std::string bytes;  ///< written; of a rename the new name
 };
 
-/// As tests/faults writes it.
+/// Returns the calls of a journal that tests/faults wrote.
 inline std::vector<DiskCall> read_journal(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::vector<DiskCall> calls;

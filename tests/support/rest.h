@@ -41,13 +41,13 @@ inline RestingPlace tilted_place(double fraction, double degrees, int finer = 1)
           finer};
 }
 
-/// In cells, from the place: along it, away from it, and across.
+/// Returns a position in cells, from the place: along it, away from it, and across.
 inline Vec3d in_place(const RestingPlace& place, const Vec3d& x) {
   const Vec3d d = (x - place.point) / place.cell();
   return {d.dot(place.along), d.dot(place.normal), d.dot(place.along.cross(place.normal))};
 }
 
-/// Seeded as bodies are, with its lower side `lift` cells off the place.
+/// Returns snow seeded as bodies are, with its lower side `lift` cells off the place.
 inline ParticleArrays block_at(const RestingPlace& place, double lift) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-0.3, 0.3);
@@ -68,7 +68,7 @@ inline ParticleArrays block_at(const RestingPlace& place, double lift) {
   return p;
 }
 
-/// In cells.
+/// Measures of snow at rest, in cells.
 struct Rest {
   double gap = 0;     ///< of columns of a cell: how much higher their lowest particle is than in
                       ///< the same body seeded so that it touches; the mean

@@ -38,7 +38,7 @@ class Saboteur {
     if (!std::filesystem::exists(run / "status.json")) return false;
     const app::Json status = app::parse_json(std::string_view(read_text(run / "status.json")));
     if (status["state"] != "running") return false;
-    // Not between fork and exec: run.json is the run's own.
+    // The run itself writes run.json: before, the process may be between fork and exec.
     if (!std::filesystem::exists(run / "run.json")) return false;
     return ::kill(status["pid"].get<int>(), signal) == 0;
   }

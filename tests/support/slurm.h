@@ -50,7 +50,7 @@ class Slurm {
               "sleep 0.2; done; exit 1");
   }
   ~Slurm() {
-    // By the ids that the daemons wrote, never by name.
+    // The daemons end by the ids that they wrote, never by name.
     shell("scancel --user=root; for f in slurmd slurmctld; do kill $(cat " +
           folder_.path().string() +
           "/run/$f.pid); done; sleep 1; "

@@ -21,7 +21,7 @@ inline Vec3d3 corner_of(const TriangleMesh& mesh, std::size_t corner) {
   return {double(p.x), double(p.y), double(p.z)};
 }
 
-/// By the divergence theorem; positive where triangles are counter-clockwise from outside.
+/// Returns the volume; it is positive where triangles are counter-clockwise from outside.
 inline double enclosed_volume(const TriangleMesh& mesh) {
   double sum = 0;
   for (std::size_t c = 0; c < mesh.index.size(); c += 3)
@@ -46,7 +46,7 @@ inline std::size_t open_edges(const TriangleMesh& mesh) {
 
 /// Vertices whose triangles are not one fan around them. The mesh must have no open edges.
 inline std::size_t pinched_vertices(const TriangleMesh& mesh) {
-  // From each vertex around it: after the corner `a` of a triangle comes the corner `b`.
+  // Each vertex has a ring of neighbours: after the corner `a` of a triangle comes the corner `b`.
   std::vector<std::map<std::uint32_t, std::uint32_t>> next(mesh.position.size());
   for (std::size_t c = 0; c < mesh.index.size(); ++c) {
     const std::size_t first = c - c % 3;

@@ -55,7 +55,7 @@ inline void keep_row(const std::vector<std::string>& fields) {
   out << '\n';
 }
 
-/// For people: six digits, two of what is nearly nothing.
+/// Returns a number for people: six digits, two of what is nearly nothing.
 inline std::string in_short(double x) {
   return in_digits(x, std::abs(x) < 1e-6 ? 2 : 6);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// How often tests repeat what may go wrong by chance.
+/// Numbers of repetitions of what may go wrong by chance.
 
 #include <cstdlib>
 

@@ -89,7 +89,7 @@ class Xvfb {
   std::string display_, display_before_, reason_;
 };
 
-/// Uses the display as hardware would, through libXtst, which is loaded if it is there.
+/// Uses the display as hardware would, through libXtst, which is loaded if it is installed.
 class XHand {
  public:
   XHand() {
@@ -134,7 +134,7 @@ class XHand {
     key(symbol, false);
   }
 
-  /// As a window manager does when its border is dragged.
+  /// Resizes it as a window manager does when its border is dragged.
   void resize_newest_window(int width, int height) {
     const unsigned long window = newest_window();
     call<int(void*, unsigned long, unsigned, unsigned)>(x11_, "XResizeWindow")(

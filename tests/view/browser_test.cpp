@@ -109,7 +109,7 @@ class Browser : public Web {
     EXPECT_GT(pixel(shot, 0.25, 0.75)[2], 200);
     EXPECT_NEAR(pixel(shot, 0.75, 0.75)[0], 128, 8);
     EXPECT_NEAR(pixel(shot, 0.75, 0.75)[2], 128, 8);
-    // To the very edge: no margin and no scroll bar.
+    // The picture reaches the very edge: no margin and no scroll bar.
     EXPECT_GT(pixel(shot, 0.001, 0.001)[0], 200);
     EXPECT_NEAR(pixel(shot, 0.999, 0.999)[1], 128, 8);
   }

@@ -1,4 +1,4 @@
-/// Going on past a broken rule, to watch the snow burst.
+/// Runs that continue past a broken rule, to watch the snow burst.
 
 #include <gtest/gtest.h>
 

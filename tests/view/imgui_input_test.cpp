@@ -144,7 +144,7 @@ TEST_F(InputOfPanels, APinchSharesAFrameAndEndsWhereItIs) {
 
 TEST_F(InputOfPanels, TypedTextArrivesInOrder) {
   focus_field();
-  // As keyboards send it: the key, what it prints, and the next key before the first is up.
+  // Keyboards send the key, what it prints, and the next key before the first is up.
   play({press('S'), text("s"), press('N'), text("n"), release('S'), release('N'), press('O'),
         text("ö"), release('O'), text("w"), text("界")});
   EXPECT_STREQ(field, "snöw界");

@@ -44,7 +44,7 @@ struct Field {
     panels.frame([&] { draw(); });
   }
 
-  /// With ctrl and a click into the field; what was there is selected.
+  /// Types into the field after ctrl and a click, which select its text.
   void type(const std::string& typed, int last_key = app::view::frontend::key::enter) {
     const app::view::frontend::Modifiers ctrl{.ctrl = true};
     edits.clear();

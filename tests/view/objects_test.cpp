@@ -166,7 +166,7 @@ TEST(Objects, AtTheStartTheyExistAtOnceAndLaterSnowWaitsForReset) {
   work.bench.add_object(NewObject::sink, {5, 0.1, 0}, 0.1);
   EXPECT_EQ(work.bench.copy_object("body.ball"), "body.ball_3");
   EXPECT_EQ(work.bench.waiting_for_reset().size(), 2u);
-  // What is of a new object waits with it, and disturbs nothing else.
+  // A value of a new object waits with it, and disturbs nothing else.
   work.bench.set("body.ball_3.velocity", "[0, -1, 0]");
   work.bench.set("collider.floor.friction", "0.2");
   EXPECT_EQ(work.bench.waiting_for_reset().size(), 2u);

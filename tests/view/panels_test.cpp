@@ -136,7 +136,7 @@ TEST(Tip, APausedViewerDrawsUntilTheTipIsVisible) {
   Panels panels;
   ImGui::GetIO().MousePos = ImVec2(30, 20);
   int first = -1, drawn_after = 0;
-  // As the viewer: while a tip is coming, and some frames after input.
+  // The viewer draws while a tip is coming, and some frames after input.
   for (int k = 0; k < 200 && (k < 3 || app::view::panels::is_tip_coming()); ++k)
     panels.frame([&] {
       ImGui::Button("a button that is wide");
@@ -322,7 +322,7 @@ TEST(Orbit, OrbitIsAsLevelAsTheCameraOfTheSceneUntilItIsTurned) {
   EXPECT_TRUE(orbit.up().isApprox(in_picture, 1e-12)) << orbit.up().transpose();
   EXPECT_TRUE(orbit.right().isApprox(along.cross(in_picture), 1e-12));
   EXPECT_TRUE(orbit.settings().up.isApprox(in_picture, 1e-12)) << "so is the picture";
-  // What is projected is where a ray meets it.
+  // A place on a ray is projected to the point of the picture from which the ray comes.
   const sim::Vec3d place = orbit.eye() + 1.5 * orbit.ray(0.2, -0.1), seen = orbit.project(place);
   EXPECT_NEAR(seen.x(), 0.2, 1e-12);
   EXPECT_NEAR(seen.y(), -0.1, 1e-12);

@@ -70,7 +70,7 @@ TEST_F(PastRun, AFinishedRunIsScrubbedWithoutAStep) {
   live = wait_for(session, [](const view::session::LiveFrame& other) { return !other.is_older; });
   EXPECT_EQ(hash_of(*live), hashes("a")[4]);
   EXPECT_EQ(seconds_of_steps(*live), 0) << "a step was taken";
-  // Looking leaves the folder as it was.
+  // The folder stays as it was while one looks.
   EXPECT_EQ(neve({"verify", "a"}).exit_code, 0);
 }
 

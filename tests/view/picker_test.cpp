@@ -87,7 +87,7 @@ TEST_F(PickByScript, AClosedScreenLosesNothing) {
   expect_same_pick("a", "b");
 }
 
-/// Whatever follows the click: the runs whose tiles were chosen from may not have ended yet.
+/// The runs whose tiles were chosen from may not have ended yet when something follows the click.
 TEST_F(PickByScript, TheLastAnswerCountsThoughOneStopsAtOnce) {
   const auto stopped = replay(R"([
     {"wait_for": "label Round 1 of 2"}, {"click": "tile 3"}, {"key": "q"},

@@ -120,7 +120,7 @@ class RandomEdits : public testing::Test {
     }
   }
 
-  /// What the viewer asks for in every picture, and for one that is kept.
+  /// Asks for what the viewer asks for in every picture, and for one that is kept.
   void look() {
     const auto live = bench->session().latest();
     bench->session().taken(live->number);
@@ -156,7 +156,7 @@ TEST_F(RandomEdits, NoEditEndsTheProgramOrReachesAnotherFile) {
   }
   EXPECT_EQ(files(), before);
   EXPECT_GT(bench->errors_said(), static_cast<std::uint64_t>(count) / 20);
-  // And it is as good as before.
+  // The workbench is as good as before.
   while (bench->document().can_undo()) bench->undo();
   bench->reset();
   wait_for(bench->session(),

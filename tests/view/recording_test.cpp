@@ -74,7 +74,7 @@ TEST_F(ViewByScript, ARecordingContinuesWithAnotherView) {
   SKIP_WITHOUT_GL(result);
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_TRUE(std::filesystem::exists(folder / "out" / "particles" / "0000.png"));
-  // As they are drawn from their record, with all that the view shows.
+  // Pictures are made again from their record, with all that the view shows.
   for (const char* file : {"out/particles/0000.png", "out/cut/0012.png"}) {
     ASSERT_TRUE(std::filesystem::exists(folder / file)) << file;
     expect_made_again(file);

@@ -197,7 +197,7 @@ TEST(Session, AHistogramIsOfAnyFieldOfParticlesOrNodes) {
     EXPECT_EQ(live->histogram->histogram->is_of_nodes, field.is_of_nodes) << field.name;
   }
   EXPECT_TRUE(has_nodes);
-  // A field of a stage is there while that stage is shown.
+  // A field of a stage exists while that stage is shown.
   EXPECT_FALSE(show({false, "F_E_trial"})->histogram->histogram);
   session.show_stage(sim::Stage::deformation);
   const auto inside = wait_for(

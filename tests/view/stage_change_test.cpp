@@ -1,4 +1,4 @@
-/// What a stage of a step did shows in every view.
+/// Changes by a stage of a step show in every view.
 
 #include <gtest/gtest.h>
 

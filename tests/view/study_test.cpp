@@ -1,4 +1,4 @@
-/// "Vary from here": studies of a kept frame, in the session and by clicks.
+/// "Vary from here": sweeps of a kept frame, in the session and by clicks.
 
 #include "app/view/session/study.h"
 #include "tests/support/needs.h"
@@ -81,14 +81,14 @@ TEST_F(Study, EveryRunIsTheRunOfTheViewWithItsChangeAtThatFrame) {
   const auto live = bench->session().latest();
   EXPECT_EQ(hash_of(0, 4), app::record::hash_text(live->state_hash));
   EXPECT_NE(hash_of(1, 4), hash_of(0, 4));
-  // And a whole run from its start, from the picture alone.
+  // The picture alone makes a whole run from its start.
   const auto again = app::output::run_process(
       NEVE_BINARY,
       {"render", (done.folder / "runs/0000/particles/0004.png").string(), "--out", "again"},
       folder.path());
   ASSERT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_EQ(json_in(folder / "again/run.json")["frames"].back()["state_hash"], hash_of(0, 4));
-  // The command makes the same study: nothing is left to do.
+  // The command makes the same sweep: nothing is left to do.
   const auto same = app::output::run_process(
       "/bin/sh", {"-c", "exec '" NEVE_BINARY "' " + done.command.substr(5) + " --json"},
       folder.path());

@@ -15,7 +15,7 @@ class TextLayout : public testing::Test {
     int width = 0, height = 0;
     atlas.GetTexDataAsAlpha8(&pixels, &width, &height);
   }
-  /// In lines as wide as so many letters: all of this font are.
+  /// Returns the lines of a text, each as wide as so many letters: all of this font are as wide.
   std::vector<std::string> wrapped(const std::string& text, int letters) {
     return wrap(*font, text, static_cast<float>(letters) * text_width(*font, "x"), 9);
   }

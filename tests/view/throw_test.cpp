@@ -80,7 +80,7 @@ TEST(ThrownBall, IsTakenBackAndThrownAgain) {
   work.bench.redo();
   work.wait_for_colliders(2);
   EXPECT_TRUE(work.bench.waiting_for_reset().empty());
-  // Frames from before it lack it, and the run goes on with it.
+  // Frames from before it lack it, and the run continues with it.
   work.go_to(2);
   work.session().show_frame(0);
   EXPECT_EQ(wait_for(work.session(),

@@ -194,7 +194,7 @@ TEST_F(ViewPage, PageIsWorkedWithMouseAndKeys) {
   EXPECT_EQ(browser->exceptions, "");
 }
 
-/// Whoever records a long run looks at other pages meanwhile.
+/// A person who records a long run looks at other pages meanwhile.
 TEST_F(ViewPage, ARecordingGoesOnWhileThePageIsHidden) {
   open_page();
   constexpr double save_x = 395, save_y = 18, record_x = 460, record_y = 52;

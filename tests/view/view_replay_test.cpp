@@ -73,7 +73,7 @@ TEST_F(ViewByScript, VaryFromHereMakesASweepOfTheFrameThatIsShown) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/vary_0001/study.cdb/report.html"));
   // The sheet is in the place of the picture until it is clicked.
   EXPECT_NE(read_text(folder / "out/done.png"), read_text(folder / "out/run.png"));
-  // As a run of the command line that changes there.
+  // A run of the command line that forks there has the same state.
   ASSERT_EQ(neve({"render", "scene.toml", "--no-movie", "--out", "plain"}).exit_code, 0);
   ASSERT_EQ(neve({"render", "plain", "--from", "0.041666666666666664s", "--set",
                   "material.snow.hardening=20", "--no-movie", "--out", "branch"})
@@ -114,8 +114,8 @@ TEST_F(ViewByScript, ADroppedSceneIsOpenedAndAnotherFileIsAMessage) {
                            {"--coarsen", "1.25", "--set", "material.snow.hardening=5"});
   SKIP_WITHOUT_GL(result);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  // As coarse as the first one; what was set was meant for that. Thresholds are of the scene's
-  // cell.
+  // The dropped scene is as coarse as the first one; what was set was meant for that one.
+  // Thresholds are of the scene's cell.
   const std::vector<std::string> saved = files("particles_0000_step", ".png");
   ASSERT_EQ(saved.size(), 1u);
   const auto info = neve({"info", "out/" + saved[0], "--json"});
@@ -308,7 +308,7 @@ int ring_pixels(const render::Image& image) {
   return count;
 }
 
-/// Also in a narrow window, where widgets of some steps are in the other column.
+/// Some of the widgets are in the other column in a narrow window.
 TEST_F(ViewByScript, EveryStepOfTheTourHasARing) {
   for (const char* size : {"[1280, 760]", "[390, 844]"}) {
     std::string script =
@@ -328,7 +328,7 @@ TEST_F(ViewByScript, EveryStepOfTheTourHasARing) {
   }
 }
 
-/// Also in a narrow window, where widgets of some steps are in the other column.
+/// Some of the widgets are in the other column in a narrow window.
 TEST_F(ViewByScript, TheTourHasTenStepsAndEnds) {
   for (const char* size : {"[1280, 760]", "[390, 844]"}) {
     std::string script =
@@ -476,7 +476,7 @@ shape = { sphere = { center = [-0.3, 0.1, 0], radius = 0.1 } })");
   EXPECT_FALSE(contains(handles, "center = [-0.3, 0.1, 0]")) << handles;
 }
 
-/// Also where three columns have just room beside each other.
+/// In some of these windows three columns have just room beside each other.
 TEST_F(ViewByScript, ButtonsOfTheTimeLineAreWholeInWindowsOfAnyWidth) {
   const auto width = [&](const std::string& size) {
     const auto result = view(R"([{"resize": )" + size + R"(}, {"wait": 5},

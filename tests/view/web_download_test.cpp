@@ -96,7 +96,7 @@ TEST_F(WebDownload, OnlyPlainFilesOfTheFolderAreOffered) {
     EXPECT_THROW(OpenFile(folder.path(), file), app::IoError) << file;
   EXPECT_EQ(OpenFile(folder.path(), folder / "in/../in/file.txt").read(99), "mine");
   EXPECT_EQ(OpenFile(folder.path(), folder / "in/file.txt").name(), "file.txt");
-  // Nor listed.
+  // Such files are not listed either.
   const auto listed = app::view::session::written_files(folder.path());
   ASSERT_EQ(listed.size(), 1u);
   EXPECT_EQ(listed[0].name, "in/file.txt");

@@ -160,7 +160,7 @@ TEST_F(Web, WaitEndsWhenSomethingHappens) {
   front->show_image(plain_image(64, 64, 2, 2, 2));
   EXPECT_FALSE(front->is_ready());
   EXPECT_LT(seconds_of_wait([&] { page->send_text("a 1"); }), 1);
-  // Also when the room came before wait() began: the program knows only what it was told.
+  // Room that came before wait() began ends the wait too: the program knows only what it was told.
   front->show_image(plain_image(64, 64, 3, 3, 3));
   EXPECT_FALSE(front->is_ready());
   page->send_text("a 2");

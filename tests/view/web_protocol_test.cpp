@@ -181,7 +181,7 @@ int quality_after(int pictures, double seconds_each) {
 TEST(FramePacing, FramePacingAdaptsQualityToTheNetwork) {
   EXPECT_EQ(quality_after(100, 0.01), app::view::web::FramePacing::max_quality);
   EXPECT_EQ(quality_after(100, 0.3), app::view::web::FramePacing::min_quality);
-  // Between the two it stays as it is.
+  // The quality stays as it is between the two.
   EXPECT_EQ(quality_after(100, 0.09), app::view::web::FramePacing().quality());
 }
 

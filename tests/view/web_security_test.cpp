@@ -75,7 +75,7 @@ TEST_F(Web, ServerRefusesForeignHosts) {
         << name;
   }
   EXPECT_EQ(status(target("/"), ""), 400);
-  // Through ssh -L the port is another one.
+  // The port is another one through ssh -L.
   EXPECT_EQ(status(target("/"), "Host: localhost:1234\r\n"), 200);
 }
 
@@ -254,7 +254,7 @@ TEST_F(Web, FloodNeitherGrowsNorStops) {
   start();
   expect_serving();
   const double before = resident_bytes();
-  // As fast as it goes, for half a second: first while the program looks away, then while it looks.
+  // The page floods the program for half a second while it looks away, then while it looks.
   std::string flood;
   for (int k = 0; k < 2000; ++k)
     flood += client_frame(0x81, k % 2 ? "k 65 1 0" : "k 65 0 0") + client_frame(0x81, "m 1 2 0");
@@ -309,7 +309,7 @@ TEST_F(Web, ViewerThatReadsNothingCostsTwoPictures) {
   }
   // Each is about 0.8 MB, all of them 32 MB.
   EXPECT_LT(resident_bytes() - before, memory_slack);
-  // In the end it is given up.
+  // The page is given up in the end.
   EXPECT_TRUE(
       wait_until([&] { return front->pacing().in_flight() == 0 || !front->is_ready(); }, 4));
   expect_serving();

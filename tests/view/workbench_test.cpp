@@ -511,7 +511,7 @@ TEST(Workbench, ACopyOfTheSceneFindsItsFiles) {
   EXPECT_EQ(saved.bodies[0].velocity.y(), 2);
   EXPECT_TRUE(read_text(copy).starts_with("# mine"));
   EXPECT_EQ(bench.save_copy(), copy) << "the same text again";
-  // From its own folder the words of the scene find them.
+  // The words of the scene find the files from its own folder.
   ASSERT_TRUE(bench.save_scene(folder / "scene.toml"));
   const std::string text = read_text(folder / "scene.toml");
   EXPECT_TRUE(text.starts_with("# mine") && contains(text, "\"grains.ply\"")) << text;
@@ -527,7 +527,7 @@ TEST(Workbench, WorkbenchReportsRefusedValues) {
   EXPECT_TRUE(work.bench.document().changes().empty());
 }
 
-/// As the advice after a divergence says: change a parameter, and reset or go back.
+/// A person follows the advice after a divergence: change a parameter, and reset or go back.
 TEST(Workbench, AChangeBeyondTheLimitsIsAMessageAndChangesNothing) {
   Working work(std::string("limits.particles = 5000\n") + tiny_scene);
   const auto before = work.bench.document().scene();

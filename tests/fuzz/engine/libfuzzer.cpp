@@ -29,7 +29,7 @@ const Reader* reader_called(std::string_view name) {
   return nullptr;
 }
 
-/// Of this process: what else the machine does takes no time from a reader.
+/// Returns the time of this process, s: other work of the machine takes no time from a reader.
 double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
