@@ -67,7 +67,7 @@ TEST(CardPress, SnowYieldsAtItsCriticalCompression) {
 }
 
 /// The stress is at the strain of the snow in the middle: a hundredth more is a tenth more stress.
-TEST(CardPress, ThePressFollowsTheLawToAFifth) {
+TEST(CardPress, ThePressFollowsTheLawToATwentieth) {
   for (const Preset preset : {Preset::paper, Preset::powder, Preset::packed}) {
     const Material m = preset_snow(preset);
     EXPECT_NEAR(
