@@ -24,8 +24,8 @@ struct PickAxis {
   std::string text(double u) const;
 };
 
-/// Of each -p the least and the greatest value; in ratios where they are a factor of ten or more
-/// apart, or where the rule says so (log_uniform, logspace).
+/// Returns the axis of each -p, from its least value to its greatest. It is in ratios where they
+/// are a factor of ten or more apart, or where the rule says so (log_uniform, logspace).
 /// @throws UsageError for parameters that are no numbers, for a single value, and for more than
 ///         max_axes
 std::vector<PickAxis> axes_of(const sweep::read::Sweep& sweep);

@@ -11,7 +11,7 @@ namespace neve::app::pick {
 /// Positions 0 to 8 of the chosen tiles: none, one or two.
 using Click = std::vector<int>;
 
-/// "3", "2 7", "0": tiles from 1; 0 is none. Nothing for any other text.
+/// Reads "3", "2 7" or "0": tiles count from 1, and 0 is none. Returns nothing for any other text.
 std::optional<Click> click_of(const std::string& text);
 std::string click_text(const Click& click);
 

@@ -9,7 +9,7 @@
 
 namespace neve::app::pick {
 
-/// What all runs of a search have in common.
+/// The scene, the settings and the axes that all runs of a search share.
 struct SearchScene {
   std::string file;                    ///< of the scene, as the shell's folder sees it
   std::vector<scene::Override> fixed;  ///< --set

@@ -16,7 +16,7 @@
 
 namespace neve::app::pick {
 
-/// All that the answers so far say.
+/// The knowledge from all answers so far.
 struct Lesson {
   search::Preference taste;
   search::Point favourite;  ///< empty before the first choice
@@ -68,16 +68,16 @@ class Game {
   std::vector<scene::Override> settings(const search::Point& place) const {
     return settings_at(scene_.axes, place);
   }
-  /// What was learned, told of the pick and not of the favourite: a sentence for each axis.
+  /// Tells what was learned, a sentence for each axis, about the pick and not the favourite.
   std::vector<std::string> picked_lines() const;
   /// Writes scene, sweep, words and map of the pick. @return its values; empty without a choice
   std::optional<std::vector<scene::Override>> write_pick() const;
-  /// Of a written pick: the sweep that makes it as coarse as its tiles, and at full resolution.
+  /// Writes and returns the sweep of the pick, as coarse as its tiles and at full resolution.
   sweep::plan::SweepOptions begin_refinement() const;
 
  private:
   int dimension() const { return static_cast<int>(scene_.axes.size()); }
-  /// With the text of its file, which is not written.
+  /// Returns the sweep of the next round with the text of its file, which is not written.
   sweep::plan::SweepOptions next_round();
   void take(const Click& click);
   std::vector<std::string> comment() const;

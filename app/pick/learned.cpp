@@ -41,7 +41,7 @@ AxisTaste taste_along(const search::Preference& taste, const Point& favourite, s
   return found;
 }
 
-/// What a person who likes the end of a range is told; "" away from the ends.
+/// Returns words for a person who likes an end of the range; "" away from the ends.
 std::string end_words(double u) {
   constexpr double near_end = 0.05;  // of the range
   if (u > 1 - near_end) return "; at the upper end of its range: more may be liked better";

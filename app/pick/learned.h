@@ -1,5 +1,5 @@
 #pragma once
-/// What a search has learned, in words and as a map.
+/// Words and a map of what a search has learned.
 
 #include <string>
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace neve::app::pick {
 
-/// How liking changes along an axis through the favourite.
+/// The change of liking along an axis through the favourite.
 struct AxisTaste {
   std::size_t axis = 0;
   double effect = 0;         ///< greatest less least expected liking
   double low = 0, high = 1;  ///< ends of the part that is liked nearly as much as the favourite
 };
 
-/// Of all axes, the most telling one first. @param favourite not empty
+/// Returns the tastes of all axes, the most telling one first. @param favourite not empty
 std::vector<AxisTaste> axis_tastes(const std::vector<PickAxis>& axes,
                                    const search::Preference& taste, const search::Point& favourite);
 

@@ -9,7 +9,7 @@
 
 namespace neve::app::pick {
 
-/// What a page shows of a search.
+/// The contents of the page of a round.
 struct RoundPage {
   int round = 1, rounds = 8;
   double fps = 24;
@@ -21,7 +21,7 @@ struct RoundPage {
   bool has_favourite = false;        ///< the first tile is the favourite so far
 };
 
-/// Nine tiles that play together, again and again, and below them what was learned.
+/// Returns a page of nine tiles that play together, again and again, above what was learned.
 std::string page_html(const RoundPage& page);
 
 }  // namespace neve::app::pick

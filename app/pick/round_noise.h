@@ -1,6 +1,6 @@
 #pragma once
-/// What the seeds of a round say: how often the snow of a tile breaks, and which tiles are too
-/// close to call.
+/// The noise of a round from its seeds: how often the snow of a tile breaks, and which tiles are
+/// too close to call.
 
 #include <filesystem>
 #include <string>

@@ -105,7 +105,7 @@ std::shared_ptr<const MeshLook> make_look(const sim::shapes::SolidMesh& mesh) {
                                                    render::shapes::mesh_lines(position, index)});
 }
 
-/// Made once for all frames.
+/// Returns the look of a mesh, which is made once for all frames.
 std::shared_ptr<const MeshLook> look_of(const sim::shapes::Mesh& mesh) {
   static sim::shapes::Recent<MeshLook> recent;
   return recent.get(sim::shapes::reading_key(mesh),
@@ -167,7 +167,7 @@ std::shared_ptr<const MeshLook> make_look(const sim::shapes::HeightField& field,
   return std::make_shared<const MeshLook>(std::move(look));
 }
 
-/// Made once for all frames.
+/// Returns the look of a terrain, which is made once for all frames.
 /// @param snow  about the terrain's origin; empty: the whole terrain matters
 std::shared_ptr<const MeshLook> look_of(const sim::shapes::Terrain& terrain,
                                         const Eigen::AlignedBox3d& snow) {
@@ -317,7 +317,7 @@ class OpenEdges {
     frame_.lines.push_back(lines_);
     frame_.width = size.width;
     frame_.height = size.height;
-    // All of it in the smaller angle of the picture, with a little around it.
+    // The smaller angle of the picture holds all of it, with a little around it.
     const double tangent = std::tan(frame_.camera.fov / 2 * std::numbers::pi / 180) *
                            std::min(1.0, static_cast<double>(size.width) / size.height);
     const sim::Vec3d middle = bounds_.center();

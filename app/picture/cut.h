@@ -1,5 +1,5 @@
 #pragma once
-/// Which particles a clip plane leaves out.
+/// The clip plane of a view, and the particles that it cuts away.
 
 #include <optional>
 #include <vector>
@@ -16,10 +16,10 @@ class Cut {
   /// @param positions of all particles, for a plane without a point of its own
   Cut(const std::optional<scene::ClipPlane>& clip, const std::vector<sim::Vec3d>& positions);
   bool removes(const sim::Vec3d& x) const { return normal_.dot(x - point_) > 0; }
-  /// m beyond the plane; below 0 before it. 0 where nothing is cut.
+  /// Returns m beyond the plane; below 0 before it, and 0 where nothing is cut.
   double distance(const sim::Vec3d& x) const { return normal_.normalized().dot(x - point_); }
   const sim::Vec3d& point() const { return point_; }
-  /// Not of length 1; 0 where nothing is cut.
+  /// The normal is not of length 1; it is 0 where nothing is cut.
   const sim::Vec3d& normal() const { return normal_; }
 
  private:

@@ -23,7 +23,7 @@ class FieldSampler {
     int count = 0;
     float cover = 0;  ///< sum of the trilinear weights of nodes with mass: 1 inside of the snow
   };
-  /// Empty if all eight nodes are empty.
+  /// Returns the stencil of a point; nothing if all eight nodes are empty.
   std::optional<Stencil> at(const sim::Vec3d& point) const;
 
   template <class Value>

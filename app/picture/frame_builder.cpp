@@ -85,7 +85,7 @@ std::string steps_text(const sim::AdvanceReport& advance) {
   return text;
 }
 
-/// What the material bears.
+/// Returns the words of a caption on what the material bears.
 std::string strength_line(const sim::Material& m) {
   const sim::laws::Law& law = sim::laws::of(m);
   std::vector<double> numbers;
@@ -230,7 +230,7 @@ void FrameBuilder::add_points(const scene::View& view, const Snapshot& snapshot,
       take(p, points);
     }
   }
-  // Beyond the plane it only shapes what is before it.
+  // Snow beyond the plane only shapes the surface of the snow before it.
   if (points.position.empty()) points.cut.reset();
 }
 

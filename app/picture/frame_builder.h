@@ -56,7 +56,7 @@ class FrameBuilder {
  private:
   void add_points(const scene::View& view, const Snapshot& snapshot,
                   const std::optional<StageLook>& look, render::Frame& frame) const;
-  /// Absent where no stage is looked at.
+  /// Returns the look of the stage; nothing if none is looked at.
   std::optional<StageLook> stage_look(const scene::View& view, const Snapshot& snapshot) const;
   void add_grid(const scene::View& view, const Snapshot& snapshot, render::Frame& frame) const;
   void add_bounds(const Snapshot& snapshot, render::Frame& frame) const;

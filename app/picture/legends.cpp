@@ -55,7 +55,7 @@ Extremes of_heat_maps(const render::Frame& frame) {
   return extremes;
 }
 
-/// Of arrows and streamlines; other lines have no values.
+/// Returns the extremes of arrows and streamlines; other lines have no values.
 Extremes of_vectors(const render::Frame& frame) {
   Extremes extremes;
   for (const render::Arrows& arrows : frame.arrows)
@@ -65,7 +65,7 @@ Extremes of_vectors(const render::Frame& frame) {
   return extremes;
 }
 
-/// What is not seen on the bar is no value beyond it, and what rounding makes of its ends is none.
+/// Marks the ends of a legend beyond which values lie, by more than is seen or rounding makes.
 void tell_values_beyond(const Extremes& drawn, render::Legend& legend) {
   const float largest = std::max(std::abs(legend.min), std::abs(legend.max));
   const float least = std::max(2e-3f * (legend.max - legend.min),

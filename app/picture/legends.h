@@ -1,5 +1,5 @@
 #pragma once
-/// Which colour bars a view needs.
+/// Colour bars that a view needs.
 
 #include <vector>
 

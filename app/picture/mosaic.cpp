@@ -38,7 +38,7 @@ render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic
   std::vector<render::Tile> tiles;
   for (const setup::MosaicTile& tile : layout.tiles) {
     render::Frame frame = build(tile.view);
-    // Before its own words, the counter and the slate.
+    // The name comes before the view's own words, the counter and the slate.
     if (!lines.empty()) frame.caption.insert(frame.caption.begin(), tile.view.name);
     tiles.push_back({tile.x, tile.y, draw ? draw(tile.view, frame) : renderer.draw(frame)});
   }
@@ -48,7 +48,7 @@ render::Image draw_mosaic(const scene::Scene& scene, const scene::Mosaic& mosaic
   strip.caption = strip_caption(lines, !scene.title.empty());
   strip.caption_height = layout.caption_height;
   strip.font_size = layout.font_size;
-  // What only some pictures tell has no room of its own: heights do not change within a film.
+  // Lines that only some pictures have get no room of their own: heights stay within a film.
   const auto count = static_cast<int>(strip.caption.size());
   if (count > caption_lines) strip.font_size = layout.font_size * (1 + caption_lines) / (1 + count);
   return renderer.draw_over(render::compose(layout.width, layout.height, strip_color, tiles),

@@ -13,7 +13,7 @@
 
 namespace neve::app::picture {
 
-/// What a moment is read from.
+/// The inputs from which the motion of a moment is read.
 struct MotionSource {
   const scene::Scene& scene;
   const scene::View& view;
@@ -34,7 +34,7 @@ std::vector<render::channels::Thing> moving_grounds(const MotionSource& source, 
 std::vector<render::channels::Thing> moving_ghost_grounds(const MotionSource& source,
                                                           double interval);
 
-/// Centre of mass of the snow of a body, or of a collider. Nothing where there is no such snow.
+/// Returns the centre of mass of the snow of a body, or of a collider; nothing without such snow.
 /// @param colliders  of the scene, followed to this moment
 /// @param particles  in the order of their ids
 std::optional<sim::Vec3d> centre_of(const std::string& name, const scene::Scene& scene,

@@ -91,7 +91,7 @@ PlotSample plot_sample(double time, double interval, const sim::Summary& summary
 std::vector<render::Plot> make_plots(const scene::PlotRanges& ranges, bool has_colliders,
                                      std::span<const PlotSample> history, double now,
                                      double interval, double duration) {
-  // Half an interval: times are sums of steps and not exact.
+  // The margin is half an interval: times are sums of steps and not exact.
   const auto later = std::find_if(history.begin(), history.end(), [&](const PlotSample& sample) {
     return sample.time > now + 0.5 * interval;
   });

@@ -48,8 +48,8 @@ void move_solids(const MotionSource& source, double seconds, render::Frame& fram
   frame.camera = camera_after(source, seconds);
 }
 
-/// Where a particle is between two moments, 0 to 1: another one for each, and the same in all
-/// frames.
+/// Returns the place of a particle between two moments, 0 to 1. It differs from particle to
+/// particle, and is the same in all frames.
 float phase_of(std::uint32_t id) {
   return static_cast<float>(hash_bytes(&id, sizeof id) >> 40) * 0x1p-24f;
 }
@@ -97,7 +97,7 @@ void turn_by_pixels(double right, double up, render::Frame& frame) {
   keep_labels(before, frame);
 }
 
-/// Where the picture is seen from at the ends of an interval.
+/// The views of the camera at both ends of an interval.
 class Ends {
  public:
   Ends(const MotionSource& source, const render::Frame& frame, double open)

@@ -36,7 +36,7 @@ int digits_of(double apart, int least) {
   return std::max(least, static_cast<int>(std::ceil(-std::log10(apart) - rounding)));
 }
 
-/// With so many digits after the point at most, and no minus before a zero.
+/// Writes a number with at most so many digits after the point, and no minus before a zero.
 std::string short_number(double x, int digits) {
   std::string text = fixed_text(x, digits);
   text.erase(text.find_last_not_of('0') + 1);

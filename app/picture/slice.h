@@ -17,7 +17,7 @@ struct SlicePlane {
 SlicePlane slice_plane(const scene::SliceStyle& slice, double time,
                        const sim::Vec3d& followed = sim::Vec3d::Zero());
 
-/// How large the plane is in the picture.
+/// The scale of the plane in the picture.
 struct SliceSight {
   double pixels_per_metre = 1;  ///< at the plane, along its shorter direction as the camera sees it
   double spacing = 0.01;        ///< m, of packed particles

@@ -23,7 +23,7 @@ constexpr double arrow_reach = 0.95;
 constexpr float min_shown = 0.02f;
 /// Cells around a point in which each node has an arrow.
 constexpr double dense_cells = 4;
-/// Where most nodes around a place have no mass, the grid has no velocity.
+/// The grid has a velocity at a place if at least this share of the nodes around it has mass.
 constexpr float min_cover = 0.5f;
 
 double distance_of(const SliceMoment& slice, double usual, double least) {
@@ -143,7 +143,7 @@ render::Arrows arrows_at(const SliceMoment& slice, int every, float least,
 ArrowScale add_arrows(const SliceMoment& slice, render::Frame& frame) {
   const scene::SliceStyle& style = slice.view.slice;
   const int every = nodes_between_arrows(slice);
-  // Seen from the front of the plane, which may be behind the point.
+  // Distances are seen from the front of the plane, which may be behind the point.
   const auto is_dense = [&](const Vec3d& x) {
     if (every == 1 || !style.dense_near) return false;
     const Vec3d from = x - *style.dense_near;

@@ -6,7 +6,7 @@
 
 namespace neve::app::picture {
 
-/// A slice at one moment. What it refers to outlives it.
+/// A slice at one moment. The objects that it refers to outlive it.
 struct SliceMoment {
   const scene::View& view;
   const FieldSamples& fields;
@@ -20,14 +20,14 @@ struct SliceMoment {
 
 void add_heat_map(const SliceMoment& slice, render::Frame& frame);
 
-/// What the footnote says of arrows.
+/// The numbers of arrows for the footnote.
 struct ArrowScale {
   int every = 1;            ///< nodes from arrow to arrow
   double longest_near = 0;  ///< of those near the point; 0: they are none of their own
 };
 
-/// Where the view asks for it, nodes near a point have an arrow each, in a scale of their own:
-/// where little moves, they would be dots.
+/// Adds arrows. If the view asks for it, each node near a point has one, in a scale of their own:
+/// in that of all others, small motions would be dots.
 ArrowScale add_arrows(const SliceMoment& slice, render::Frame& frame);
 
 /// The part of the field in the plane: coloured by its magnitude, or white on a heat map.

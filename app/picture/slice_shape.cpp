@@ -85,7 +85,7 @@ void SliceShape::add(const Near& p, double spacing) {
       const double distance = std::sqrt(du * du + dv * dv + p.away * p.away);
       float& share = share_[index(column, row)];
       share += static_cast<float>(p.volume * kernel(distance, spacing));
-      // Half at half of a spacing, so that its rim is smooth.
+      // The share is half at half of a spacing, so that its rim is smooth.
       share = std::max(share, static_cast<float>(1 - distance / spacing));
     }
 }

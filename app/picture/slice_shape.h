@@ -27,7 +27,7 @@ class SliceShape {
              const SlicePlane& plane);
 
   bool is_empty() const { return columns_ == 0; }
-  /// With a cell of the grid around the snow.
+  /// Returns the rectangle around the snow and a cell of the grid on each side.
   const Rectangle& rectangle() const { return rectangle_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }

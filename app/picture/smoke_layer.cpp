@@ -51,7 +51,7 @@ void add_dust(const scene::View& view, const sim::DustArrays& dust, render::Fram
   density.reserve(nodes.mass.size());
   for (const double mass : nodes.mass) density.push_back(static_cast<float>(mass / cell));
   smoke.density = std::move(density);
-  // Where dust is this dense, three nodes pass 40 % of the light, as three of packed snow do.
+  // At this density of dust, three nodes pass 40 % of the light, as three of packed snow do.
   smoke.full_density = static_cast<float>(0.3054 / (dust_cross_section * nodes.spacing));
   smoke.density_scale = static_cast<float>(view.smoke.density_scale);
   if (frame.supersampling > 1) smoke.samples_per_ray = frame.supersampling;

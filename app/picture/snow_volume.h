@@ -1,5 +1,5 @@
 #pragma once
-/// What the surface of snow needs to know of its particles: their volumes, and what they rest on.
+/// Volumes of particles and the solids that they rest on, for the surface of snow.
 
 #include "app/scene/scene.h"
 #include "render/frame/frame.h"

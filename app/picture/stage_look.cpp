@@ -75,7 +75,7 @@ void add_stage_change(const Snapshot& snapshot, const StageLook& look, render::F
       return static_cast<int>(std::clamp(std::floor(x.dot(axis) / cut.cell_size), -2e9, 2e9));
     };
     if (!taken.insert({cell(cut.plane.across), cell(cut.plane.up)}).second) continue;
-    // In front of the particles of the cut, which would hide its tail.
+    // An arrow begins in front of the particles of the cut, which would hide its tail.
     const double lift = 0.5 * cut.cell_size - cut.above(x);
     arrows.position.edit().push_back(to_float(sim::Vec3d(x + lift * cut.side * cut.plane.normal)));
     arrows.vector.edit().push_back(to_float(change.vector[p]));

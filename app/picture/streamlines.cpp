@@ -88,7 +88,7 @@ class Tracer {
     if (!(size > 0) || !std::isfinite(size)) return std::nullopt;
     return *value / size;
   }
-  /// From a seed with the field (1) or against it (-1), by the midpoint rule; without the seed.
+  /// Traces a line with the field (1) or against it (-1) by the midpoint rule, without its seed.
   Streamline half(const Vector2d& seed, double sign) const {
     Streamline line;
     Vector2d x = seed;
@@ -123,7 +123,7 @@ std::vector<Streamline> streamlines(const PlaneField& field, const StreamlineSty
   const auto count = [&](double extent) {
     return std::max(1.0, std::floor(extent / style.distance));
   };
-  // From the middle outwards would favour nothing; rows are as good and need no order of their own.
+  // Seeds in rows are as good as seeds from the middle outwards, and need no order of their own.
   for (double j = 0; j < count(size.y()); ++j)
     for (double i = 0; i < count(size.x()); ++i) {
       tracer.try_from(style.low + style.distance * Vector2d(i + 0.5, j + 0.5));

@@ -38,7 +38,7 @@ std::vector<Edge> edges_of(const render::NodeLattice& lattice, const std::vector
         Vec3i start = at;
         start[(axis + 1) % 3] += side & 1;
         start[(axis + 2) % 3] += side >> 1;
-        // Along the edge last, so that sorted edges of one line follow each other.
+        // The place along the edge is last, so that sorted edges of one line follow each other.
         edges.push_back({axis, start[(axis + 1) % 3], start[(axis + 2) % 3], start[axis]});
       }
   }
@@ -133,7 +133,7 @@ MarkedField scalars_of(const FieldSamples& fields, scene::ScalarField field) {
   return marked;
 }
 
-/// That the view shows first of all.
+/// Returns the field that the view shows first of all.
 MarkedField field_shown(const scene::View& view, const FieldSamples& fields) {
   const auto has = [&](scene::Layer layer) { return scene::has_layer(view, layer); };
   const bool has_vectors = has(scene::Layer::arrows) || has(scene::Layer::streamlines);
@@ -143,7 +143,7 @@ MarkedField field_shown(const scene::View& view, const FieldSamples& fields) {
   return scalars_of(fields, view.slice.scalar);
 }
 
-/// Three lines through a node.
+/// Draws three lines through a node.
 void add_cross(Vec3f at, float reach, render::Lines& lines) {
   for (int axis = 0; axis < 3; ++axis)
     for (const float side : {-reach, reach}) {

@@ -24,7 +24,7 @@ struct Copy {
   double coarsening = 1;
   std::uint64_t seed = 1;
   std::string failure;  ///< why it has no end, a sentence; empty: it has
-  /// At the last frame; the force is the largest mean over a frame that a collider felt.
+  /// The values at the last frame; the force is the largest mean over a frame that a collider felt.
   double values[quantity_count] = {};
   std::optional<bool> has_broken;  ///< see record::has_broken
   double whole = 1;                ///< largest piece as a share of what it was at the start
@@ -38,7 +38,7 @@ struct CopyPlan {
 };
 inline constexpr CopyPlan copy_plans[] = {{1.5, 1}, {2, 2}};
 
-/// Why copies cannot tell of a scene, known before they run; "" if they can.
+/// Tells why copies cannot tell of a scene, known before they run; "" if they can.
 std::string why_not(const scene::Scene& scene);
 
 /// The scene of a copy. @throws UsageError where its cells are too large for a body
@@ -51,7 +51,7 @@ double share_of_work();
 /// run"
 std::string cost_text();
 
-/// The finest first. Those that cannot run, or diverge, say so.
+/// Runs copies, the finest first. Those that cannot run, or diverge, say so.
 /// @param last  frame, counted from 0
 std::vector<Copy> run_copies(const scene::Scene& scene, int last, int threads, Progress& progress);
 

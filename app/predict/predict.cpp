@@ -47,7 +47,7 @@ Estimate estimate(Quantity quantity, const std::vector<Copy>& copies) {
   return out;
 }
 
-/// Nothing where copies can speak.
+/// Tells why copies cannot speak; "" if they can.
 std::string silence(const std::vector<Copy>& copies) {
   for (const Copy& copy : copies) {
     if (!copy.failure.empty())
@@ -87,7 +87,7 @@ void decide(Prediction& prediction) {
   }
 }
 
-/// With the digits that the size of the estimate asks for.
+/// Writes a value with the digits that the size of the estimate asks for.
 std::string number_text(double value, const Estimate& estimate) {
   const double size = std::max(std::abs(estimate.expected), 1e-9);
   const int digits = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 4);

@@ -1,5 +1,5 @@
 #pragma once
-/// What coarse copies of a scene say of its run at full resolution, with how far it may be off.
+/// Predictions of a run at full resolution by coarse copies of its scene, with their uncertainty.
 
 #include <string>
 #include <vector>
@@ -38,7 +38,7 @@ Prediction judge(std::vector<Copy> copies);
 /// True where something is said, and it is neither that the snow breaks nor that it holds.
 bool is_in_doubt(const Prediction& prediction);
 
-/// Nothing is said, for a reason.
+/// Returns a prediction that says nothing, for a reason.
 Prediction silent(std::string reason);
 
 /// Says what the copies of a scene cost, runs them, and judges.
@@ -51,7 +51,7 @@ Prediction make_prediction(const scene::Scene& scene, int last, double seconds, 
 std::string text_of(const Estimate& estimate);
 /// "at full resolution, frame 24: breaks (in all 3 copies)", and a line for each estimate.
 std::vector<std::string> caption_of(const Prediction& prediction);
-/// Of `neve check --predict`.
+/// Returns the lines that `neve check --predict` prints.
 std::string text_of(const Prediction& prediction);
 /// @return with the lines of the caption as `text`
 Json to_json(const Prediction& prediction);

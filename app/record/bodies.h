@@ -1,5 +1,5 @@
 #pragma once
-/// Where the bodies are that move by themselves, as run.json tells it.
+/// Places of bodies that move by themselves, as run.json tells them.
 
 #include <optional>
 #include <string>

@@ -16,7 +16,7 @@ namespace neve::app::record {
 /// link on the way.
 bool is_below(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-/// False also for a file that is missing or cannot be read.
+/// True if a file has this hash; false also if it is missing or cannot be read.
 bool has_hash(const std::filesystem::path& file, const std::string& hash);
 
 /// True of two names, as people gave them, of one file or folder.
@@ -30,7 +30,7 @@ std::vector<std::string> unchanged_files(const std::filesystem::path& folder,
 /// "8 files, from ply/0000.ply to ply/0007.ply". @param files  at least one
 std::string files_text(const std::vector<std::string>& files);
 
-/// Files that export.json or compare.json lists, and those of its `begun` that are there: it was
+/// Files that export.json or compare.json lists, and those of its `begun` that exist: it was
 /// cut off after it had made some of them, and their bytes are all that tells which. These are of
 /// the list where they are now. @throws IoError for one that cannot be read
 FileHashes files_made(const std::filesystem::path& folder, const Json& list);

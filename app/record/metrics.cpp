@@ -48,7 +48,7 @@ Occupied occupied_cells(const sim::ParticleArrays& particles, const std::vector<
   for (const std::size_t p : ids) {
     Cell cell;
     for (int a = 0; a < 3; ++a)
-      // Far away beyond all counting is one place.
+      // All places far away, beyond counting, are one.
       cell[static_cast<std::size_t>(a)] =
           static_cast<int>(std::clamp(std::floor(particles.x[p][a] / h), -1e9, 1e9));
     all.push_back(cell);

@@ -10,7 +10,8 @@
 
 namespace neve::app::record {
 
-/// Of a scene that has snow, sand and elastic bodies do not count: they neither break nor pack.
+/// The metrics of a frame. If a scene has snow, sand and elastic bodies do not count: they neither
+/// break nor pack.
 struct Metrics {
   double spread = 0;    ///< m, horizontal radius about the centre that holds 90 % of the particles
   double height = 0;    ///< m, between the lowest and the highest 2 % of the particles
@@ -28,8 +29,8 @@ struct Metrics {
 /// of one that bursts into a core, pieces and crumbs 1 to 8 % lie apart, since heaped pieces touch.
 inline constexpr double whole_share = 0.99;
 
-/// What the largest piece holds at last of what it held at first, particles; of runs that did not
-/// keep their numbers, by its shares. Nothing if one of them has no snow.
+/// Returns the particles of the largest piece at last over those at first; for runs that did not
+/// keep their numbers, the ratio of its shares. Returns nothing if one of them has no snow.
 std::optional<double> held_whole(const Metrics& first, const Metrics& last);
 
 /// True if snow has broken between two frames of a run: what emitters add does not count. Nothing

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 /// Larger files are read by no scene.
 constexpr std::uint64_t largest_input = std::uint64_t{1} << 30;
-/// Of one path: deeper ones are no person's, and each part is looked for in each folder above.
+/// Limits on a path: people make no deeper ones, and each part is looked for in each folder.
 constexpr std::size_t max_parts = 64, longest_path = 4096;
 
 std::set<std::string> files_of(const scene::Scene& scene) {
@@ -85,7 +85,7 @@ std::set<std::string> files_of(const scene::LiveChange& change) {
     add_files(scene::value_of({change.address, change.value}, is_file ? "string" : "table"),
               is_file, files);
   } catch (const std::runtime_error&) {
-    // It is refused where it is made.
+    // The change is refused where it is made.
   }
   return files;
 }
@@ -113,8 +113,8 @@ class Contents {
   std::map<std::pair<dev_t, ino_t>, std::string> known_;
 };
 
-/// Below a folder and the longest part of its recorded path that exists there. Empty: no such file
-/// has this content.
+/// Finds the file below a folder by the longest end of its recorded path that exists there with
+/// this content. Returns an empty path if there is none.
 fs::path file_below(const fs::path& folder, const std::string& recorded, const std::string& hash,
                     Contents& contents) {
   const fs::path path = recorded;
@@ -130,7 +130,7 @@ fs::path file_below(const fs::path& folder, const std::string& recorded, const s
   return {};
 }
 
-/// In the folder of the picture or one above, as projects move as a whole.
+/// Finds a file in the folder of the picture or in one above, as projects move as a whole.
 fs::path moved_file(const std::string& recorded, const std::string& hash, const fs::path& picture,
                     Contents& contents) {
   std::error_code error;
@@ -158,7 +158,7 @@ struct Moves {
     files[before] = now;
     folders[folder_of(before)] = folder_of(now);
   }
-  /// Of a file, or of the pattern of numbered files in a folder.
+  /// Returns the present name of a file, or of the pattern of numbered files in a folder.
   std::string now(const std::string& file) const {
     if (const auto moved = files.find(file); moved != files.end()) return moved->second;
     const std::string name = file.substr(folder_of(file).size());
@@ -214,14 +214,14 @@ void check_length(const fs::path& picture, const std::string& recorded) {
            "the picture was not made by neve");
 }
 
-/// In the folder of the picture, or below it.
+/// Finds a file in the folder of the picture, or below it.
 fs::path file_inside(const std::string& recorded, const std::string& hash, const fs::path& picture,
                      Contents& contents) {
   std::error_code error;
   return file_below(fs::absolute(picture, error).parent_path(), recorded, hash, contents);
 }
 
-/// Where a file of the picture is now.
+/// Returns the present place of a file of the picture.
 fs::path found_file(const fs::path& picture, const std::string& recorded, const std::string& hash,
                     Contents& contents) {
   const fs::path path = recorded;

@@ -36,7 +36,7 @@ StripRecord strip_record(const Json& json) {
   return strip;
 }
 
-/// More than any person makes while a run runs.
+/// More changes than any person makes while a run runs.
 constexpr std::size_t max_changes = 100'000;
 constexpr double largest_coarsening = 1e6;
 
@@ -266,7 +266,7 @@ PictureRecord picture_record_of(const render::PngText& text, const std::string& 
 }
 
 bool is_picture(const std::filesystem::path& file) {
-  // What is read from a pipe is gone for the reader of the scene.
+  // A pipe is not read: its bytes would be gone for the reader of the scene.
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return false;
   std::ifstream in(file, std::ios::binary);

@@ -45,7 +45,7 @@ struct PictureRecord {
   std::vector<std::string> cards;            ///< titles of a picture made by neve card
 };
 
-/// Of a picture that is no picture of one run: a sheet of several, a comparison, a slate.
+/// The record of a picture that is not a frame of one run: a sheet, a comparison, a slate.
 struct SheetRecord {
   struct Scene {
     std::string name, text;  ///< "A", resolved TOML
@@ -62,7 +62,7 @@ struct SheetRecord {
 };
 
 render::PngText to_png_text(const SheetRecord& record);
-/// Empty for any other picture. @throws Error as read_picture_record
+/// Reads the record of a sheet; nothing for any other picture. @throws Error as read_picture_record
 std::optional<SheetRecord> read_sheet_record(const std::filesystem::path& file);
 
 render::PngText to_png_text(const PictureRecord& record);

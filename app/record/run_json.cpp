@@ -49,7 +49,7 @@ std::string hash_of(const std::string& text) {
 
 namespace {
 
-/// Of no snow, these are no numbers.
+/// Adds metrics. Without snow all but the number of fragments are null.
 void add_metrics(const Metrics& metrics, Json& json) {
   const auto number = [&](double value) {
     return metrics.particles > 0 ? number_or_null(value) : Json();
@@ -330,7 +330,7 @@ FileHashes file_hashes(const Json& run) {
 
 bool is_untouched(Json run) {
   if (!run.is_object()) return false;
-  // Those of this version have one.
+  // Files of this version have a hash.
   if (!run.contains("hash")) return run.value("version", Json()) != version;
   const Json hash = run["hash"];
   run.erase("hash");
@@ -343,7 +343,7 @@ std::vector<FrameRecord> read_frame_records(const std::filesystem::path& folder)
 
 namespace {
 
-/// Earlier ones first, each once.
+/// Lists views, earlier ones first, each once.
 std::vector<std::string> all_views(const RunRecord& run) {
   std::vector<std::string> names = run.earlier_views;
   for (const std::string& view : run.views)

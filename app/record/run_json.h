@@ -59,11 +59,11 @@ struct Extremes {
 struct RunStart {
   Metrics metrics;  ///< without max_depth_cells
   std::vector<BodyRecord> bodies;
-  /// Of the frames before the first one that the run lists; absent where they are not known.
+  /// The extremes of the frames before the first one that the run lists; absent if not known.
   std::optional<Extremes> before{};
 };
 
-/// Whether any is left at the end of a frame: metrics of none are no numbers.
+/// True if any snow is left at the end of a frame: metrics of none are no numbers.
 inline bool has_snow(const FrameRecord& frame) {
   return frame.metrics.particles > 0;
 }
@@ -158,7 +158,7 @@ FrameRecord frame_record(const Json& json);
 /// earlier version.
 std::optional<RunStart> start_of(const Json& run);
 
-/// In the order of frames; in the place of an earlier record of the same frame.
+/// Adds a frame in the order of frames, or in the place of an earlier record of the same frame.
 void add_frame(std::vector<FrameRecord>& frames, const FrameRecord& frame);
 
 /// "particles/0003.png"
@@ -166,7 +166,7 @@ std::string picture_name(const std::string& view, int frame);
 /// "particles/0003.exr"
 std::string channels_name(const std::string& view, int frame);
 
-/// Null if there is no such file or it cannot be read.
+/// Reads a file; null if it does not exist or cannot be read.
 Json read_json(const std::filesystem::path& file);
 
 /// DIR/run.json; null if there is no such file or it cannot be read.
@@ -184,8 +184,8 @@ FileHashes file_hashes(const Json& run);
 /// JSON as text, with a last entry `hash`, the hash of the rest.
 std::string with_own_hash(const Json& json);
 
-/// Whether a file is as with_own_hash() wrote it: run.json, export.json, the manifest of a sweep,
-/// the status of a run. Those of earlier versions have no hash and pass.
+/// True if a file is as with_own_hash() wrote it: run.json, export.json, the manifest of a sweep,
+/// the status of a run. Files of earlier versions have no hash and pass.
 bool is_untouched(Json run);
 
 /// The frames that DIR/run.json lists.
@@ -212,8 +212,8 @@ Json to_json(const Extremes& extremes);
 /// @throws nlohmann::json::exception
 Extremes extremes_of(const Json& json);
 
-/// Of a run from its start to a frame, or to its last one if it has fewer. Nothing where its frames
-/// begin later and it does not know what was before.
+/// Returns the extremes of a run from its start to a frame, or to its last one if it has fewer.
+/// Returns nothing if its frames begin later and it does not know what was before.
 std::optional<Extremes> extremes_until(const Json& run, int last);
 /// The same to the last one, of a run whose frames and start are read already.
 std::optional<Extremes> extremes_of_run(const Json& run, const std::vector<FrameRecord>& frames,

@@ -64,7 +64,7 @@ std::string picture_flaw(const fs::path& folder, const Pictures& pictures, const
                                       : flaw_of(folder / name, hash->second);
 }
 
-/// Inside the folder of the run, whoever wrote the list.
+/// True for a name inside the folder of the run, whoever wrote the list.
 bool is_inside(const fs::path& name) {
   return name.is_relative() &&
          std::none_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });

@@ -32,7 +32,7 @@ struct Pictures {
   }
 };
 
-/// What run.json says of its pictures. Empty if something is wrong with it.
+/// Returns what run.json says of its pictures; nothing if something is wrong with it.
 std::optional<Pictures> listed_pictures(const Json& run);
 
 /// Visits every picture and every file of passes that the run is to have.

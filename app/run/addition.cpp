@@ -111,7 +111,7 @@ std::string files_text(const std::vector<std::string>& views, const EarlierRun& 
   return joined(parts, ", ");
 }
 
-/// What another simulation takes the place of: exports too.
+/// Lists all files that another simulation takes the place of: exports too.
 std::string all_files_text(const EarlierRun& earlier) {
   std::vector<std::string> parts{files_text(earlier.pictures.views, earlier)};
   if (const auto exports = count_below(output::exports_folder, earlier.pictures.files); exports > 0)
@@ -297,12 +297,12 @@ void refuse_foreign_files(const RenderJob& job, const record::RunRecord& ours) {
   const setup::FrameRange numbers = setup::numbers_of(job.scene, job.frames);
   std::vector<std::string> files;
   const auto look_at = [&](const fs::path& file) {
-    // Of links and folders, what cannot be written is told where it is.
+    // A link or a folder that cannot be written over is told when it is written.
     if (fs::is_regular_file(fs::symlink_status(file, error)))
       files.push_back(file.lexically_relative(job.folder).generic_string());
   };
   for (const std::string& view : ours.views) {
-    // Of very many frames few are there.
+    // The folder is listed, as few of very many frames may exist.
     for (fs::directory_iterator at(job.folder / view, error), end; !error && at != end;
          at.increment(error)) {
       const auto number = number_of<int>(at->path().stem().string());

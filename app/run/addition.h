@@ -20,12 +20,12 @@ struct EarlierRun {
   bool is_same = false;          ///< simulation and numbers as those of the command
 
   bool has(const std::string& view) const;
-  /// Of the pictures of a view, in this run: those of the list, or the part that it says.
+  /// Returns the frames of a view in this run: all that are listed, or the part given for the view.
   record::ViewFrames frames_of(const std::string& view) const;
 };
 
-/// Empty if the folder has no run.json with pictures, exports or movies, or one that cannot be
-/// read.
+/// Reads the earlier run of the folder; nothing without a run.json with pictures, exports or
+/// movies, or if it cannot be read.
 /// @param ours  record of the command, with its simulation
 std::optional<EarlierRun> earlier_run(const RenderJob& job, const record::RunRecord& ours);
 
@@ -44,8 +44,8 @@ std::string drawing_of(const RenderJob& job, record::PictureRecord picture,
 /// @throws UsageError for the folder of a sweep, whose runs have folders of their own
 void refuse_sweep_folder(const RenderJob& job);
 
-/// For a folder of which earlier_run() knows no run. @throws UsageError where its run.json is not
-/// the list of one that has made nothing, unless the options replace it
+/// Checks a folder of which earlier_run() knows no run. @throws UsageError where its run.json is
+/// not the list of one that has made nothing, unless the options replace it
 void refuse_unreadable_run(const RenderJob& job);
 
 /// @throws UsageError where files lie in the place of pictures, movies and exports of the command
@@ -70,7 +70,7 @@ void keep_views(const RenderJob& job, const EarlierRun& earlier, record::RunReco
 record::FileHashes add_to_run(const RenderJob& job, const EarlierRun& earlier,
                               record::RunRecord& ours);
 
-/// Frames to draw, counted from 0: those of the job, and those between them and what is there, so
+/// Frames to draw, counted from 0: those of the job, and those between them and what exists, so
 /// that no view has a gap.
 setup::FrameRange frames_without_gaps(const RenderJob& job, const record::RunRecord& ours);
 

@@ -86,7 +86,7 @@ Drawing::Files Drawing::draw(const picture::Snapshot& snapshot) {
     fetch_down_to(1);
   }
   fetch_down_to(0);
-  // With motion blur, and never on a plate.
+  // A tile of a mosaic has motion blur, and is never drawn on a plate.
   const auto draw_tile = [&](const scene::View& view, const render::Frame& tile) {
     return draw_mean(tile, shutter_frames(view, tile, snapshot), std::nullopt);
   };

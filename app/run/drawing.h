@@ -32,7 +32,7 @@ class Drawing {
 
   /// Reads the state at the end of a frame: the run may move on while it is drawn.
   picture::Snapshot read(const timeline::Timeline& timeline, std::uint64_t state_hash);
-  /// That was read.
+  /// Returns the scene that was read last.
   const scene::Scene& scene() const { return scene_; }
 
   struct Files {
@@ -62,7 +62,7 @@ class Drawing {
   output::WriteTask draw_channels(const picture::MotionSource& source, const render::Frame& frame,
                                   const render::Moments& moments);
   record::PictureRecord record_of(const std::string& view) const;
-  /// Of pictures that no frame makes again. @param lines  names and texts
+  /// Returns the text of a picture that no frame makes again. @param lines  names and texts
   render::PngText sheet_text(const std::string& what, const std::string& view,
                              const std::vector<std::pair<std::string, std::string>>& lines,
                              const std::string& again) const;
@@ -95,9 +95,9 @@ render::Image draw_slate(const scene::Scene& scene, const SlateWords& words,
 /// place is one picture for all frames. @throws UsageError for any other use of %
 std::filesystem::path plate_path(const std::string& pattern, int frame);
 
-/// That of a job: a PNG, a JPEG, or the RGB or Y of an OpenEXR file in linear light; alpha lies
-/// over black. @return RGB @throws IoError; Error when it is none of them, not of the size of the
-/// view, or a picture names it that was not made with it; LimitError
+/// Reads the plate of a job: a PNG, a JPEG, or the RGB or Y of an OpenEXR file in linear light;
+/// alpha lies over black. @return RGB @throws IoError; Error when it is none of them, not of the
+/// size of the view, or a picture names it that was not made with it; LimitError
 render::Image read_plate(const RenderJob& job, int frame, const std::string& view,
                          const scene::PictureSize& size);
 

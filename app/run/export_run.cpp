@@ -148,7 +148,7 @@ Earlier earlier_exports(const ExportJob& job) {
   }
 }
 
-/// Whether two entries of a list say the same of an export, but for its files.
+/// True if two entries of a list say the same of an export, but for its files.
 bool has_same_settings(const Json& a, const Json& b) {
   return std::ranges::all_of(
       std::array{"format", "up", "scale", "attributes", "surface", "dust", "bodies"},

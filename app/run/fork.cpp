@@ -30,7 +30,7 @@ scene::Scene with_all_changes(const RenderJob& job) {
   return timeline::with_changes(job.scene, timeline::changes_of(job.scene, job.changes));
 }
 
-/// Where the words of a change are looked for: as those of a scene file, beside it.
+/// Returns the folder of relative paths in changes: that of a scene file; "" for runs and pictures.
 std::string folder_of_changes(const RenderJob& job) {
   return job.run.empty() && !job.picture ? scene::base_dir_of(job.scene_file) : std::string();
 }

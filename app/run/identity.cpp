@@ -25,8 +25,8 @@ std::string value_or_none(const std::optional<scene::toml::Value>& value) {
   return value ? scene::toml::toml_literal(*value, 60) : "none";
 }
 
-/// With all that its views take from it as their own, and without the cameras that neve found for
-/// them: these follow from something else, the size say.
+/// Gives views all that they take from the scene as their own, and removes the cameras that neve
+/// found for them: these follow from something else, such as the size.
 scene::Scene comparable(scene::Scene scene) {
   setup::reopen_cameras(scene);
   for (scene::View& view : scene.views) view = with_settings_of(scene, view);
@@ -52,7 +52,7 @@ scene::Mosaic with_settings_of(const scene::Scene& scene, scene::Mosaic mosaic) 
 }
 
 std::string simulation_text(const scene::Scene& scene) {
-  // All of it but what only pictures, exports and the length of a run read.
+  // The text lacks what only pictures, exports and the length of a run read.
   const scene::Scene plain;
   scene::Scene simulated = scene;
   simulated.title.clear();
@@ -144,7 +144,7 @@ std::string difference_from_run(const std::filesystem::path& folder,
 
 namespace {
 
-/// As earlier builds wrote it: three digits of the rate, and no format.
+/// Returns the text as earlier builds wrote it: three digits of the rate, and no format.
 std::string earlier_style_text(int quality, double rate) {
   return fmt::format("quality {}, {} frames per second", quality, rough_text(rate));
 }

@@ -39,7 +39,7 @@ std::string difference_from_run(const std::filesystem::path& folder,
 
 /// Names the quality, the speed and the format of a movie of a job.
 std::string movie_style_text(const RenderJob& job, const output::MovieStyle& style);
-/// Whether that names a style. Texts of earlier versions name no format, and of rates three digits.
+/// True if a text names a style. Earlier versions name no format, and three digits of the rate.
 bool has_movie_style(const RenderJob& job, const std::string& text,
                      const output::MovieStyle& style);
 /// The style that movie_style_text names. @param movie  its file, which tells the format where the

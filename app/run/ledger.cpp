@@ -66,7 +66,7 @@ bool Ledger::is_made(int frame) const {
   };
   const auto has_picture = [&](const std::string& view) {
     const record::ViewRecord& record = record_.view_records.at(view);
-    // What has the name of a frame before the earlier ones is their slate.
+    // A picture with the name of a frame before the earlier ones is their slate.
     return record.frames && record.frames->has(number) && earlier_->frames_of(view).has(number) &&
            has(record::picture_name(view, number));
   };
@@ -133,8 +133,8 @@ std::vector<exports::Exporter::Work> Ledger::read_exports(const timeline::Timeli
   return work;
 }
 
-/// Listed first and written then: whenever the process is killed, the next run knows every picture
-/// that it has to remove. The hash follows when it is written.
+/// Lists a frame first and writes it then: whenever the process is killed, the next run knows every
+/// picture that it has to remove. The hash follows when it is written.
 void Ledger::add(const record::FrameRecord& frame, Drawing::Files drawn,
                  std::vector<exports::Exporter::Work> exports) {
   has_added_ = true;
@@ -187,7 +187,7 @@ bool Ledger::is_movie_short(const std::filesystem::path& file) const {
   return has_added_ || record::short_movies(record_).contains(file.filename().string());
 }
 
-/// A film that is there stays as it is where nobody asks for another one.
+/// A film that exists stays as it is where nobody asks for another one.
 output::MovieStyle Ledger::style_of(const std::string& view) const {
   const output::MovieStyle& asked = job_.options.movie;
   const std::string file = output::movie_path({}, view, asked.format).filename().string();
@@ -277,7 +277,7 @@ void Ledger::carry_status() {
   const std::string before = earlier.value("status", "");
   const std::vector<record::FrameRecord>& frames = earlier_->pictures.frames;
   if (before == record::name(diverged) || earlier.contains("divergence")) {
-    // What draws on diverges again, and says so itself.
+    // A command that draws further diverges again, and says so itself.
     const int last = scene::number_of(job_.scene, job_.frames.last);
     if (!frames.empty() && last <= frames.back().frame)
       record_.carried_status = record::name(diverged);
@@ -318,7 +318,7 @@ void Ledger::forget_unwritten_frames() {
     while (part->count() > 0 && is_missing(view, part->last)) --part->last;
     while (part->count() > 0 && is_missing(view, part->first)) ++part->first;
   }
-  // What an earlier command simulated stays known, whether its pictures are there or not.
+  // Frames that an earlier command simulated stay known, even if their pictures are missing.
   const auto is_of_earlier = [&](const record::FrameRecord& frame) {
     return earlier_ && std::ranges::binary_search(earlier_->pictures.frames, frame.frame, {},
                                                   &record::FrameRecord::frame);

@@ -34,7 +34,7 @@ std::optional<Pass> pass_named(const std::string& text) {
   return std::nullopt;
 }
 
-/// Those that colours show, without snow and what is a pass already.
+/// Finds a value that colours show, other than snow.
 std::optional<scene::ColorBy> value_named(const std::string& text) {
   const auto value = scene::value_named<scene::ColorBy>(text);
   return value == scene::ColorBy::snow ? std::nullopt : value;

@@ -28,7 +28,7 @@ std::uint8_t srgb_of(double light) {
   return static_cast<std::uint8_t>(std::lround(255 * value));
 }
 
-/// Linear light from sRGB, or from samples of another exponent.
+/// Returns linear light from sRGB, or from samples of another exponent.
 double light_of(std::uint8_t sample, double gamma) {
   const double c = sample / 255.0;
   if (gamma > 0) return std::pow(c, 1 / gamma);
@@ -55,7 +55,7 @@ render::Image as_rgb(const render::Image& image, double gamma) {
   return out;
 }
 
-/// Linear light, as compositors write it: premultiplied, so that alpha lies over black by itself.
+/// Returns RGB of linear light, as compositors write it: premultiplied, with alpha over black.
 render::Image rgb_of_exr(const std::vector<std::uint8_t>& bytes) {
   const render::ExrPicture picture = render::decode_exr(bytes, memory_room());
   render::Image out{picture.width, picture.height, 3, {}};

@@ -78,7 +78,7 @@ void check_texts(const RenderJob& job) {
   check("neve:passes", [&] { pass_list(job.passes); });
 }
 
-/// How a picture was drawn, but for its scene.
+/// Takes from a picture how it was drawn, but not its scene.
 void take_drawing(const record::PictureRecord& picture, RenderJob& job) {
   job.quality = setup::quality_named(picture.quality);
   job.passes = picture.passes;
@@ -194,7 +194,7 @@ RenderJob make_job(const RenderOptions& options) {
   if (options.is_agreed || options.dry_run) edits.agreement = timeline::Agreement::given;
   edits.coarsened = options.coarsened.value_or(1);
   edits.is_start_only = options.is_start_only;
-  // In another folder it is another drawing of the frames that the run has.
+  // A command for another folder makes another drawing of the frames that the run has.
   std::error_code error;
   edits.continues_run =
       options.resume &&

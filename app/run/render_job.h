@@ -35,7 +35,7 @@ struct RenderJob : timeline::Origin {
   double shutter = 0;                     ///< degrees of motion blur; 0: none
   std::vector<std::string> passes{};      ///< of --passes, see passes.h; none: only PNGs
   std::vector<std::string> warnings{};    ///< of the start, for run.json
-  /// Of --predict, of the picture, or of the run, for captions.
+  /// The lines of --predict, of the picture, or of the run, for captions.
   std::vector<std::string> prediction_lines{};
   std::optional<Fork> fork{};
 
@@ -43,12 +43,12 @@ struct RenderJob : timeline::Origin {
   bool is_drawn_in_place() const;
   /// False for a view that is drawn in a mosaic only.
   bool draws_alone(const scene::View& view) const;
-  /// Of its mosaics, see setup::layout_of; 0 without a caption.
+  /// Returns the lines in the captions of its mosaics, see setup::layout_of; 0 without a caption.
   int caption_lines() const;
   bool has_movies() const { return options.has_movies && options.movie.is_made; }
 };
 
-/// Null where there is no mosaic of the name.
+/// Finds a mosaic by its name; null if the scene has none of it.
 const scene::Mosaic* find_mosaic(const scene::Scene& scene, const std::string& name);
 
 /// @throws SceneError, UsageError, IoError, Error
@@ -62,7 +62,7 @@ record::PictureRecord picture_record(const RenderJob& job, const std::string& sc
 /// The record of the run of a job with a resolved scene, as it begins.
 record::RunRecord run_record(const RenderJob& job, const sim::Simulation& simulation);
 
-/// As a picture of frame 0 would record it; where no run.json knows it, it is made again.
+/// Returns the start as a picture of frame 0 would record it; makes it if no run.json knows it.
 /// @param before  run.json of this run; null: there is none
 /// @param last    number of the frame before those of this run
 record::RunStart start_of_run(const timeline::Timeline& timeline, const Json& before, int last);

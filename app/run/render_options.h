@@ -61,7 +61,7 @@ struct RenderOptions {
 /// neve render
 void describe(options::Command& visit, RenderOptions& options);
 
-/// Of SCENE, in commands that look at a run.
+/// The help on SCENE in commands that look at a run.
 inline constexpr const char* origin_help =
     "Scene file (TOML), - for standard input, a picture made by neve, or the folder of a run; "
     "default: a falling snowball";

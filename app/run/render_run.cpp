@@ -111,7 +111,7 @@ RenderResult RenderRun::run() {
   return result_;
 }
 
-/// In the end, when there are pictures that they are as large as.
+/// Draws the slates at the end, when the pictures exist that they are as large as.
 void RenderRun::add_slates() {
   if (!job_.scene.shot.slate || record().frames.empty()) return;
   ledger_.bring_to_disk();
@@ -199,8 +199,8 @@ void RenderRun::begin_beside(const std::optional<EarlierRun>& earlier) {
   keep_warnings(earlier, [](const std::string& text) { return !text.starts_with(no_movie); });
 }
 
-/// Those of the command, and those that the run has or was asked for before. A run that is resumed
-/// with `--frames` is asked for these: other pictures of its frames ask for no other end.
+/// Joins the frames of the command and those that the run has or was asked for before. A resumed
+/// run with `--frames` is asked for these: other pictures of its frames ask for no other end.
 record::ViewFrames RenderRun::frames_asked(const std::optional<EarlierRun>& earlier) const {
   const setup::FrameRange ours = setup::numbers_of(job_.scene, frames_);
   record::ViewFrames asked{ours.first, ours.last};
@@ -303,7 +303,7 @@ bool RenderRun::mend(const std::vector<int>& frames) {
     progress_.frame(frame, frame / job_.scene.fps);
   }
   is_mending_ = false;
-  // Not from a later state: pictures after the checkpoint have not been looked at.
+  // The run does not continue from a later state: pictures after the checkpoint are unchecked.
   output::FoundCheckpoint found = output::find_checkpoint(job_.folder);
   if (!found.checkpoint)
     throw IoError(job_.folder.string() + ": its checkpoint is missing", job_.folder.string());

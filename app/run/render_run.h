@@ -31,7 +31,7 @@ struct RenderResult {
   std::optional<health::Diagnosis> diagnosis;  ///< of a run that diverged
 };
 
-/// What an earlier command has left in the folder, where this one adds to its run.
+/// The traces of an earlier command in the folder, where this one adds to its run.
 struct Inherited {
   int newest_checkpoint = -1;                ///< its frame, counted from 0
   bool was_cut_off = false;                  ///< the command

@@ -19,7 +19,7 @@ namespace {
 
 /// Adds the frames that run.json lists and the checkpoint does not: those after it, those that
 /// later commands have drawn before its first one, and all of an earlier version. Their pictures
-/// stay listed until they are made again. Of a file that both list, run.json is the later one.
+/// stay listed until they are made again. For a file that both list, run.json is the later one.
 void add_listed(const std::filesystem::path& folder, const Json& run_json, timeline::Made& run) {
   if (run.frames.empty() && run_json.is_object()) run.exports = run_json.value("exports", Json());
   for (const record::FrameRecord& frame : record::frame_records(run_json))

@@ -66,7 +66,7 @@ render::Image draw_slate(const scene::Scene& scene, const SlateWords& words,
   render::Frame frame;
   frame.width = like.width;
   frame.height = like.height;
-  // As large as fits: a line is 1.5 times its letters, and half of the width holds 40 of them.
+  // The letters are as large as fits: a line is 1.5 times as high, and half of the width holds 40.
   const double by_height = like.height / (1.5 * (static_cast<double>(rows.size()) + 2));
   const double by_width = like.width / 44.0;
   frame.font_size =

@@ -31,7 +31,7 @@ double blocks_per_particle(const record::FrameRecord& frame) {
          static_cast<double>(frame.summary.particles);
 }
 
-/// Why dt is what it is.
+/// Tells why dt is what it is.
 std::string cause_of(const record::FrameRecord& frame) {
   switch (frame.advance.limit()) {
     case sim::DtLimit::acoustic:

@@ -57,7 +57,7 @@ std::string time_code_of(const Scene& scene, int number, double fps);
 /// @throws UsageError where shot.time_code is none of a movie at that rate
 void require_time_code(const Scene& scene, double movie_fps);
 
-/// What a movie of this scene says as its time code; "" where neither its numbers nor its shot do.
+/// Returns the time code of a movie of this scene; "" if neither its numbers nor its shot give one.
 /// @param first      number of its first picture
 /// @param movie_fps  rate that somebody asked for; 0: that of the scene
 std::string time_code_of_movie(const Scene& scene, int first, double movie_fps);

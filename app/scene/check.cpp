@@ -32,7 +32,7 @@ namespace {
 
 using Found = std::optional<Problem>;
 
-/// More than a person writes.
+/// More exports than a person writes.
 constexpr std::size_t max_exports = 1000;
 
 /// Directions shorter than this, and points closer, are the same as none.
@@ -110,7 +110,7 @@ struct PlaceKey {
   const char* operator()(const sim::shapes::Cover&) const { return ".cover.center"; }
 };
 
-/// For names of things in the scene.
+/// Advises on an unknown name of a thing in the scene.
 std::string name_advice(const std::string& name, const std::vector<std::string>& known) {
   return advice::suggest(name, {"", known, true}, "expected " + list_of(known));
 }
@@ -470,7 +470,7 @@ std::vector<std::string> carried_columns(const Scene& scene) {
   return all;
 }
 
-/// As formats write names that allow fewer letters.
+/// Returns a name as formats write it that allow fewer letters.
 std::string plain_name(std::string name) {
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
@@ -556,7 +556,7 @@ bool is_half_turn(const sim::Vec3d& degrees, const sim::Vec3d& next) {
   return turn.trace() < -1 + 1e-12;
 }
 
-/// What only a body with a mass has.
+/// Finds a value that only a body with a mass has, on a collider without one.
 Found massless_problem(const Collider& collider, const std::string& at) {
   const sim::shapes::RigidBody &body = collider.body, fresh;
   const std::pair<const char*, bool> given[] = {{".inertia", body.inertia != fresh.inertia},
@@ -668,7 +668,7 @@ Found problem_of(const Scene& scene, const Collider& collider) {
   });
 }
 
-/// What moves a collider so that snow feels its surface come are its keyframes and its velocity.
+/// Finds a curve of the shape of a collider, or of the velocity of one that moves by itself.
 Found collider_curve_problem(const Scene& scene, const Curve& curve, const std::string& at) {
   for (const Collider& collider : scene.colliders) {
     const std::string table = "collider." + collider.name + ".";

@@ -47,7 +47,7 @@ double tidy(double x) {
   return x;
 }
 
-/// Rounded down to two digits after the point.
+/// Writes a number rounded down to two digits after the point.
 std::string text_below(double x) {
   return fixed_text(std::floor(100 * x) / 100, 2);
 }
@@ -61,7 +61,7 @@ void scale_settings(Scene& scene, double factor) {
   sim::SolverSettings& s = scene.solver;
   const bool is_ratio_per_step = s.flip_reference_dt == 0;
   s.cell_size = tidy(s.cell_size * factor);
-  // Of the solver's own values, and of the curves that they follow.
+  // This scales the solver's own values, and those of the curves that they follow.
   const auto scale = [&](const std::string& address, double& value) {
     if (address == "solver.dt" || address == "solver.max_dt") value = tidy(value * factor);
     if (address == "solver.flip_ratio" && is_ratio_per_step) value = tidy(std::pow(value, factor));

@@ -22,17 +22,17 @@ std::vector<std::string> coarsen(Scene& scene, double factor);
 
 /// The same snow without its dust, for copies that nobody looks at.
 Scene without_dust(Scene scene);
-/// Whether a body or an emitter is of this material of the scene.
+/// True if a body or an emitter is of this material of the scene.
 bool has_snow_of(const Scene& scene, const sim::Material& material);
-/// Those of bodies and emitters; of a scene without any, all.
+/// Returns the materials of bodies and emitters; of a scene without any, all.
 std::vector<sim::Material> materials_of_snow(const Scene& scene);
-/// For each material of the scene whether its law is one of snow; empty where no body and no
+/// Tells for each material of the scene whether its law is one of snow; empty where no body and no
 /// emitter is of such a one.
 std::vector<bool> which_are_snow(const Scene& scene);
 /// A material of bodies or emitters that sheds dust, or that a curve makes shed it; null: none
 /// does. Check: DustScene.CurvesMakeAndEndIt
 const sim::Material* dusty_material(const Scene& scene);
-/// Whether air brakes loose snow at some time, which it does in runs without dust too.
+/// True if air brakes loose snow at some time, which it does in runs without dust too.
 bool has_spray_drag(const Scene& scene);
 
 /// The scene with the numbers that its file and --set take, for panels and messages: coarsen with

@@ -35,7 +35,7 @@ inline constexpr const char *none = "", *metre = "m", *second = "s", *per_second
                             *damping = "N s/m";
 }
 
-/// Beyond these, single precision and 64-bit counts stop making sense.
+/// Beyond these bounds, single precision and 64-bit counts stop making sense.
 inline constexpr Valid position = within(1e6);
 inline constexpr Valid length = above(0).at_most(1e6);
 /// Sizes of a shape have no default: one that is forgotten is a mistake.

@@ -170,7 +170,7 @@ class Edit {
     return "[[" + words_[0] + "]]" + line_end_ + lines;
   }
 
-  /// In its place: others keep theirs, and with it their numbers. Its comments were of the old one.
+  /// Replaces an object and its comments in its place: others keep theirs, and thus their numbers.
   void replace_object() {
     if (node_->is_in_one_place()) fail("its list is one array");
     std::vector<toml::Span> spans;
@@ -181,7 +181,7 @@ class Edit {
     insert(begin, object_block() + line_end_ + (is_last ? "" : line_end_));
   }
 
-  /// With its comments: of an item of an array the item, else its sections.
+  /// Removes an object with its comments: an item of an array, or else the sections that it has.
   void remove_object() {
     std::vector<toml::Span> spans;
     if (node_->is_in_one_place())
@@ -193,7 +193,7 @@ class Edit {
     while (text_.ends_with(blank)) text_.erase(text_.size() - line_end_.size());
   }
 
-  /// From the comment above each header to the blank lines below its last key.
+  /// Collects each section, from the comment above it to the blank lines below its last key.
   void collect_sections(const toml::TomlNode& node, std::vector<toml::Span>& spans) const {
     if (node.header.size() > 0) {
       const toml::TomlSection& section = layout_.sections[static_cast<std::size_t>(node.section)];
@@ -263,7 +263,7 @@ class Edit {
 
   void add_first_line(const toml::TomlSection& section, const std::string& line) {
     if (node_ != &layout_.root) return insert_line(section.begin, line);
-    // Above the first header and the comment that belongs to it.
+    // The line goes above the first header and the comment that belongs to it.
     const std::size_t header = first_header(layout_.root);
     if (header == text_.size()) return insert_line(header, line);
     insert(above_comment(header), line + line_end_ + line_end_);
@@ -288,7 +288,7 @@ class Edit {
     add_section(words_[0], lines);
   }
 
-  /// At the end, after a blank line.
+  /// Adds a block at the end, after a blank line.
   void add_block(const std::string& block) {
     const bool ends_line = text_.empty() || text_.ends_with('\n');
     const bool is_first = is_blank(text_);

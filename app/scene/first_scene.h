@@ -5,7 +5,7 @@
 
 namespace neve::app::scene {
 
-/// TOML that renders as it is. Above each parameter are its sentence, unit and range, from
+/// Returns TOML that renders as it is. Above each parameter are its sentence, unit and range, from
 /// describe.h.
 /// @param title   of the scene
 /// @param file    the scene's file name, for the commands in its first comment

@@ -31,7 +31,7 @@ struct FlatParam {
   bool is_default() const;
 };
 
-/// In the order of describe.h. Lists one item after the other.
+/// Lists the parameters in the order of describe.h, and lists one item after the other.
 std::vector<FlatParam> flatten(const Scene& scene);
 
 /// True if the parameter, or the whole table, at this address may change during a run. False for
@@ -68,10 +68,10 @@ struct SplitDifferences {
 /// The same, split into live differences and those that need a restart.
 SplitDifferences split_live(const Scene& before, const Scene& after);
 
-/// Same type and content; -0 is not 0.
+/// True for the same type and content; -0 is not 0.
 bool same_value(const std::optional<toml::Value>& a, const std::optional<toml::Value>& b);
 
-/// Whether ratios of such a parameter matter: its bounds are many times apart, or it is allowed
+/// True if ratios of such a parameter matter: its bounds are many times apart, or it is allowed
 /// over many times less and more than it usually is. Sliders are logarithmic then, and values
 /// around one have equal ratios.
 bool spans_decades(const Valid& valid, const std::optional<double>& usual);

@@ -85,7 +85,7 @@ std::string existing_file(const Leaf& leaf, const std::string& name) {
   return file;
 }
 
-/// Which numbers have to exist is known when all of the shape is read.
+/// Requires the place of a number. The whole shape tells which numbers have to exist.
 std::string numbered_files(const Leaf& leaf, const std::string& name) {
   if (!sim::shapes::is_file_pattern(name))
     leaf.fail("one %d, %04d, #### or $F4 in the name of the files, where their number goes",
@@ -264,7 +264,7 @@ std::string list_of(const std::vector<std::string>& names) {
 
 namespace {
 
-/// What a choice is called in the table of words.
+/// Returns the name of a choice in the table of words.
 std::string context_of(const std::string& address) {
   if (address.ends_with("colormap")) return "colormap";
   if (address.starts_with("material.")) return "material.NAME" + address.substr(address.rfind('.'));

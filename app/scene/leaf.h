@@ -120,7 +120,7 @@ toml::Value to_value(const std::vector<T>& member) {
   return {std::move(array)};
 }
 
-/// Nothing for an optional parameter that is absent.
+/// Returns nothing for an optional parameter that is absent.
 template <class T>
 std::optional<toml::Value> value_if_any(const T& member) {
   return to_value(member);

@@ -281,7 +281,7 @@ bool takes_away(const Override& change) {
   if (text != "none" && text != "\"none\"") return false;
   const std::optional<ParamInfo> info = param_at(change.address);
   if (!info || !info->default_value) return true;
-  // Without quotes: a text of nothing is what it is by default.
+  // Only none without quotes takes away a text: an empty text is its default.
   const auto* words = std::get_if<std::string>(&info->default_value->data);
   return words && words->empty() && text == "none";
 }

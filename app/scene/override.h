@@ -28,7 +28,7 @@ struct Override {
 Override parse_override(std::string_view argument);
 std::vector<Override> parse_overrides(const std::vector<std::string>& arguments);
 
-/// Of all that they set: of a table, its own and those of the values in it.
+/// Returns the addresses that they set: of a table, its own and those of the values in it.
 /// @throws UsageError, SceneError where a table is no TOML
 std::vector<std::string> addresses_of(const std::vector<Override>& changes);
 /// True if one of them has this address.

@@ -17,13 +17,13 @@ struct ParamInfo {
   std::string unit;
   Valid valid;
   std::vector<std::string> choices;  ///< the values of a choice
-  /// Absent: no value; the help says what follows. Of a required parameter only an example.
+  /// Absent if the parameter has no value; the help says what follows. Only an example if required.
   std::optional<toml::Value> default_value;
   bool is_live = false;  ///< may change while a simulation runs
   std::string help;
 };
 
-/// In the order of describe.h, listed once.
+/// Returns all parameters in the order of describe.h. The list is made once.
 const std::vector<ParamInfo>& params();
 
 /// The parameter that an address such as "material.snow.hardening" means, with any names in it.

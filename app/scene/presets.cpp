@@ -62,7 +62,7 @@ bool is_read(const sim::Material& material, std::size_t k) {
   return k < of_any_law || parameter(sim::laws::of(material).parameters, keys[k]);
 }
 
-/// All that the law of the material reads.
+/// True if the material has all numbers of the row that its law reads.
 bool has_numbers_of(const Row& row, sim::Material material) {
   for (std::size_t k = 0; k < std::size(keys); ++k)
     if (is_read(material, k) && number_of(material, k) != row.numbers[k]) return false;

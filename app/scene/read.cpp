@@ -86,7 +86,7 @@ bool is_in_mosaic(const toml::Table& root, const std::string& name) {
 }
 
 /// The views that the scene has, or the one that is drawn when it has none; and built-in ones that
-/// a --set or a mosaic speaks of. Where a mosaic does, nothing else need be drawn.
+/// a --set or a mosaic speaks of. If a mosaic does, nothing else need be drawn.
 void add_views(toml::Table& root, const std::vector<Override>& overrides) {
   const std::vector<View> built_in_ones = built_in_views();
   const bool are_in_mosaic =
@@ -210,7 +210,7 @@ void append_list(const char* key, const toml::Table& from, toml::Table& to) {
     list->value = more->value;  // no list: the reader says so
 }
 
-/// Those of the list, which all have names.
+/// Moves the items of the list, which all have names.
 template <class Named>
 void move_named(const char* key, const toml::Table& list, std::vector<Named>& drawn,
                 std::vector<Named>& undrawn) {

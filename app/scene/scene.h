@@ -98,7 +98,7 @@ struct CameraKeyframe {
   std::optional<double> fov;  ///< vertical, degrees
 };
 
-/// What neve found of a camera: eye and target, or, for a view without one of its own, all of it.
+/// The values of a camera that neve found: eye and target, or, for a view without its own, all.
 enum class FoundCamera { nothing, place, camera };
 
 struct CameraSettings {
@@ -222,7 +222,7 @@ struct Export {
   int smallest_piece = 8;        ///< particles
 };
 
-/// What a shot is called in its production, for the slate and the words over its pictures.
+/// The names of a shot in its production, for the slate and the words over its pictures.
 struct Shot {
   std::string show, name, version, artist;
   bool slate = false;     ///< a picture of words before the first one
@@ -240,8 +240,8 @@ struct Limits {
   std::uint64_t pixels = 64'000'000;
 };
 
-/// From one keyframe to the next: a monotone cubic that is at rest at the first and the last one, a
-/// straight line, or the value of the earlier one.
+/// The way from one keyframe to the next: a monotone cubic that is at rest at the first and the
+/// last one, a straight line, or the value of the earlier one.
 enum class Interpolation { smooth, linear, step };
 
 /// A number or a vector, as the parameter has.
@@ -332,7 +332,7 @@ inline bool has_moving_bodies(const Scene& scene) {
                      [](const Collider& collider) { return collider.body.moves(); });
 }
 
-/// Those of a list that have other names than these.
+/// Returns those of a list that have other names than these.
 template <class Named>
 std::vector<Named> others_than(const std::vector<Named>& these, std::vector<Named> list) {
   std::erase_if(list, [&](const Named& one) {

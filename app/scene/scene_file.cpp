@@ -32,7 +32,7 @@ bool is_open_file(const fs::path& file) {
   return folder == "/dev/fd" || folder == "/proc/self/fd";
 }
 
-/// Whatever is behind it: `< FILE` makes a file of standard input.
+/// True for a stream, whatever is behind it: `< FILE` makes a file of standard input.
 bool is_stream(const std::string& file) {
   return file == standard_input || is_open_file(file);
 }
@@ -58,7 +58,7 @@ fs::path own_scenes() {
   }
 }
 
-/// As it would be typed here: relative where that is no detour.
+/// Returns a path as a person would type it here: relative for a file below this folder.
 std::string typed(const fs::path& file) {
   std::error_code error;
   const fs::path near = fs::relative(file, error);

@@ -14,7 +14,7 @@ namespace {
 /// Shorter parts of words are in too many of them.
 constexpr std::size_t shortest_part = 4;
 
-/// Up to the next dot, which is taken away with it.
+/// Takes a word up to the next dot, and the dot with it.
 std::string_view next_word(std::string_view& address) {
   const auto dot = std::min(address.find('.'), address.size());
   const std::string_view word = address.substr(0, dot);

@@ -1,5 +1,5 @@
 #pragma once
-/// Which values a parameter may take, and when a change takes effect.
+/// Values that a parameter may take, and when a change takes effect.
 
 #include <limits>
 #include <string>
@@ -36,8 +36,8 @@ struct Valid {
   bool contains(double x) const;
   /// "0 <= value < 0.5"
   std::string text_of_bounds() const;
-  /// What a number outside of the bounds may have meant: "as a share of 1 it is 0.2" of 20 per
-  /// cent, where that is inside; else nothing.
+  /// Advises on a number outside of the bounds that may be per cent: "As a share of 1 it is 0.2"
+  /// for 20. Returns "" if the share is outside too.
   std::string advice_on(double x) const;
 };
 

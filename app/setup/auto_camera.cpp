@@ -68,7 +68,7 @@ std::vector<double> turns_of(const scene::CameraSettings& settings, double durat
   return turns;
 }
 
-/// When to look where planes are: keyframes may move and tilt them.
+/// Returns the times at which planes are looked at: keyframes may move and tilt them.
 std::vector<double> times_of(const sim::shapes::Collider& collider, double duration) {
   constexpr int parts = 12;
   if (collider.keyframes.empty()) return {0};
@@ -113,8 +113,8 @@ bool is_clear(const scene::Scene& scene, const Framing& framing, const Vec3d& to
   });
 }
 
-/// Nearer where the snow of one moment would be small beside that of others: what is thrown far
-/// leaves the picture then, not where snow is dense.
+/// Comes nearer if the snow of one moment would be small beside that of others: what is thrown far
+/// leaves the picture then, not what is dense.
 Framing near_the_smallest(const scene::Scene& scene, const std::vector<CoarseMoment>& moments,
                           const Shot& whole, const Lens& lens) {
   constexpr double min_width = 0.36;  // of the picture's; a quarter is what a tile has to have
@@ -133,7 +133,7 @@ Framing near_the_smallest(const scene::Scene& scene, const std::vector<CoarseMom
   return is_clear(scene, near, whole.towards_eye, lens) ? near : whole.framing;
 }
 
-/// What a camera that follows something moves with, at the start.
+/// Returns the centre of the body or collider that a camera follows, at the start.
 Vec3d place_of(const scene::Scene& scene, const std::string& name) {
   for (const sim::seeding::Body& body : scene.bodies)
     if (body.name == name) {
@@ -150,7 +150,7 @@ struct Place {
   Vec3d eye, target;
 };
 
-/// In round numbers.
+/// Returns the place of a camera in round numbers.
 /// @param origin  what both are relative to
 Place rounded_place(const Framing& framing, const Vec3d& towards_eye, const Vec3d& origin) {
   Place place{framing.target + framing.distance * towards_eye - origin, framing.target - origin};

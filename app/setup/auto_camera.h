@@ -11,11 +11,11 @@
 namespace neve::app::setup {
 
 /// Frames the snow of a coarse run from the side and slightly above, and small colliders near it.
-/// Round numbers, the same for every frame. A camera that turns has it in the picture all the way
-/// round.
+/// The numbers are round, and the same for every frame. A camera that turns has it in the picture
+/// all the way round. For Shown::moments, the smallest snow takes about a third of the picture's
+/// width.
 /// @param settings all but eye and target is kept
 /// @param aspect width / height of the picture
-/// Of Shown::moments, the smallest snow takes about a third of the picture's width.
 /// @param normal of a plane that should be seen from its front, a little askew
 scene::CameraSettings automatic_camera(const scene::Scene& scene,
                                        const std::vector<CoarseMoment>& moments,

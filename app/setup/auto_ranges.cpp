@@ -34,7 +34,7 @@ double distance_to(const sim::shapes::Collider& collider, const Vec3d& point,
     const double height = (point - pose.point).dot(normal);
     return approach > 1e-9 && height > 0 ? height / approach : -1;
   }
-  // By the tangent plane of the ground below; snow that lies on it may be in the ground a little.
+  // A terrain is the tangent plane of its ground below; snow on it may be in the ground a little.
   if (std::holds_alternative<sim::shapes::Terrain>(collider.shape.form)) {
     const sim::shapes::Surface below = sim::shapes::surface_at(collider, 0, point);
     const double approach = -direction.dot(below.normal);
@@ -42,7 +42,7 @@ double distance_to(const sim::shapes::Collider& collider, const Vec3d& point,
                ? std::max(below.distance, 0.0) / approach
                : -1;
   }
-  // Any other shape by the box around it: an estimate is all that is needed.
+  // Any other shape counts as the box around it: an estimate is all that is needed.
   const sim::shapes::Bounds box = sim::shapes::bounds_at(collider, 0);
   double enter = 0, leave = 1e300;
   for (int axis = 0; axis < 3; ++axis) {
@@ -96,7 +96,7 @@ double impact_speed(const scene::Scene& scene, const SnowPiece& piece) {
   return std::sqrt(start * start + 2 * g * fall);
 }
 
-/// Over the materials of its snow, as they are in the cells of the scene, at all moments.
+/// Returns the largest value over the materials of the snow in cells of the scene, at all moments.
 double largest(const scene::Scene& given, double (*of)(const sim::Material&)) {
   return largest_at_moments(given, [&](const scene::Scene& scene) {
     double value = 0;
@@ -107,7 +107,7 @@ double largest(const scene::Scene& given, double (*of)(const sim::Material&)) {
   });
 }
 
-/// What undeformed material bears, of all laws.
+/// These values are what undeformed material of any law bears.
 double yield_pressure(const sim::Material& m) {
   return sim::laws::of(m).scale(m).pressure;
 }
@@ -172,15 +172,15 @@ Spring spring_of(const sim::shapes::Collider& collider) {
           along_free_ways(body, body.spring_place - sim::rigid::motion_at(collider, 0).centre)};
 }
 
-/// How a body falls, and how far.
+/// The direction and the length of the fall of a body.
 struct Fall {
   Vec3d gravity{0, 0, 0};  ///< m/s2, what of it the body may follow
   double way = 0;          ///< m, along it
   Spring spring{};
 };
 
-/// To what is below, or the turn of the spring; until the end of the scene where nothing is. Ball
-/// joints and hinges hold.
+/// Returns the fall to what is below, or to the turn of the spring; it lasts to the end of the
+/// scene if nothing is. Ball joints and hinges hold.
 Fall fall_of(const scene::Scene& scene, const sim::shapes::Collider& body) {
   using sim::shapes::Joint;
   Fall fall{along_free_ways(body.body, scene.solver.gravity), 0, spring_of(body)};

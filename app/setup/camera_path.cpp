@@ -11,7 +11,7 @@ namespace neve::app::setup {
 
 namespace {
 
-/// From 0 to 1, at rest at both ends.
+/// Eases a share of the way: it goes from 0 to 1, at rest at both ends.
 double eased(double part) {
   const double x = std::clamp(part, 0.0, 1.0);
   return x * x * x * (x * (6 * x - 15) + 10);

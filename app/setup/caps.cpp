@@ -19,7 +19,7 @@ std::string text_of(const char* name) {
   return text ? text : "";
 }
 
-/// No cap where the variable is missing or empty.
+/// Returns a cap; none if the variable is missing or empty.
 double cap_of(const char* name, double (*read)(const std::string&, const std::string&)) {
   const std::string text = text_of(name);
   return text.empty() ? std::numeric_limits<double>::infinity() : read(text, name);

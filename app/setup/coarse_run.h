@@ -22,8 +22,8 @@ double planned_particles(const scene::Scene& scene);
 /// particles lasts: the result depends on the scene alone, never on the machine.
 std::vector<CoarseMoment> coarse_run(const scene::Scene& scene);
 
-/// Those of its moments that are next before and after these times; all of them where a time is
-/// long after the last one. @param times  s
+/// Returns the moments that are next before and after these times; all of them where a time is long
+/// after the last one. @param times  s
 std::vector<CoarseMoment> moments_near(const std::vector<CoarseMoment>& moments,
                                        const std::vector<double>& times);
 

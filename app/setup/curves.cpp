@@ -74,7 +74,7 @@ double time_of(const scene::Scene& scene, int frame) {
   return std::max(0.0, frame - 0.5) / scene.fps;
 }
 
-/// Very many become some, and those where a coordinate of a curve, or all of them, are at an end.
+/// Reduces many frames to some, and those at an end of a coordinate of a curve, or of all of them.
 std::vector<int> few_of(const scene::Scene& scene, const std::vector<int>& all) {
   constexpr std::size_t most = 64;
   if (all.size() <= most) return all;

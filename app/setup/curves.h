@@ -25,8 +25,8 @@ void require_curve_values(const scene::Scene& scene, const std::string& name);
 /// The scene with these values. @throws UsageError, SceneError
 scene::Scene with_curves(const scene::Scene& scene, int frame);
 
-/// Its numbers alone, without a scene that is read for them; nothing of a parameter without a
-/// curve.
+/// Returns the numbers of a curve alone, without a scene that is read for them; nothing for a
+/// parameter without a curve.
 std::optional<std::vector<double>> curve_value(const scene::Scene& scene,
                                                const std::string& address, int frame);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a camera has to be for points to fill its picture.
+/// Places of a camera from which points fill its picture.
 
 #include <vector>
 
@@ -42,7 +42,7 @@ struct Shot {
   sim::Vec3d towards_eye;
 };
 
-/// What is seen of points during the turns of the camera, turned backwards about a middle instead.
+/// Returns points as the turning camera sees them: they turn backwards about a middle instead.
 std::vector<sim::Vec3d> turned_backwards(const std::vector<sim::Vec3d>& points,
                                          const sim::Vec3d& middle, const Lens& lens);
 

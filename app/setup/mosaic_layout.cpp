@@ -24,7 +24,7 @@ double shape_of(const scene::PictureSize& size) {
   return static_cast<double>(size.width) / size.height;
 }
 
-/// Few gaps, and about the shape of the output.
+/// Chooses the columns for few gaps, and about the shape of the output.
 int column_count(const scene::Scene& scene, const scene::Mosaic& mosaic) {
   const int count = static_cast<int>(mosaic.views.size());
   if (mosaic.columns > 0) return std::min(count, mosaic.columns);

@@ -30,7 +30,7 @@ MosaicLayout layout_of(const scene::Scene& scene, const scene::Mosaic& mosaic, i
 /// @param has_words  all tell of overrides or of a prediction
 int caption_lines(const scene::Scene& scene, bool has_words);
 
-/// Of captions of any run.
+/// The largest number of lines in a caption of any run.
 inline constexpr int max_caption_lines = 3;
 
 /// @param caption_lines  as for layout_of

@@ -39,9 +39,9 @@ constexpr std::uint64_t driver_address_space = 1'000'000'000;
 /// Plain particles take 24 to 29, smoke with supersampling 50.
 constexpr double bytes_per_sample = 36;
 constexpr double bytes_per_pixel = 4;
-/// Of the program and a software rasteriser before anything is drawn.
+/// Memory of the program and a software rasteriser before anything is drawn.
 constexpr double program_bytes = 8e7;
-/// Of a frame; the texts of so many are small beside their pixels.
+/// The number of pictures of a frame up to which their texts are small beside their pixels.
 constexpr std::size_t few_pictures = 20;
 
 std::size_t picture_count(const scene::Scene& scene) {
@@ -157,7 +157,7 @@ void check_particles(const scene::Scene& scene, const Plan& plan, double coarsen
                      excess, coarsening));
 }
 
-/// Where snow in larger cells would change nothing.
+/// Advises on pictures that need too much memory: snow in larger cells would change nothing.
 std::string picture_advice(const scene::Scene& scene) {
   const std::size_t pictures = picture_count(scene);
   return (pictures > few_pictures ? "the scene's " + std::to_string(pictures) +

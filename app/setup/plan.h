@@ -52,8 +52,8 @@ MemoryLimit memory_limit(const scene::Scene& scene);
 
 int supersampling(Quality quality);
 
-/// Before any step: a picture of this size can be drawn. @param largest  side that the backend
-/// draws
+/// Checks before any step that a picture of this size can be drawn. @param largest  side that the
+/// backend draws
 /// @throws LimitError
 void check_picture(const std::string& what, const scene::PictureSize& size, int largest,
                    const std::string& place, const std::string& advice);

@@ -35,7 +35,7 @@ bool is_inside(const std::vector<Vec3d>& points, const Shot& shot, const Lens& l
   return seen.left > -1 && seen.right < 1 && seen.bottom > -1 && seen.top < 1;
 }
 
-/// From when on the snow is where a shot sees it, to the end.
+/// Returns the time from which the snow stays where a shot sees it, to the end.
 double time_inside(const std::vector<CoarseMoment>& moments, const Shot& shot, const Lens& lens) {
   double time = moments.back().time;
   for (auto moment = moments.rbegin(); moment != moments.rend(); ++moment) {
@@ -65,7 +65,7 @@ std::optional<PushIn> push_in(const std::vector<CoarseMoment>& moments, const Sh
   const double slow = std::exp2(-halvings_a_second * (end - begin));
   const double part = std::max({settled.distance / whole.framing.distance, slow, min_part});
   if (part > max_part) return {};
-  // Not all the way where that would be too far for the time: a place on the way.
+  // The move ends at a place on the way if all of it would be too far for the time.
   const double way =
       (1 - part) * whole.framing.distance / (whole.framing.distance - settled.distance);
   return PushIn{begin, end, between(whole.framing, settled, way)};

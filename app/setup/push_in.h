@@ -14,10 +14,10 @@ struct PushIn {
   Framing framing;    ///< at its end; the camera looks the same way as before
 };
 
-/// The camera sets out when most of the snow is where it is seen to the end, or at the middle of
-/// the scene if that is later. It comes nearer by no more than half in a second, and is there a
-/// little before the end. None where it would come hardly nearer, or where the coarse run ends too
-/// early to say where the snow will lie.
+/// The camera sets out when most of the snow is where it is seen to the end, but at the middle of
+/// the scene at the latest. It comes nearer by no more than half in a second, and arrives a little
+/// before the end. Returns nothing if it comes hardly nearer, or if the coarse run ends too early
+/// to say where the snow will lie.
 /// @param moments  in order of time @param duration  s
 std::optional<PushIn> push_in(const std::vector<CoarseMoment>& moments, const Shot& whole,
                               const Lens& lens, double duration);

@@ -78,7 +78,7 @@ void resolve_slice(const scene::Scene& scene, scene::SliceStyle& slice) {
   if (!slice.scalar_range) slice.scalar_range = automatic_range(scene, slice.scalar);
 }
 
-/// Whether a change is of this address, or of what is in it.
+/// True if a change is of this address, or of what is in it.
 bool is_in(const scene::Override& change, const std::string& address) {
   return change.address == address || change.address.starts_with(address + ".");
 }

@@ -16,8 +16,8 @@ namespace neve::app::setup {
 /// @param particle_count of the whole scene
 void resolve(scene::Scene& scene, std::size_t particle_count);
 
-/// Of the scene of a run or a picture, which is resolved: leaves open again what neve found of
-/// cameras, ranges and points where changes are of what it followed from, and does not say it.
+/// Leaves open again what neve found of cameras, ranges and points in a resolved scene, of a run or
+/// a picture, if changes are of what it followed from and do not give it.
 /// @param changes  that the scene has already
 void reopen(scene::Scene& scene, const std::vector<scene::Override>& changes);
 

@@ -60,7 +60,7 @@ void multiply(const std::vector<double>& factors, std::size_t first, std::size_t
   for (std::size_t p = first; p < end; ++p) all[p] *= factors[p - first];
 }
 
-/// All that the snow of a file has been through, of the particles that were appended last.
+/// Appends what the snow of a file has been through, for the particles that were appended last.
 void append_history(const sim::seeding::SeededBody& seeded, double J_P,
                     sim::ParticleArrays& particles) {
   const std::size_t end = particles.x.size(), first = end - seeded.x.size();

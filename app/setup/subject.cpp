@@ -106,7 +106,7 @@ void add_small_colliders(const scene::Scene& scene, std::vector<Vec3d>& points) 
   }
 }
 
-/// What snow moves is as much the subject, until it is so far away that all else would be small.
+/// Adds bodies that snow moves, unless they are so far away that all else would be small.
 void add_bodies(const std::vector<CoarseMoment>& moments, std::vector<Vec3d>& points) {
   constexpr double largest_growth_for_bodies = 3;
   const double largest = largest_growth_for_bodies * box_of(points).diagonal();
@@ -141,12 +141,12 @@ void add_floor(const scene::Scene& scene, std::vector<Vec3d>& points) {
   }
 }
 
-/// Of snow of many small cells, whose coarse copy this is, without crumbs that have flown off.
+/// Scatters a coarse copy as snow of many small cells is, without crumbs that have flown off.
 std::vector<Vec3d> scattered_core(const std::vector<Vec3d>& x) {
   return scattered(without_outliers(x, crumbs), spread);
 }
 
-/// Where most of the snow is at each moment.
+/// Returns the places of most of the snow at each moment.
 std::vector<Vec3d> cores_at_moments(const std::vector<CoarseMoment>& moments) {
   std::vector<Vec3d> points;
   for (const CoarseMoment& moment : moments) {
@@ -190,10 +190,10 @@ std::vector<Vec3d> subject_of(const scene::Scene& scene, const std::vector<Coars
   if (shown == Shown::moments && !is_following) points = cores_at_moments(moments);
   const bool is_of_moments = !points.empty();
   if (!is_of_moments) points = is_following ? followed(scene, follow) : whole_fall(scene, moments);
+  // A view of a plane has room for the few that fly: those beside the plane are not seen.
   if (!is_following && !normal && !is_of_moments) points = without_flown(points, start_of(scene));
   if (!is_following) add_small_colliders(scene, points);
   if (!is_following) add_bodies(moments, points);
-  // On a plane there is room for the few that fly, since those beside it are not seen.
   const bool is_upright = normal && std::abs(normal->normalized().y()) < 0.1;
   if (is_upright && !is_following) add_floor(scene, points);
   return points;

@@ -29,7 +29,7 @@ std::vector<sim::Vec3d> heap_of(const std::vector<sim::Vec3d>& x);
 /// The snow of one moment without crumbs that have flown off, and what it lies beside.
 std::vector<sim::Vec3d> core_of_moment(const scene::Scene& scene, const CoarseMoment& moment);
 
-/// Of all moments, without loose snow around it.
+/// Returns the snow of all moments without loose snow, and what it lies beside.
 std::vector<sim::Vec3d> dense_snow(const scene::Scene& scene,
                                    const std::vector<CoarseMoment>& moments);
 

@@ -64,7 +64,7 @@ struct UnreadableError : IoError {
   using IoError::IoError;
 };
 
-/// More than a limit allows, found before anything was allocated.
+/// The error for more than a limit allows, found before anything was allocated.
 struct LimitError : Error {
   LimitError(const std::string& message, std::string place, std::string advice)
       : Error(exit_refused, message, std::move(place), std::move(advice)) {}

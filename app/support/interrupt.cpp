@@ -23,7 +23,7 @@ LastWords& last_words() {
   return words;
 }
 
-/// As a signal handler may: without allocating, and without what others hold.
+/// Ends the process as a signal handler may: without allocating, and without what others hold.
 [[noreturn]] void end_at_once() {
   const LastWords& words = last_words();
   [[maybe_unused]] auto written = ::write(STDERR_FILENO, words.errors.data(), words.errors.size());

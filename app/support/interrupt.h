@@ -5,20 +5,20 @@
 
 namespace neve::app {
 
-/// What a request to stop writes where nothing is being made, to stderr and to stdout: set it
-/// before catch_interrupts().
+/// Sets the words of a request to stop while nothing is being made, to stderr and to stdout. They
+/// are set before catch_interrupts().
 void set_last_words(std::string errors, std::string output);
 
-/// From now on SIGINT, SIGTERM and SIGHUP set a flag; the second of the first two ends the process
-/// with code 130. A terminal that closes may send several SIGHUP; under nohup it has no effect.
+/// Lets SIGINT, SIGTERM and SIGHUP set a flag; a second SIGINT or SIGTERM ends the process with
+/// code 130. A terminal that closes may send several SIGHUP; under nohup it has no effect.
 void catch_interrupts();
 
 /// True after a request to stop.
 bool is_interrupted();
 
 /// While one of these lives, nothing is being made: a request to stop ends the process at once,
-/// with code 130, wherever it is. For reading, placing and forecasting, which may take long and ask
-/// nobody.
+/// with code 130, wherever it is. It is for reading, placing and forecasting, which may take long
+/// and ask nobody.
 class NothingToKeep {
  public:
   NothingToKeep();

@@ -61,7 +61,7 @@ class Builder {
       open.value.get_ref<Json::array_t&>().push_back(std::move(value));
       return true;
     }
-    // As a list, which looks nothing up.
+    // The members are used as a list: adding to an object would search it.
     Json::object_t::Container& members = open.value.get_ref<Json::object_t&>();
     const auto [known, is_new] = open.place.emplace(open.key, members.size());
     if (is_new)

@@ -139,7 +139,7 @@ fs::path default_scene() {
   const char* const name = "snowball.toml";
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  // Next to the sources first by where the program is now, then by where it was built.
+  // The scene next to the sources comes first by the program's place, then by where it was built.
   for (const fs::path& folder :
        {program / "../../scenes", program / "../share/neve/scenes", fs::path(NEVE_SCENE_DIR)})
     if (fs::is_regular_file(folder / name, error)) return (folder / name).lexically_normal();

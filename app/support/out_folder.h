@@ -19,16 +19,16 @@ inline std::filesystem::path without_slash(const std::filesystem::path& folder) 
   return folder.has_filename() ? folder : folder.parent_path();
 }
 
-/// It holds a sweep, with its manifest.
+/// True for a folder that holds a sweep, with its manifest.
 inline bool is_sweep_folder(const std::filesystem::path& folder) {
   std::error_code error;
   return std::filesystem::is_regular_file(folder / "manifest.json", error);
 }
 
-/// That of commands with --out whose outputs go into out_folder() without it.
+/// The advice of commands with --out whose outputs go into out_folder() without it.
 inline constexpr const char* usual_other_place = "choose another folder with --out or NEVE_OUT";
 
-/// Before the command runs. @param advice  "": it writes nowhere that a person chooses
+/// Sets the advice before the command runs. @param advice  "" if no person chooses where it writes
 void set_other_place(const std::string& advice);
 
 /// "wait for it, or choose another folder with --out or NEVE_OUT".

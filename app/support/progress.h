@@ -16,7 +16,7 @@ namespace neve::app {
 
 enum class Verbosity { quiet, normal, verbose };
 
-/// Where else progress goes, and as what.
+/// The form of progress on the screen, and the log that it goes to as well.
 struct ProgressOptions {
   bool is_json = false;  ///< one JSON object a line instead of text, for programs that watch
   std::string log;       ///< file to append all messages to, with times; empty: none
@@ -50,7 +50,7 @@ class WorkClock {
 
   /// @param done so far, of the same unit as the rest
   void note(double done, Clock::time_point now = Clock::now());
-  /// Over a trailing window; negative: not known yet. @param left units
+  /// Returns s by the rate in a trailing window; negative if not known yet. @param left units
   double seconds_for(double left) const;
 
  private:

@@ -8,7 +8,7 @@ namespace neve::app {
 double round_up(double x) {
   if (!(x > 0) || !std::isfinite(x)) return 0;
   const double power = std::pow(10.0, std::floor(std::log10(x)));
-  // Slightly less than x, so that 3 stays 3 after rounding of the power.
+  // The step may be slightly less than x, so that 3 stays 3 after rounding of the power.
   for (const double step : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
     if (step * power >= x * (1 - 1e-9)) return step * power;
   return 10 * power;

@@ -17,9 +17,9 @@ std::string shell_word(const std::string& text);
 /// The same of a path, which is no option whatever it begins with.
 std::string shell_path(const std::string& path);
 
-/// With so many digits after the point.
+/// Writes a number with so many digits after the point.
 std::string fixed_text(double value, int digits);
-/// With three significant digits.
+/// Writes a number with three significant digits.
 std::string rough_text(double value);
 /// Three digits, written out: a count.
 std::string about_count_text(double value);
@@ -29,7 +29,7 @@ std::string count_text(std::size_t count, const char* one);
 std::string bytes_text(std::uint64_t bytes);
 /// "8GiB" or "1.5 MB" in bytes.
 std::optional<double> bytes_of(std::string_view text);
-/// With control characters as \x1b and the like: those of a stranger's file do nothing to a
+/// Writes control characters as \x1b and the like: those of a stranger's file do nothing to a
 /// terminal. Line feeds and tabs stay.
 std::string printable_text(const std::string& text);
 /// The same on one line: line feeds and tabs are written out too.
@@ -46,11 +46,11 @@ std::optional<Number> number_of(std::string_view text) {
 }
 /// A finite number that is all of the text.
 std::optional<double> finite_number(std::string_view text);
-/// With A to Z as a to z, whatever the locale; other bytes stay.
+/// Returns the text with A to Z as a to z, whatever the locale; other bytes stay.
 std::string lower_text(std::string_view text);
-/// Without the blanks around it.
+/// Returns the text without the blanks around it.
 std::string trimmed(std::string_view text, std::string_view blanks = " \t");
-/// Its words in lines of at most so many bytes, but for longer words; none of a text without words.
+/// Breaks a text into lines of at most so many bytes, but for longer words; none without words.
 std::vector<std::string> broken_lines(const std::string& text, std::size_t most);
 /// The last line that has more than blanks; "" if none has.
 std::string last_line(std::string_view text);

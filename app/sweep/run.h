@@ -15,7 +15,7 @@ struct Run {
   int index = 0;
   std::string label;                      ///< of a [[run]] or a labelled value
   std::vector<scene::Override> settings;  ///< without the fixed ones
-  /// Of a run that forks: all in which its planned scene differs from its beginning there.
+  /// The values in which the scene of a run that forks differs at the fork from its beginning.
   std::vector<scene::Override> changes{};
   std::vector<int> coordinates;  ///< place on each axis of a grid; empty: on none
 

@@ -32,7 +32,7 @@ constexpr double slow_steps = 5e6;
 /// A change reads the whole scene again: s, and s for each byte of it.
 constexpr double seconds_of_change = 1e-3, seconds_of_byte = 1e-6;
 
-/// In the folder of a run, or in that of one of its views: then its run is here too.
+/// True for a picture in the folder of a run, or of one of its views: then its run is here too.
 bool is_in_run(const fs::path& picture) {
   std::error_code error;
   const fs::path folder = fs::absolute(picture, error).parent_path();

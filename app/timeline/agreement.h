@@ -18,7 +18,7 @@ enum class Agreement {
   refused,  ///< whoever opened the picture cannot be asked, as by dropping it into a window
 };
 
-/// What making a scene's frames again takes, roughly and from its numbers alone.
+/// The cost of making a scene's frames again, roughly and from its numbers alone.
 struct AgainCost {
   double seconds = 0;
   double particle_steps = 0;
@@ -28,18 +28,18 @@ struct AgainCost {
   std::string text(int last_frame) const;
 };
 
-/// What `neve info` says of a picture: its cost, or why that is not known before its files are
-/// read.
+/// Returns what `neve info` says of making a picture again: its cost, or why that is not known
+/// before its files are read.
 std::string again_text(const record::PictureRecord& record, const std::string& file);
 
-/// Where making a picture again that lies in no folder of a run takes more than a minute or 500 MB.
+/// Requires agreement to more than a minute or 500 MB for a picture that is in no folder of a run.
 /// @param scene  of the picture, with the edits of who opened it
 /// @param last   frame that is made, counted from 0
 /// @throws LimitError for more than the limits allow, and where nobody agrees
 void require_agreement(const record::PictureRecord& record, const std::string& file,
                        const scene::Scene& scene, int last, Agreement agreement);
 
-/// Where a picture that lies in no folder of a run reads files outside of its own folder.
+/// Requires agreement to files outside of the folder of a picture that is in no folder of a run.
 /// @throws LimitError where nobody agrees
 void require_agreement(const std::string& file, const std::vector<std::string>& outside,
                        Agreement agreement);

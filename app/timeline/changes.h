@@ -13,7 +13,7 @@
 
 namespace neve::app::timeline {
 
-/// How many changes, from the first, are made once so many steps are taken.
+/// Returns how many changes, from the first, are made once so many steps are taken.
 std::size_t count_until(const std::vector<scene::LiveChange>& changes, std::size_t steps);
 
 /// The scene after the first of its changes. Automatic values ("auto") are not filled in.
@@ -38,7 +38,7 @@ scene::Scene recorded_scene(const scene::Scene& start, const scene::Scene& now);
 /// parameters that can change
 void require_live(const scene::Scene& before, const scene::Scene& after, const char* flag);
 
-/// With the colliders in the order of an earlier scene, new ones behind: as the list of changes
+/// Puts the colliders in the order of an earlier scene, new ones behind: as the list of changes
 /// makes it again, wherever the new ones were put.
 scene::Scene in_order_of(const scene::Scene& before, scene::Scene after);
 

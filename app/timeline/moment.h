@@ -34,7 +34,7 @@ struct Moment {
   sim::AdvanceReport advance;
   std::vector<picture::PlotSample> history;  ///< of frames 0 to this one
   std::vector<sim::Retry> retries;           ///< so far
-  /// With the changes made so far. Null in a moment that was read: its run knows the changes.
+  /// The scene with the changes so far. Null in a moment that was read: its run knows the changes.
   std::shared_ptr<const scene::Scene> scene{};
   std::vector<std::uint8_t> state{};  ///< sim::Simulation::save
   Made made{};

@@ -47,7 +47,7 @@ Moments::Moments(StatesFolder states, Progress& progress)
       state_bytes_[frame] = output::state_bytes(states_.folder, frame);
       if (states_.are_read) on_disk_[frame] = {};
     }
-    // Thinned before: those between are not wanted now either.
+    // States were thinned before: those between are not wanted now either.
     for (std::size_t k = 1; k + 1 < frames.size() && states_.budget > 0; ++k)
       every_ = k == 1 ? frames[k] - frames[k - 1] : std::min(every_, frames[k] - frames[k - 1]);
   }
@@ -84,7 +84,7 @@ std::shared_ptr<const Moment> Moments::use(output::FoundCheckpoint found, int fr
       file && file->frame == frame &&
       (is_of_run ? file->simd == sim::kernels::name(sim::kernels::chosen_simd_level())
                  : file->identity == identity);
-  // What is wrong with one is wrong with the others.
+  // A fault of one is a fault of all others.
   const auto leave_all = [&](const std::string& why) {
     std::erase_if(on_disk_, [&](const auto& kept) { return kept.second.is_of_run == is_of_run; });
     if (progress_) progress_->warning(why + "; the run is simulated from its start");
@@ -109,7 +109,7 @@ std::shared_ptr<const Moment> Moments::use(output::FoundCheckpoint found, int fr
   return nullptr;
 }
 
-/// From DIR/checkpoint, or else from DIR/states. A frame without either is forgotten.
+/// Reads from DIR/checkpoint, or else from DIR/states. A frame without either is forgotten.
 std::shared_ptr<const Moment> Moments::read(int frame, double time, double fps) {
   const OnDisk file = on_disk_.at(frame);
   const std::filesystem::path& folder = file.is_of_run ? run_ : states_.folder;
@@ -234,7 +234,7 @@ void Moments::thin_states(std::uint64_t size, int newest) {
     for (const auto& [frame, own] : state_bytes_) bytes += own;
     return bytes;
   };
-  // As many as will come, before they are written.
+  // Room is kept for as many as will come, before they are written.
   const std::uint64_t frames_to_come =
       static_cast<std::uint64_t>(std::max(0, states_.last_frame - newest));
   while (every_ < states_.last_frame &&

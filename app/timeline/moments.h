@@ -45,10 +45,10 @@ struct StatesKept {
 
 class Moments {
  public:
-  /// None.
+  /// Keeps no moments.
   Moments() = default;
-  /// In memory. @param budget  bytes of all together; the first and the last are always kept,
-  /// those between more and more thinly
+  /// Keeps moments in memory. @param budget  bytes of all together; the first and the last are
+  /// always kept, those between more and more thinly
   explicit Moments(std::uint64_t budget) : budget_(budget) {}
   /// @param progress  outlives it: told of damaged states
   Moments(StatesFolder states, Progress& progress);
@@ -69,13 +69,13 @@ class Moments {
   /// from DIR/states.
   bool wants(int frame) const;
   /// Keeps the end of a frame, in the place of the one with its number; a file of DIR/states is
-  /// written while the run goes on. @throws IoError for this one or the one before
+  /// written while the run continues. @throws IoError for this one or the one before
   void keep(Moment moment);
   /// Waits until the last one is written. @throws IoError
   void settle();
   /// Settles, and has all that were written survive a power cut. @throws IoError likewise
   void bring_to_disk();
-  /// Of DIR/states, when they are settled; nothing where none are wanted.
+  /// Returns the states in DIR/states, when they are settled; nothing if none are wanted.
   std::optional<StatesKept> kept() const;
 
   /// Forgets those of later frames, and of later steps after this one; files stay.

@@ -68,7 +68,7 @@ void read_scene_file(const Edits& edits, Origin& origin) {
   origin.frames = {0, scene::last_frame(origin.scene)};
 }
 
-/// What a picture says of itself, with the files of its scene where they are now. @throws Error
+/// Reads what a picture says of itself, with the present places of its scene's files. @throws Error
 record::PictureRecord open_picture(const std::string& file, Agreement agreement) {
   record::PictureRecord record = record::read_picture_record(file);
   record::find_files(file, record, [&](const std::vector<std::string>& outside) {
@@ -91,7 +91,7 @@ void read_picture(const Edits& edits, Origin& origin) {
   origin.overrides = record.overrides;
   origin.changes = record.changes;
   origin.coarsening = record.coarsening;
-  // By the numbers that the picture has, whatever the edits say.
+  // The frame is by the numbers that the picture has, whatever the edits say.
   const int frame = scene::frame_of(
       scene::read_scene_text(record.scene, origin.scene_file + " (its scene)"), record.frame);
   if (frame < 0)
@@ -143,8 +143,8 @@ std::vector<scene::Override> drawing_changes(const Edits& edits) {
   return changes;
 }
 
-/// States of a run go on with the files that its scene names: with others, they would be mixed with
-/// what these make. Those that are gone are missed where they are read.
+/// Requires the files that the scene names to be unchanged: states of a run would be mixed with
+/// what others make. Those that are gone are missed where they are read.
 /// @param before  their hashes when the run was made; none in runs of earlier builds
 void require_same_files(const record::FileHashes& before, const Origin& origin) {
   if (before.empty()) return;
@@ -162,7 +162,7 @@ void require_same_files(const record::FileHashes& before, const Origin& origin) 
                   file, "restore the old file, or render the scene file into another folder");
 }
 
-/// Of a run that is continued: those that it was asked for; once it has them, all of its scene.
+/// Returns the frames of a run that is continued: those asked for, or once it has them the scene's.
 /// @param before  the scene with the numbers that the run has
 setup::FrameRange frames_to_make(const Json& run, const scene::Scene& before,
                                  const Origin& origin) {
@@ -209,7 +209,7 @@ void read_run(const Edits& edits, Origin& origin) {
     origin.coarsening = run.value("coarsen", 1.0);
     origin.prediction = run.value("prediction", Json());
     origin.run_frames = record::frame_records(run);
-    // By the numbers that the run has, whatever the edits say.
+    // Frames are by the numbers that the run has, whatever the edits say.
     const scene::Scene before = scene::read_scene_text(text, place);
     for (record::FrameRecord& made : origin.run_frames)
       made.frame = scene::frame_of(before, made.frame);

@@ -1,5 +1,5 @@
 #pragma once
-/// What a command begins with: a scene, a picture, or the folder of a run.
+/// The beginning of a command: a scene, a picture, or the folder of a run.
 
 #include <cstdint>
 #include <filesystem>
@@ -62,7 +62,8 @@ struct Origin {
 /// @param flag  with the time: "--at" @throws UsageError for a time after the last frame
 void require_before_end(const char* flag, double time, const Origin& origin);
 
-/// Warns where --frames goes on after the last frame, which is simulated. @param time  of its last
+/// Warns where --frames continues after the last frame, which is simulated.
+/// @param time  of its last
 void warn_of_late_frame(double time, const Origin& origin, Progress& progress);
 
 /// True for the path of a folder that exists.

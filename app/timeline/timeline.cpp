@@ -35,7 +35,7 @@ std::vector<sim::ColliderLoad> with_colliders(const std::vector<sim::ColliderLoa
   return list;
 }
 
-/// How long a run is meant to be concerns no moment of it.
+/// Returns a scene with other frames: the length of a run concerns no moment of it.
 std::shared_ptr<const scene::Scene> with_frames(const std::shared_ptr<const scene::Scene>& scene,
                                                 int frames) {
   if (scene->frames == frames) return scene;
@@ -169,7 +169,7 @@ void Timeline::change(const scene::Scene& changed) {
     throw std::runtime_error("the frame does not get to its end, where the change would be made");
   const std::shared_ptr<const scene::Scene> before = here_.scene;
   auto scene = std::make_shared<const scene::Scene>(in_order_of(*before, changed));
-  // A curve goes on whatever else gives a value to its parameter.
+  // A curve continues whatever else gives a value to its parameter.
   if (!scene->curves.empty())
     scene = std::make_shared<const scene::Scene>(setup::with_curves(*scene, curves_at_));
   use(scene);
@@ -183,7 +183,7 @@ void Timeline::change(const scene::Scene& changed) {
                          {simulation_.steps(), change.address,
                           change.after ? scene::toml::toml_literal(*change.after) : "none"});
     }
-  // What was kept of this moment is from before the change.
+  // A moment that was kept here is from before the change.
   if (is_other) moments_.forget(here_);
   made_ = changes_.size();
   start_ = recorded_scene(start_, *scene);
@@ -270,7 +270,7 @@ bool Timeline::look_after_step() {
   return is_stopped_ = watch_.after_step && watch_.after_step(simulation_.time());
 }
 
-/// As far as the last step, or to the end of the frame.
+/// Advances to the last step or to the time, whichever comes first.
 sim::AdvanceReport Timeline::advance(double time, std::size_t last_step) {
   const auto after_step = [this] { return look_after_step(); };
   if (rehearsed_ || !may_go_back()) return simulation_.advance_to(time, after_step, last_step);

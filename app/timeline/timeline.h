@@ -34,7 +34,7 @@ Watch watched_by(Progress& progress, const scene::Scene& scene);
 /// its first step, so that these follow from the number of the frame alone.
 class Timeline {
  public:
-  /// At the start. @throws as sim::Simulation
+  /// Begins a run at its start. @throws as sim::Simulation
   /// @param start    resolved; changes of views that it lacks are passed over
   /// @param changes  in the order they were made
   /// @param seeded   snow of the start
@@ -48,11 +48,11 @@ class Timeline {
   void watch(Watch watch) { watch_ = std::move(watch); }
 
   const sim::Simulation& simulation() const { return simulation_; }
-  /// Where it is, without its state.
+  /// Returns the moment that the run is at, without its state.
   const Moment& here() const { return here_; }
-  /// The same with its state.
+  /// Returns the moment with its state.
   Moment moment() const;
-  /// With the changes so far, and its colliders where they are.
+  /// Returns the scene with the changes so far, and its colliders where they are.
   scene::Scene scene() const;
   /// Sums and extremes of the state.
   const sim::Summary& summary() const;
@@ -62,7 +62,7 @@ class Timeline {
 
   /// The scene it started from, drawn as it is drawn now.
   const scene::Scene& start() const { return start_; }
-  /// Those made so far, and those to come.
+  /// Returns the changes that were made so far, and those to come.
   const std::vector<scene::LiveChange>& changes() const { return changes_; }
   const setup::SeededScene& seeded() const { return *seeded_; }
   const std::shared_ptr<const setup::SeededScene>& shared_seeded() const { return seeded_; }
@@ -149,8 +149,8 @@ class Timeline {
   mutable std::optional<sim::Summary> summary_;
 };
 
-/// What pictures show of a run where it is. With the history, the steps and the changes of the run
-/// so far. The history is that of the timeline: who draws while it moves keeps a copy.
+/// Takes what pictures show of a run where it is, with the history, the steps and the changes of
+/// the run so far. The history is that of the timeline: who draws while it moves keeps a copy.
 /// @param scene  that is drawn: of the timeline, perhaps with other views
 /// @param views  that will be drawn, not only those of the scene
 picture::Snapshot take_snapshot(const Timeline& timeline, const scene::Scene& scene,

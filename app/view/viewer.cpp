@@ -176,7 +176,7 @@ void Viewer::draw() {
     paint_picture();
     screen_.end(renderer_, state_.viewport);
   } else {
-    bench_.session().taken(state_.live->number);  // the run goes on behind it
+    bench_.session().taken(state_.live->number);  // the run continues behind it
   }
   keep_recording();
   if (state_.wants_picture && has_picture_to_save()) save_picture();
@@ -221,7 +221,7 @@ void Viewer::lay_out() {
     return is_on ? static_cast<int>(std::min(share * static_cast<float>(size.width), width * unit))
                  : 0;
   };
-  // Of a phone held upright, the lower half is for the panels.
+  // On a phone held upright, the lower half is for the panels.
   panels.is_stacked = panels.is_narrow && size.height > size.width;
   const int left = panels.is_stacked ? 0 : column(panels.shows_left(), 23),
             right = panels.is_stacked ? 0 : column(panels.shows_right(), 24);

@@ -46,7 +46,7 @@ struct PictureKey {
   bool operator==(const PictureKey&) const = default;
 };
 
-/// What a recorded picture depends on.
+/// Everything that a recorded picture depends on.
 struct RecordedKey {
   std::uint64_t start = 0, state_hash = 0;
   int frame = 0;
@@ -73,7 +73,7 @@ class Viewer {
   Viewer(session::Workbench& bench, frontend::Frontend& front, render::Screen& screen,
          render::Renderer& renderer, const ViewerOptions& options);
 
-  /// Until the frontend closes, or Ctrl-C.
+  /// Runs until the frontend closes, or Ctrl-C.
   void run();
 
   panels::ViewerState& state() { return state_; }

@@ -123,7 +123,7 @@ RecordedKey Viewer::recorded_key() const {
   return key;
 }
 
-/// What waits is written, or said to be missing: what failed is no failure of the next recording.
+/// Writes what waits, or says that it is missing: the next recording has failures of its own only.
 void Viewer::stop_recording() {
   record_due();
   recorded_.reset();
@@ -146,7 +146,7 @@ void Viewer::forget_unwritten() {
   state_.recorded = static_cast<int>(take_.frames.size());
 }
 
-/// Every frame once, and again where something else of it is shown before the next.
+/// Records every frame once, and again where something else of it is shown before the next.
 void Viewer::keep_recording() {
   if (!state_.is_recording) return stop_recording();
   const session::LiveFrame& live = *state_.live;
@@ -158,7 +158,7 @@ void Viewer::keep_recording() {
   if (!is_record_due_) return;
   const bool is_same_frame = recorded_ && recorded_->start == key.start &&
                              recorded_->frame == key.frame && recorded_->view == key.view;
-  // Of a drag the last picture is enough.
+  // The last picture of a drag is enough.
   if (is_same_frame && seconds_since(moved_at_) < still_after)
     settle_ = 3;
   else
@@ -178,7 +178,7 @@ void Viewer::follow_run() {
   take_.returns = live.returns;
 }
 
-/// In another folder, with the frames that both runs have.
+/// Begins another folder, with the frames that both runs have.
 void Viewer::begin_take() {
   const std::filesystem::path before = take_.folder;
   writer_->finish();
@@ -195,7 +195,7 @@ void Viewer::begin_take() {
                                                " has frames of another run");
 }
 
-/// Before what is shown is another frame.
+/// Records the frame that is due, before what is shown is another one.
 void Viewer::record_due() {
   if (!std::exchange(is_record_due_, false)) return;
   const session::LiveFrame& live = *state_.live;

@@ -136,7 +136,7 @@ bool Viewer::has_what_is_shown() const {
 /// The current view; inside a step its arrows show the result of the stage.
 scene::View Viewer::shown_view() const {
   scene::View view = panels::current_view(state_);
-  // Around what is looked at, single nodes are.
+  // Single nodes are shown around what is looked at.
   if (state_.live->probe) view.slice.dense_near = state_.live->probe->place;
   const std::vector<scene::View>& asked = state_.live->scene->views;
   if (state_.live->stage && !asked.empty() && asked.front().name == view.name) {

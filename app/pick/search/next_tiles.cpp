@@ -14,7 +14,7 @@ namespace {
 /// Numbers of places among which the next tiles are chosen: all over the cube, and near the best.
 constexpr std::uint32_t places_everywhere = 192, places_near = 192;
 
-/// Evenly spread over the cube. @param first number of the first one in the sequence
+/// Spreads places evenly over the cube. @param first number of the first one in the sequence
 std::vector<Point> spread_places(std::uint32_t first, std::uint32_t count, int dimension,
                                  std::uint64_t seed) {
   std::vector<Point> places(count, Point(dimension));
@@ -30,7 +30,7 @@ double normal_number(std::uint64_t seed, std::uint64_t k) {
   return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
 }
 
-/// Normally distributed around a place, clamped into the cube.
+/// Draws normally distributed places around one, clamped into the cube.
 std::vector<Point> places_around(const Point& middle, double reach, std::uint64_t seed) {
   std::vector<Point> places(places_near, middle);
   for (std::uint32_t k = 0; k < places_near; ++k) {
@@ -94,7 +94,7 @@ class Sampler {
     spread.diagonal().array() += 1e-6 * (1 + spread.diagonal().maxCoeff());
     root_ = spread.llt().matrixL();
   }
-  /// Nearer to the means than a fair sample: few rounds are left, and fair ones explore too long.
+  /// Draws nearer to the means than a fair sample: few rounds are left, and those explore too long.
   Eigen::VectorXd sample(std::uint64_t seed) const {
     constexpr double boldness = 0.4;
     Eigen::VectorXd z(means_.size());
@@ -110,7 +110,7 @@ class Sampler {
   Eigen::MatrixXd root_;
 };
 
-/// How far from the favourite the search refines, in shares of an axis: less with each choice.
+/// Returns the reach of a search around the favourite, in shares of an axis. Choices shrink it.
 double reach_after(std::size_t choices) {
   constexpr double first = 0.35, least = 0.04, shrink = 0.8;
   return std::max(least, first * std::pow(shrink, static_cast<double>(choices)));

@@ -35,9 +35,9 @@ Point favourite(const std::vector<Round>& rounds, const Preference& taste);
 /// favourite where the last round had none.
 Point result_of(const std::vector<Round>& rounds, const Preference& taste);
 
-/// Nine places: at first spread evenly; then the favourite again, the best that is expected,
-/// some that may be the best (Thompson samples), and some where little is known; none near another.
-/// Depends on its arguments alone. @param seed of the whole search
+/// Chooses nine places: at first spread evenly; then the favourite again, the best that is
+/// expected, some that may be the best (Thompson samples), and some where little is known; none
+/// near another. They depend on the arguments alone. @param seed of the whole search
 std::vector<Point> next_tiles(const std::vector<Round>& rounds, int dimension, std::uint64_t seed);
 
 }  // namespace neve::app::pick::search

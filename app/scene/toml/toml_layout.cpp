@@ -38,7 +38,7 @@ class LayoutReader {
     while (is_at(' ') || is_at('\t')) ++at_;
   }
 
-  /// Also over comments and line ends.
+  /// Skips blanks, comments and line ends.
   void skip_blank() {
     for (;;) {
       while (is_at(' ') || is_at('\t') || is_at('\r') || is_at('\n')) ++at_;

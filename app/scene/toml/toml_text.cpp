@@ -37,7 +37,7 @@ CodePoint decode(std::string_view s) {
   return {value, length};
 }
 
-/// How a file that is no UTF-8 was written.
+/// Advises on a file that is not UTF-8.
 const char* encoding_advice(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     return "the file is UTF-16; save it as UTF-8";

@@ -13,7 +13,7 @@
 
 namespace neve::app::scene::toml {
 
-/// Of a file; and of a text: neve writes out what people leave to defaults.
+/// Limits on a file and, larger, on any text: neve writes out what people leave to defaults.
 inline constexpr std::size_t max_toml_bytes = 1 << 20, max_text_bytes = 16 << 20;
 
 struct AsciiToml {

@@ -48,7 +48,7 @@ class BackgroundSweep {
 
   /// @return exit code, once it has ended
   std::optional<int> poll();
-  /// Asks it to end: the same command continues with the runs that are not finished.
+  /// Asks the sweep to end: the same command continues with the runs that are not finished.
   void stop() { child_.stop(); }
 
   /// Reads how far it is. @return empty before the folder has the runs of these options @throws

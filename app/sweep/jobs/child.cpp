@@ -20,7 +20,7 @@ namespace neve::app::sweep::jobs {
 
 namespace {
 
-/// Beyond the limit on resident memory: stacks of threads and unused mappings of drivers.
+/// Data beyond the limit on resident memory: stacks of threads and unused mappings of drivers.
 constexpr std::uint64_t unused_data = std::uint64_t{1} << 30;
 constexpr auto memory_interval = std::chrono::milliseconds(50);
 
@@ -120,7 +120,7 @@ std::optional<ChildResult> Child::poll() {
   if (!why_ && limits_.timeout > 0 && seconds() > limits_.timeout) end_because(Ending::timeout);
   if (!why_ && limits_.memory > 0 && now - checked_at_ >= memory_interval) {
     checked_at_ = now;
-    // Not asked: asking costs memory too.
+    // The process is killed at once: asking it to end costs memory too.
     seen_memory_ = std::max(seen_memory_, resident_bytes(pid_));
     if (seen_memory_ > limits_.memory) {
       why_ = Ending::out_of_memory;

@@ -52,7 +52,7 @@ class Child {
   /// @return how the child ended; empty while it runs
   std::optional<ChildResult> poll();
 
-  /// Asks it to end; poll() kills it when it does not within the grace.
+  /// Asks the child to end; poll() kills it when it does not within the grace.
   void stop();
 
   pid_t pid() const { return pid_; }

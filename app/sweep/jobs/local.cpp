@@ -81,8 +81,8 @@ class LocalJobs {
     int made = 0;  ///< pictures, as far as they have been counted
   };
 
-  /// Where the budget is too short for all, the ends of axes come first: long runs would take the
-  /// room of many.
+  /// Orders the queue. If the budget is too short for all, the ends of axes come first: long runs
+  /// would take the room of many.
   void put_in_order(const std::vector<int>& indices) {
     const bool is_side_by_side = options_.cores > 1 && options_.jobs != 1;
     for (const bool is_longest_first : {is_side_by_side, false}) {
@@ -92,7 +92,7 @@ class LocalJobs {
     }
   }
 
-  /// Of all runs that wait, on all cores; 0: not known.
+  /// Returns the time of all runs that wait, on all cores; 0 if not known.
   double foreseen_seconds() const {
     double work = 0;
     for (const Run* run : queue_)
@@ -100,8 +100,8 @@ class LocalJobs {
     return work * manifest_.seconds_per_work / options_.cores;
   }
 
-  /// Those of the seeds that wait, once for all runs of a seed: by this process, or by another one
-  /// that is waited for.
+  /// Makes the beginnings of the seeds that wait, once for all runs of a seed: by this process, or
+  /// by another one that is waited for.
   void make_beginnings() {
     if (!manifest_.beginning) return;
     for (const Run& run : manifest_.beginning->runs)
@@ -135,7 +135,7 @@ class LocalJobs {
                   folder.string());
   }
 
-  /// Side by side, as runs are.
+  /// Runs beginnings side by side, as runs are.
   void run_beginnings(std::deque<const Run*> waiting) {
     bool is_told = false;
     while (!waiting.empty() || !active_.empty()) {
@@ -317,7 +317,7 @@ class LocalJobs {
     return run.work * seconds_per_work <= seconds_left();
   }
 
-  /// Runs that would not end in time make room for shorter ones. Where none would, they begin all
+  /// Lets runs that would not end in time make room for shorter ones. If none would, they begin all
   /// the same: their checkpoints are the next call's beginning.
   void keep_budget() {
     if (options_.budget <= 0) return;
@@ -372,7 +372,7 @@ class LocalJobs {
     }
   }
 
-  /// Nothing while another process makes the run: it is left to that.
+  /// Returns nothing while another process makes the run: it is left to that.
   std::optional<output::FolderLock> lock_run(const Run& run, const fs::path& folder) {
     std::optional<output::FolderLock> lock = output::FolderLock::try_lock(
         folder, "neve sweep", output::FolderLock::Kind::alone, store::run_lock);
@@ -442,7 +442,7 @@ class LocalJobs {
     return child;
   }
 
-  /// Known before anything is started.
+  /// True if a run needs more memory than allowed, as known before anything is started.
   bool is_over_memory(const Run& run, store::RunStatus& status, const fs::path& folder) {
     if (manifest_.memory <= 0 || run.memory <= manifest_.memory) return false;
     status.state = store::RunState::out_of_memory;
@@ -520,7 +520,7 @@ class LocalJobs {
   void collect_ended() {
     while (std::optional<Ended> ended = take_ended()) {
       Active& done = ended->run;
-      // At the threads that it had.
+      // The seconds are those at the threads that the run had.
       work_timed_ += done.run->work;
       seconds_timed_ += ended->result.seconds;
       judge(ended->result, manifest_, *done.run, done.folder, done.status);
@@ -533,7 +533,7 @@ class LocalJobs {
     store::note_record(record::read_run_json(folder), status);
     store::write_status(folder, status);
     if (store::is_finished(status.state)) count(status);
-    // Also by another process: then the sweep is not done either.
+    // Another process may have interrupted it too: then the sweep is not done either.
     if (status.state == store::RunState::interrupted) result_.is_interrupted = true;
     if (is_machine_failure(status))
       give_up({status.exit_code, store::run_text(run) + ": " + status.reason});

@@ -161,14 +161,14 @@ class Queue {
   /// Arrays of runs, and a job that collects when all have ended. @throws Error at the first that
   /// Slurm refuses
   void submit(const std::vector<int>& runs);
-  /// Of these runs those that no job is queued for.
+  /// Returns those of these runs that no job is queued for.
   std::vector<int> without_job(const std::vector<int>& runs) const;
 
  private:
   /// Arrays of the common beginnings that these runs lack; submits those that are not queued.
   /// @return the numbers of their jobs
   std::vector<std::string> beginning_jobs(const std::vector<int>& runs);
-  /// Of these indices those that no job is queued for.
+  /// Returns those of these indices that no job is queued for.
   std::vector<int> not_queued(const std::vector<int>& indices, bool are_beginnings) const;
   /// An array of tasks of a script. @param after  jobs that it waits for
   void add_arrays(const char* script, const char* log_name, const std::vector<int>& indices,
@@ -251,7 +251,7 @@ std::vector<std::string> Queue::beginning_jobs(const std::vector<int>& runs) {
 }
 
 void Queue::submit(const std::vector<int>& runs) {
-  // Not afterok: runs whose beginning failed say so, instead of waiting for ever.
+  // The dependency is not afterok: runs whose beginning failed say so, instead of waiting for ever.
   const std::vector<std::string> beginnings = beginning_jobs(runs);
   add_arrays("run.sh", "%A_%a.log", runs,
              beginnings.empty() ? "" : "--dependency=afterany:" + joined(beginnings, ":"), false);
@@ -310,9 +310,9 @@ std::vector<int> missing_runs(const fs::path& folder, const store::Manifest& man
   return missing;
 }
 
-/// Queues runs that no job is there for. A site that takes only some of them gets the rest when one
+/// Queues runs that have no job. A site that takes only some of them gets the rest when one
 /// of these has ended. @return how many were queued
-/// @throws Error where it takes none and none is there
+/// @throws Error where it takes none and none is queued
 std::size_t queue_rest(Queue& queue, const std::vector<int>& missing, Progress& progress) {
   const std::vector<int> rest = queue.without_job(missing);
   if (rest.empty()) return 0;
@@ -389,8 +389,7 @@ bool waits_for_beginning(const fs::path& folder, const store::Manifest& manifest
   return store::read_status(beginning).state == store::RunState::interrupted;
 }
 
-/// What became of runs whose jobs have ended. @param before  attempts of those that were
-/// interrupted
+/// Judges runs whose jobs have ended. @param before  attempts of those that were interrupted
 void judge_ended(const fs::path& folder, const store::Manifest& manifest,
                  const std::vector<int>& indices, const Tasks& tasks,
                  const std::map<int, int>& before, JobsResult& result, Progress& progress) {

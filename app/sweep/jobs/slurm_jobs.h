@@ -18,7 +18,7 @@ struct QueuedJob {
 /// whatever a site prints in front. @throws Error without one, with the answer
 std::string job_number(const std::string& answer);
 
-/// What is queued, in FOLDER/slurm/jobs.json; none where that cannot be read.
+/// Reads the queued jobs from FOLDER/slurm/jobs.json; returns none if that cannot be read.
 std::vector<QueuedJob> queued_jobs(const std::filesystem::path& folder);
 /// @throws IoError
 void write_queued_jobs(const std::filesystem::path& folder, const std::vector<QueuedJob>& jobs);

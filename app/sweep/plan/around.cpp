@@ -27,7 +27,7 @@ std::optional<double> double_of(const std::optional<scene::toml::Value>& value) 
   return std::nullopt;
 }
 
-/// With three significant digits, as people write numbers.
+/// Rounds to three significant digits, as people write numbers.
 double three_digits(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", x);
@@ -69,7 +69,7 @@ std::vector<double> numbers_around(const scene::FlatParam& param, double x) {
   } else {
     const double far = is_whole ? std::max(2.0, std::round(reach(param, x))) : reach(param, x);
     const double high = inside(param.valid, x + far, x), low = inside(param.valid, x - far, x);
-    // Without room on one side all of them go to the other.
+    // Without room on one side all steps go to the other.
     const int up = low == x ? 2 * steps_each_way : steps_each_way;
     const int down = high == x ? 2 * steps_each_way : steps_each_way;
     for (int k = 1; k <= up && high > x; ++k) add(x + (high - x) * k / up);

@@ -6,7 +6,7 @@
 
 namespace neve::app::sweep::plan {
 
-/// On stdout; measures some steps of the costliest run to foresee seconds.
+/// Prints the plan on stdout; measures some steps of the costliest run to foresee seconds.
 /// @param refinement  points that are made at full resolution as well, counted apart
 /// @param rounds      of a search, each of so many runs
 void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int rounds, int cores,

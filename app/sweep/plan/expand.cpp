@@ -59,8 +59,8 @@ double value_at(const read::Axis::Parameter& parameter, double u) {
   return is_whole(parameter) ? std::round(x) : six_digits(x);
 }
 
-/// As value_at(), but each whole number between the ends is as likely as its share of the axis: the
-/// first and the last are rounded to from one side only.
+/// Returns the value at u, as value_at(), but each whole number between the ends is as likely as
+/// its share of the axis: value_at() rounds to the first and the last from one side only.
 double sample_at(const read::Axis::Parameter& parameter, double u) {
   const read::AxisRule& rule = *parameter.drawn;
   const std::optional<read::Ends>& ends = rule.log_uniform ? rule.log_uniform : rule.uniform;
@@ -198,7 +198,7 @@ std::vector<Run> combined(const read::Sweep& sweep) {
   }
 }
 
-/// Before anything is made; a double, so that absurd grids do not overflow it.
+/// Counts the runs before anything is made; a double, so that absurd grids do not overflow it.
 double count_of(const read::Sweep& sweep) {
   const auto rows = static_cast<double>(sweep.rows.size());
   double count = 0;
@@ -246,7 +246,7 @@ void check_axes(const read::Sweep& sweep) {
   }
 }
 
-/// Of numbers, from a larger one to a smaller one.
+/// True for a list of numbers from a larger one to a smaller one.
 bool is_falling_list(const read::Axis::Parameter& parameter) {
   if (parameter.drawn || parameter.values.empty()) return false;
   const std::optional<double> first = finite_number(parameter.values.front().value),

@@ -8,14 +8,14 @@
 
 namespace neve::app::sweep::plan {
 
-/// In the order of the file; the last axis varies fastest, [[run]]s come last. Random
-/// values depend on the sweep's seed, the axis and the sample alone, those of a Latin hypercube on
-/// their number as well. Runs that do not meet sweep.where are left out.
+/// Lists the runs in the order of the file; the last axis varies fastest, [[run]]s come last.
+/// Random values depend on the sweep's seed, the axis and the sample alone, those of a Latin
+/// hypercube on their number as well. Runs that do not meet sweep.where are omitted.
 /// @throws LimitError when there are more than limits.runs; SceneError or UsageError when axes do
 ///         not fit together
 std::vector<Run> expand(const read::Sweep& sweep);
 
-/// Each point once for each seed, from the first one on; the runs of a point follow each other.
+/// Repeats each point for each seed, from the first one on; the runs of a point follow each other.
 /// @param points  as expand() makes them @throws UsageError for seeds that no scene can have
 std::vector<Run> with_seeds(const std::vector<Run>& points, std::uint64_t first, int seeds);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Which runs start first.
+/// The order in which runs start.
 
 #include <cstddef>
 #include <vector>
@@ -16,8 +16,8 @@ std::vector<std::size_t> coarse_first(const std::vector<std::vector<int>>& coord
                                       const std::vector<int>& sizes,
                                       const std::vector<int>& draws = {});
 
-/// Long runs first, so that the last ones are short and no core waits for one: runs that take about
-/// as long as the longest of those that are left, within a quarter, keep their order.
+/// Puts long runs first, so that the last ones are short and no core waits for one: runs that take
+/// about as long as the longest of those that are left, within a quarter, keep their order.
 /// @param order  runs, by their places in `work`
 std::vector<std::size_t> longest_first(std::vector<std::size_t> order,
                                        const std::vector<double>& work);

@@ -21,7 +21,7 @@ int point_of(int run, int seeds) {
   return run - run % seeds;
 }
 
-/// Those of the points of these runs, in order.
+/// Returns the points of these runs, in order.
 std::vector<int> points_of_runs(const std::vector<int>& runs, int seeds) {
   std::set<int> points;
   for (const int run : runs) points.insert(point_of(run, seeds));
@@ -85,7 +85,7 @@ RefinementCost cost_of(const Refinement& refinement, const SweepPlan& plan,
   const int chosen = std::min(refinement.chosen, static_cast<int>(others.size()));
   cost.points = static_cast<int>(named.size()) + chosen;
   cost.runs = cost.points * seeds;
-  // Those of --only that are left out cost as most.
+  // Runs of --only that are omitted cost as most.
   const double unknown = cost.runs - static_cast<double>(counted);
   cost.seconds = work_ratio(plan, 1) * (of_named + mean * unknown);
   return cost;

@@ -21,7 +21,7 @@ struct Refinement {
   bool is_wanted() const { return chosen > 0 || !named.empty(); }
 };
 
-/// What --refine and --refine-runs ask for, never more points than there are.
+/// Returns what --refine and --refine-runs ask for, never more points than the sweep has.
 /// @throws UsageError for a run that there is not
 Refinement refinement_of(const SweepOptions& options, const SweepPlan& plan);
 

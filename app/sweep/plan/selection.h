@@ -1,5 +1,5 @@
 #pragma once
-/// Which runs of a sweep are meant.
+/// Selections of the runs of a sweep.
 
 #include <string>
 #include <vector>

@@ -68,8 +68,8 @@ bool has_same_lens(const scene::CameraSettings& a, const scene::CameraSettings& 
 }
 
 /// Puts the shared camera in the place of one that has none and frames as that of the sweep's
-/// scene, for which it was found: with the same lens, and following the same body. What a camera
-/// turns by is its own.
+/// scene, for which it was found: with the same lens, and following the same body. A camera keeps
+/// its own turns.
 /// @param base  that of the sweep's scene
 void share_place(const scene::CameraSettings& base,
                  const std::optional<scene::CameraSettings>& shared,
@@ -117,7 +117,7 @@ scene::Scene until_last_frame(const PlannedRun& item) {
   return scene;
 }
 
-/// Coarse runs of these scenes, side by side.
+/// Makes coarse runs of these scenes, side by side.
 std::vector<std::vector<setup::CoarseMoment>> coarse_runs(const std::vector<scene::Scene>& scenes,
                                                           int cores) {
   std::vector<std::vector<setup::CoarseMoment>> found;
@@ -185,9 +185,9 @@ scene::Scene find_shared_view(const SweepPlan& plan, int cores) {
   return shared;
 }
 
-/// What a forked run is told, so that it does and shows what was planned: --coarsen and [set] have
-/// had their say in its scene, and from that of the beginning alone it would find cameras and
-/// ranges anew.
+/// Returns the changes of a forked run, so that it does and shows what was planned: --coarsen and
+/// [set] have had their say in its scene, and from that of the beginning alone it would find
+/// cameras and ranges anew.
 /// @param before  the scene at the fork
 std::vector<scene::Override> changes_of(const scene::Scene& before, const PlannedRun& item) {
   const auto is_look = [](const std::string& address) {
@@ -249,7 +249,7 @@ std::string as_found(const std::string& look) {
   return "# As found: " + record::hash_of(look) + "\n" + look;
 }
 
-/// Whether nobody has written into it since.
+/// True if nobody has written into the look since it was found.
 bool is_as_found(const std::string& text) {
   const std::size_t mark_end = text.find('\n') + 1, look = text.find('\n', mark_end) + 1;
   return text.substr(mark_end) == as_found(text.substr(look));

@@ -109,7 +109,7 @@ struct Copy {
   forecast::Forecast foreseen{};
 };
 
-/// As many copies as the effort allows.
+/// Chooses as many copies as the effort allows.
 std::vector<Copy> choose_copies(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                                 const ForecastEffort& effort) {
   double all = 0;
@@ -154,7 +154,7 @@ void side_by_side(std::size_t count, int threads, const Task& task) {
   for (std::future<void>& worker : workers) worker.get();
 }
 
-/// What a run itself tells of its cost, in a moment.
+/// The cost of a run by some steps of its own.
 struct Timing {
   double seconds_per_work = 0;
   forecast::Spread spread{};
@@ -205,7 +205,7 @@ forecast::Cost own_work(const SweepPlan& plan, const PlannedRun& item,
 
 forecast::Cost beginning_work(const SweepPlan& plan, const ForecastEffort& effort) {
   if (plan.beginnings.empty() || plan.source) return {};
-  // Those with other seeds cost as much.
+  // Beginnings with other seeds cost as much.
   const PlannedRun& item = plan.beginnings.front();
   const int last = item.plan.frames.last;
   forecast::ForecastBudget budget{longest_copy, effort.particle_steps, max_copied};

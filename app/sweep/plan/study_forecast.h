@@ -15,10 +15,10 @@ struct ForecastEffort {
   double particle_steps = 0;  ///< of all copies
 };
 
-/// For a look: tens of seconds where there are many runs.
+/// Returns the effort for --dry-run: tens of seconds where a sweep has many runs.
 ForecastEffort whole_effort(int cores);
 
-/// Before a sweep starts: about three per cent of its cost, and seconds at most.
+/// Returns the effort before a sweep starts: about three per cent of its cost, and seconds at most.
 /// @param chosen  runs that will be made, by their places in the plan
 ForecastEffort small_effort(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                             int cores);
@@ -31,12 +31,12 @@ struct StudyForecast {
   double seconds_per_work = 0;       ///< s of one thread on this machine, now; 0: not known
   std::vector<std::size_t> own;      ///< runs with a copy of their own
 
-  /// Of one thread.
+  /// Returns the time of a run on one thread.
   forecast::Cost seconds(std::size_t run) const;
   /// A cost by which runs are put in order: of drawing, too, as on a usual machine, so that it is
   /// the same on each.
   double cost(std::size_t run) const;
-  /// Until all of these runs have ended, if long ones start first.
+  /// Returns the time to the end of all of these runs, if long ones start first.
   forecast::Cost seconds_of_all(const std::vector<std::size_t>& chosen, int cores) const;
 };
 

@@ -62,7 +62,7 @@ void check_engine(const std::string& flag, const std::string& name) {
                      "expected local or slurm; --shard and --emit work with any scheduler");
 }
 
-/// Nothing, of a variable of the shell that is not set, must not mean all runs.
+/// Refuses an empty list: a variable of the shell that is not set must not mean all runs.
 void check_list(const std::string& flag, const std::string& text) {
   if (text.empty())
     throw UsageError(flag, "the list is empty",

@@ -84,7 +84,7 @@ struct CollectOptions {
   ProgressOptions progress{};
 };
 
-/// What tiles show and how well.
+/// Describes the options for the view and the quality of tiles.
 void describe_tiles(options::Command& visit, SweepOptions& options);
 
 /// The number of runs of a point.

@@ -75,7 +75,7 @@ void prepare_view(const SweepOptions& options, const read::Sweep& sweep, scene::
   view.slice.range_from = scene::RangeFrom::scene;
 }
 
-/// Whether runs branch off a common beginning, and do not have their values from the start.
+/// True if runs branch off a common beginning, and do not have their values from the start.
 bool is_forked(const SweepOptions& options, const read::Sweep& sweep) {
   return options.fork || options.from || !sweep.settings.fork.empty();
 }
@@ -99,11 +99,11 @@ class SceneMaker {
     return make(settings, sweep_.fixed);
   }
 
-  /// Before --coarsen.
+  /// Makes the scene of a run as it is before --coarsen.
   scene::Scene make_full(const std::vector<scene::Override>& settings) const {
     return make(settings, sweep_.fixed, 1);
   }
-  /// As all runs of the sweep are drawn.
+  /// Prepares a scene to be drawn as all runs of the sweep are.
   void prepare(scene::Scene& scene) const { prepare_view(options_, sweep_, scene); }
 
  private:
@@ -150,7 +150,7 @@ const scene::Override* frames_setting(const read::Sweep& sweep) {
   return nullptr;
 }
 
-/// Counted from 0. @param source  a run may have more frames than its scene
+/// Returns frames counted from 0. @param source  a run may have more frames than its scene
 setup::FrameRange frames_of(const SweepOptions& options, const read::Sweep& sweep,
                             const scene::Scene& scene,
                             const std::optional<run::RenderJob>& source = {}) {
@@ -312,7 +312,7 @@ read::Sweep sweep_of(const SweepOptions& options, const std::optional<run::Rende
   return sweep;
 }
 
-/// Which axis an address or label means; -1: none is named.
+/// Returns the axis that an address or label means; -1: none is named.
 int axis_called(const read::Sweep& sweep, const char* key, const std::string& wanted) {
   if (wanted.empty()) return -1;
   if (sweep.settings.method != read::Method::grid)

@@ -87,8 +87,8 @@ std::string seeds_text(const read::Sweep& sweep);
 /// The place of each run among the seeds of its point; see coarse_first().
 std::vector<int> draws_of(const SweepPlan& plan);
 
-/// On disk, if the states of all drawn frames of a run, or of all runs and their variants, are
-/// kept, about.
+/// Estimates the bytes on disk if the states of all drawn frames of a run, or of all runs and their
+/// variants, are kept.
 double bytes_of_states(const PlannedRun& item);
 double bytes_of_states(const SweepPlan& plan);
 

@@ -42,7 +42,7 @@ std::vector<std::string> all_names_of(const Sweep& sweep) {
   return names;
 }
 
-/// What is wrong with a side that names no axis.
+/// Says what is wrong with a side that names no axis.
 std::string complaint(const std::string& name, const Sweep& sweep) {
   constexpr const char* letters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-[]";

@@ -141,7 +141,7 @@ scene::Override override_of(const scene::Source& source, const scene::toml::Entr
 }
 
 /// Numbers and vectors as they are written in tables and labels, as those of sweep files: 48000 for
-/// 48_000. What is no TOML is refused where a scene reads it.
+/// 48_000. A text that is not TOML is refused where a scene reads it.
 std::string plain_value(const std::string& address, const std::string& typed) {
   const std::string text = trimmed(typed);
   const std::optional<scene::ParamInfo> info = scene::param_at(address);
@@ -177,7 +177,7 @@ AxisRule read_rule(const scene::Source& source, const scene::toml::Entry& entry)
   return spec;
 }
 
-/// At commas that are in no brackets and no string.
+/// Splits a text at commas that are in no brackets and no string.
 std::vector<std::string> split_list(const std::string& text) {
   std::vector<std::string> pieces(1);
   int depth = 0;

@@ -54,7 +54,7 @@ class SweepReader {
       sweep.axes.push_back({{counted_axis(entry)}, {}});
     for (const scene::toml::Table& table : file.links) sweep.axes.push_back(link(table));
     for (const scene::toml::Table& table : file.runs) sweep.rows.push_back(run(table));
-    // In the order of the file, links among the others.
+    // The axes are in the order of the file, links among the others.
     std::stable_sort(sweep.axes.begin(), sweep.axes.end(), [](const Axis& a, const Axis& b) {
       const scene::toml::Location x = a.parameters.front().values.front().key,
                                   y = b.parameters.front().values.front().key;

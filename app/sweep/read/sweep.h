@@ -36,7 +36,7 @@ inline constexpr int min_seeds = 2, max_seeds = 100;
 
 enum class TileLabel { differences, name, none };
 
-/// What automatic cameras hold.
+/// The snow that automatic cameras hold in their pictures.
 enum class Framing {
   sheet,  ///< the snow of all runs at the moment of the sheet
   fall,   ///< the whole fall of all runs

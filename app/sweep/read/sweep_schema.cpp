@@ -44,7 +44,7 @@ Json value_schema(const scene::AddressSchema& parameter) {
   return schema;
 }
 
-/// Several values: a list, or a rule for them.
+/// Returns the schema of several values: a list, or a rule for them.
 Json axis_schema(const scene::AddressSchema& parameter) {
   const Json list = {
       {"type", "array"}, {"items", reference_to(parameter.address)}, {"minItems", 1}};

@@ -74,7 +74,7 @@ bool has_pictures(const std::vector<store::RunResult>& results) {
   return false;
 }
 
-/// Everything is written by then, with what there is.
+/// Refuses flaws. Everything is written by then, with what the runs have.
 /// @param of_variants  see store::variant_flaws()
 void refuse_flaws(const fs::path& folder, const store::Manifest& manifest,
                   const std::vector<store::RunResult>& results,

@@ -236,7 +236,7 @@ void add_row(const store::Manifest& manifest, const Run& run, const store::RunRe
   rows.end();
 }
 
-/// Of each metric; points that are too close to call share a rank, and a letter of their groups.
+/// Columns of each metric. Points that are too close to call share a rank, and a letter in groups.
 constexpr std::array point_columns{"_mean", "_min", "_max", "_rank", "_groups"};
 
 struct PointColumns {

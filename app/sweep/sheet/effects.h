@@ -19,7 +19,7 @@ struct Effect {
   double strength = 0;    ///< mu*: the mean of their sizes
   double spread = 0;      ///< sigma: large where it depends on the other axes or is not straight
   bool is_noise = false;  ///< with seeds: no step changes the metric by more than another seed does
-  /// With seeds: whether it is noise is not known, as no point of its steps has two that ended.
+  /// True with seeds if nothing tells noise, as no point of its steps has two that ended.
   bool is_unknown = false;
 
   /// The metric always rises or always falls, more or less.

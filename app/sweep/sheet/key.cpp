@@ -13,7 +13,7 @@ namespace {
 
 using Mark = KeyLine::Mark;
 
-// In sizes of the font.
+// Lengths in sizes of the font.
 constexpr float edge = 1, mark_width = 4.4f, line_height = 1.5f, space_above = 0.5f;
 
 void draw_mark(Mark mark, float left, float y, float size, render::Frame& words) {

@@ -66,7 +66,7 @@ Across by_choice(const store::Manifest& manifest, const Parameter& parameter) {
   return across;
 }
 
-/// Logarithmic where the values are positive and go over more than a factor of 20.
+/// Spans a range, logarithmic if values are positive and go over more than a factor of 20.
 Across by_number(const Parameter& parameter, const std::vector<std::optional<double>>& values) {
   Across across;
   across.title = plan::titled(parameter.name, parameter.unit);
@@ -173,7 +173,7 @@ void add_line(double x0, double y0, double x1, double y1, render::PlotSeries& li
   for (const double y : {y0, y1, std::nan("")}) lines.value.push_back(static_cast<float>(y));
 }
 
-/// From min to max of each point, with the mean.
+/// Adds a line from min to max of each point, with the mean.
 void add_whiskers(const std::vector<std::optional<double>>& places,
                   const std::vector<store::Point>& points, std::size_t metric, bool is_noise,
                   render::Plot& plot) {
@@ -197,7 +197,7 @@ void add_whiskers(const std::vector<std::optional<double>>& places,
   plot.series.push_back(std::move(means));
 }
 
-/// Whole runs as dots, others as rings; with seeds small ones, and a whisker for each point.
+/// Draws whole runs as dots, others as rings; with seeds small ones, and a whisker for each point.
 render::Plot plot_of(const Across& across, const std::vector<store::RunResult>& results,
                      const store::Manifest& manifest, const std::vector<store::Point>& points,
                      std::size_t metric, const Extent& extent) {

@@ -39,7 +39,7 @@ RunCamera camera_of(const fs::path& run_folder, const std::string& view) {
   }
 }
 
-/// Around the middle of the snow; what is thrown far does not count.
+/// Returns points around the middle of the snow; what is thrown far does not count.
 std::vector<sim::Vec3d> points_of(const store::SnowPlace& place) {
   constexpr double core = 0.6;
   const double across = core * place.spread, up = 0.5 * core * place.height;

@@ -9,7 +9,7 @@
 
 namespace neve::app::sweep::sheet {
 
-/// Which frames have snow in their picture, by the camera of the run and where its snow is.
+/// The frames that have snow in their picture, by the camera of the run and the place of its snow.
 class SnowInPictures {
  public:
   /// @param results  of the runs of the manifest
@@ -19,8 +19,8 @@ class SnowInPictures {
   /// True also where it is not known.
   bool has_snow(std::size_t run, int frame) const { return !without_[run].contains(frame); }
 
-  /// At most so many frames, evenly spread from the first at which one of the runs has snow in its
-  /// picture to the last one.
+  /// Returns at most so many frames, evenly spread from the first at which one of the runs has snow
+  /// in its picture to the last one.
   std::vector<int> moments(std::size_t most) const;
 
  private:

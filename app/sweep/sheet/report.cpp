@@ -34,7 +34,7 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-/// No "</script>" can end it early.
+/// Writes JSON that no "</script>" can end early.
 std::string script_json(const Json& json) {
   std::string text = to_text(json, -1), out;
   for (const char c : text) out += c == '<' ? std::string("\\u003c") : std::string(1, c);
@@ -67,7 +67,7 @@ std::string paper_section(const store::Manifest& manifest, const SheetLayout& la
   return html + "</div>\n";
 }
 
-/// Where the runs are that the picture above does not have.
+/// Tells the pages with the runs that the picture above does not have.
 std::string pages_hint(std::size_t pages) {
   if (pages < 2) return {};
   return "<p class=\"hint\">Page 1 of " + std::to_string(pages) +

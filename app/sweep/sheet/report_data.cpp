@@ -34,7 +34,7 @@ bool has_labels(const store::Manifest& manifest) {
                      [](const Run& run) { return !run.label.empty(); });
 }
 
-/// Of a quantity in columns and noise: no metric has such a name.
+/// Returns the name of a quantity in columns and noise: no metric has such a name.
 std::string full_name(predict::Quantity quantity) {
   return std::string("full_") + predict::info_of(quantity).name;
 }
@@ -190,7 +190,7 @@ Json row_of(const std::string& folder, const store::Manifest& manifest, const Ru
           {"cells", cells_of(manifest, run, result, prediction, known.metrics)}};
 }
 
-/// Of a grid or a screening, whose runs have a level on each.
+/// Lists the axes of a grid or a screening, whose runs have a level on each.
 Json axes_of(const store::Manifest& manifest) {
   Json axes = Json::array();
   for (const std::vector<store::AxisLabels>* list : {&manifest.axes, &manifest.screened})
@@ -200,7 +200,7 @@ Json axes_of(const store::Manifest& manifest) {
 }
 
 /// A metric at each point, with its noise or interval: what the page compares, it does not compute.
-/// Where noise is not known there are no groups, and ranks are those of the means alone.
+/// If noise is not known there are no groups, and ranks are those of the means alone.
 Json noise_of(const std::string& metric, store::Verdict verdict,
               const std::vector<store::Summary>& summaries) {
   const bool is_known = verdict != store::Verdict::unknown;
@@ -289,7 +289,7 @@ Json report_data(const std::string& folder, const store::Manifest& manifest,
   for (std::size_t k = 0; k < manifest.runs.size(); ++k) {
     Known known{metrics};
     if (!predictions.empty()) known.prediction = &predictions[k / seeds];
-    // Each seed has its own.
+    // Each seed has a run at full resolution of its own.
     for (const store::Variant& variant : manifest.variants) {
       if (!variant.is_full() || variant.of != k || !full[k]) continue;
       known.full = &variant.run;

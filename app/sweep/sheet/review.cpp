@@ -54,8 +54,8 @@ Json marker_json(const Parameter& parameter, const std::string& value, double fi
   return json;
 }
 
-/// The first frame of a clip. Of numbers below zero only links have the names that OTIO makes of
-/// them.
+/// Returns the first frame of a clip. Below zero, only links have the names that OTIO makes of
+/// numbers.
 int first_of_clip(const store::RunResult& result, bool has_links) {
   const int first = result.frames.front();
   return has_links || result.frames.back() < 0 ? first : std::max(0, first);
@@ -110,7 +110,7 @@ Json clip_json(const store::Manifest& manifest, const Run& run, const store::Run
   return json;
 }
 
-/// Only links go: what a person has put there stays.
+/// Lists the links of runs, which may be removed: what a person has put there stays.
 std::vector<fs::path> links_in(const fs::path& review) {
   std::error_code error;
   std::vector<fs::path> links;

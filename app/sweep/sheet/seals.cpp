@@ -36,7 +36,7 @@ std::string with_unit(double x, const std::string& unit) {
 constexpr std::size_t max_squares = 3;
 constexpr float wide_square = 3.6f;  // in sizes of the font, of more letters, at least
 
-/// In sizes of the font.
+/// Returns the width of letters in sizes of the font.
 float letters_width(const std::vector<int>& groups) {
   if (groups.size() <= max_squares) return square_width * static_cast<float>(groups.size());
   constexpr float letter = 0.6f;
@@ -110,7 +110,7 @@ Scale place_whiskers(const Whiskers& shown, Seals& seals) {
 
 using Mark = KeyLine::Mark;
 
-/// What it means that two tiles share a letter, or none.
+/// Explains what it means that two tiles share a letter, or none.
 /// @param differs  "their spread differs for real"
 void explain_letters(const std::string& differs, const char* why_not, Seals& seals) {
   if (seals.is_unknown) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a tile says of the other runs of its point: how often the snow breaks, and a metric with
+/// Marks on a tile for the other runs of its point: how often the snow breaks, and a metric with
 /// its noise.
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace neve::app::sweep::sheet {
 
-/// On a scale that all tiles share.
+/// A whisker on a scale that all tiles share.
 struct Whisker {
   std::string value;  ///< "0.42 m"; "" where no run tells
   WhiskerSpan span{};
@@ -25,11 +25,11 @@ struct Seal {
   bool is_run = false;        ///< the tile shows the run at full resolution
   Whisker whisker{};
   std::vector<int> groups{};  ///< tiles that share one are too close to call; none where all are
-  /// Of the coarse runs, beside that of full resolution; only with seeds.
+  /// The whisker of the coarse runs, beside that of full resolution; only with seeds.
   Whisker coarse{};
 };
 
-/// Of a sweep with seeds or predictions; without, there are none.
+/// The seals of a sweep with seeds or predictions; other sweeps have none.
 struct Seals {
   std::vector<KeyLine> key;  ///< explains them
   std::string title;         ///< what the whiskers show: "spread"

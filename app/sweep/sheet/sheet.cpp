@@ -28,7 +28,7 @@ constexpr double darkness = 0.42;  // of a tile whose run got less far
 constexpr std::size_t max_moments = 6;
 const char* const dot = "   \u00b7   ";
 
-/// Of the longest line, about, in heights of a line.
+/// Estimates the width of the longest line, in heights of a line.
 float width_of(const std::vector<std::string>& lines) {
   std::size_t longest = 0;
   for (const std::string& line : lines) longest = std::max(longest, line.size());
@@ -429,7 +429,7 @@ void SheetMaker::add_middle(const SheetLayout& layout, const Tile& tile, const s
                          text, render::Note::Anchor::middle, width, false, color});
 }
 
-/// Reason why a run has ended, in few words.
+/// Adds the reason why a run has ended, in few words.
 void SheetMaker::add_state(const SheetLayout& layout, const Tile& tile,
                            render::Frame& words) const {
   const auto [state, reason] = split_state(jobs::tile_text(tile.result->status));

@@ -57,7 +57,7 @@ struct Sides {
   Side columns, rows;
 };
 
-/// Which axis goes where.
+/// Chooses the axes that run across and down the sheet.
 Sides choose_sides(const store::Manifest& m, double tile_aspect) {
   Sides sides;
   const auto count = static_cast<int>(m.axes.size());

@@ -14,7 +14,7 @@ namespace neve::app::sweep::sheet {
 /// Width of a letter, as a share of the height of its line, about.
 inline constexpr double letter_width = 0.56;
 
-/// What a sheet needs room for beside its pictures and their values.
+/// Words that a sheet needs room for beside its pictures and their values.
 struct SheetWords {
   Seals seals{};          ///< below the picture of each tile, and their key below all
   std::string heading{};  ///< below the title
@@ -61,8 +61,8 @@ struct SheetPage {
   SheetLayout layout;                ///< its tiles name runs of the manifest
 };
 
-/// One page where all runs fit into a picture. Otherwise as many as it takes: without axes along
-/// their edges, so that each tile names its own values.
+/// Lays out one page if all runs fit into a picture, otherwise as many as it takes: without axes
+/// along their edges, so that each tile names its own values.
 std::vector<SheetPage> layout_pages(const store::Manifest& manifest, bool has_legend, int largest,
                                     const SheetWords& words = {});
 

@@ -15,7 +15,7 @@ struct WordRoom {
 
 /// "hardening = 5, friction = 0.4" in as many lines as it takes, or the name of the run. In a
 /// screening: the parameter that changed, with its value and the one before; all of them where a
-/// trajectory starts. Where there is no room for all, the last line says how many more there are.
+/// trajectory starts. If not all have room, the last line says how many more there are.
 /// @param has_edges  leaves out the values on the sheet's edges
 std::vector<std::string> tile_words(const store::Manifest& manifest, const Run& run, bool has_edges,
                                     const WordRoom& room);

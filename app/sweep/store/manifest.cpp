@@ -99,8 +99,8 @@ Json run_json(const Run& run) {
           {"work", run.work}};
 }
 
-/// Of a run that forks, in a file of before it had the changes: it was told its settings, but for
-/// the seed of its beginning, and how it is seen.
+/// Returns the changes of a run that forks, from a file older than they are: its settings but for
+/// the seed, which is that of its beginning, and its look.
 std::vector<scene::Override> changes_of_before(const Json& run) {
   std::vector<scene::Override> changes = settings_of(run.at("settings"));
   std::erase_if(changes, [](const scene::Override& o) { return o.address == "seed"; });
@@ -132,7 +132,7 @@ Run run_of(const Json& json) {
   return run;
 }
 
-/// Of the first seed, then of the further ones, which sweeps without seeds do not have.
+/// Writes the run of the first seed, then those of further ones, which sweeps without seeds lack.
 Json beginning_json(const Beginning& beginning) {
   Json json = {{"time", beginning.time},
                {"run", run_json(beginning.runs.front())},
@@ -240,7 +240,7 @@ void check_run(const Manifest& m, const Run& run) {
           "a run is beyond the end of an axis");
 }
 
-/// Whatever is used as an index, a size or a path later; the file may be from anyone.
+/// Checks what is used as an index, a size or a path later; the file may be from anyone.
 void check_values(const Manifest& m) {
   constexpr int largest_tile = 1 << 16;
   const auto is_side = [](int size) { return size > 0 && size <= largest_tile; };

@@ -19,7 +19,7 @@ namespace neve::app::sweep::store {
 /// "run 1 (runs/0010)"
 std::string run_text(const Run& run);
 
-/// As files and pages have them: an address and a value each.
+/// Writes settings as files and pages have them: an address and a value each.
 Json settings_json(const std::vector<scene::Override>& settings);
 
 /// An axis as the edge of the sheet names it.
@@ -27,18 +27,18 @@ struct AxisLabels {
   std::string name;                      ///< may be empty
   std::vector<std::string> values;       ///< texts, with units
   std::vector<std::string> addresses{};  ///< of the parameters that it sets
-  /// Of a screening, see plan::level_shares(); none in files of before they had them.
+  /// The shares of a screening, see plan::level_shares(); files from before them have none.
   std::vector<double> shares{};
 };
 
 /// The common beginning of runs that fork later than at the start, one for each seed.
 struct Beginning {
   double time = 0;  ///< s, where the runs fork
-  /// Their frame is the last one before. See beginning_folder() for where they are.
+  /// The runs end with the last frame before the fork; see beginning_folder() for their place.
   std::vector<Run> runs{};
   std::string source{};  ///< run or picture that it was taken from; "": simulated from the start
 
-  /// Of the seed of a run.
+  /// Returns the beginning with the seed of a run.
   const Run& run_of(const Run& branch) const {
     return runs[static_cast<std::size_t>(branch.index) % runs.size()];
   }
@@ -57,7 +57,7 @@ struct Variant {
   bool is_full() const { return coarsening == 1 && failure.empty(); }
 };
 
-/// What a person gave to a run, see stars.h.
+/// The star and the note that a person gave to a run, see stars.h.
 struct Mark {
   bool has_star = false;
   std::string note{};
@@ -84,7 +84,7 @@ struct Manifest {
   std::vector<AxisLabels> axes;  ///< of a grid
   /// Axes of a screening, without values; its runs have their levels as coordinates.
   std::vector<AxisLabels> screened{};
-  /// Addresses of all axes, for any method; sorted. Nothing in files of before they had it.
+  /// Addresses of all axes, for any method; sorted. Older files have none.
   std::optional<std::vector<std::string>> varied;
   std::vector<Run> runs;
   std::vector<Variant> variants{};
@@ -92,8 +92,8 @@ struct Manifest {
   std::string coarsened{};  ///< "coarsened 2x, thresholds for cells of 0.02 m"; "" of other sweeps
   /// Runs of each point, which follow each other and differ in their seed alone.
   int seeds = 1;
-  /// From the number of a run to that of the next one: more than 1 where some runs of each point
-  /// are omitted, see first_draws(). In no file.
+  /// The distance from the number of a run to that of the next one: more than 1 where some runs of
+  /// each point are omitted, see first_draws(). No file has it.
   int apart = 1;
   std::size_t place_of(const Run& run) const { return static_cast<std::size_t>(run.index / apart); }
   double seconds_per_work = 0;  ///< s of one thread, by the forecast; 0: not known
@@ -101,7 +101,7 @@ struct Manifest {
   bool keeps_states = false;        ///< of drawn frames
   bool have_tiles_legends = false;  ///< see plan::SweepPlan
   setup::Quality quality = setup::Quality::preview;
-  /// What all runs change in the scene, beside --coarsen and --fast.
+  /// The changes of the scene in all runs, beside --coarsen and --fast.
   std::vector<scene::Override> fixed{};
   Marks marks{};             ///< in a file of their own
   std::string scene_hash{};  ///< record::hash_of() its text; "" where it is not a file
@@ -109,8 +109,8 @@ struct Manifest {
   /// The run of a number, a variant's too; null: there is none.
   const Run* run_of(int index) const;
   int last_index() const;
-  /// These runs, the copies of their points, and all runs at full resolution: they were chosen by
-  /// themselves.
+  /// Returns these runs, the copies of their points, and all runs at full resolution: they were
+  /// chosen by themselves.
   std::vector<int> with_variants(std::vector<int> indices) const;
 
   double coarsening_of(const Run& run) const;

@@ -25,7 +25,7 @@ std::vector<Point> points_of(const Manifest& manifest, const std::vector<RunResu
 /// A metric of all points.
 std::vector<Summary> summaries_of(const std::vector<Point>& points, std::size_t metric);
 
-/// Of a sweep with seeds: whether its points differ in this metric by more than their runs do.
+/// Judges whether points with seeds differ in this metric by more than their runs do.
 Verdict verdict_of(const Manifest& manifest, const std::vector<Point>& points, std::size_t metric);
 
 /// True of a sweep with seeds whose points differ in this metric by no more than their runs do.
@@ -45,11 +45,11 @@ bool is_undecided(const Point& point);
 /// "a", "bc", "b to f", "de, g": groups as letters; points that share one are too close to call.
 std::string group_letters(const std::vector<int>& groups);
 
-/// What the seeds of a sweep say of it, a sentence a line; none without seeds.
+/// Tells what the seeds of a sweep say of it, a sentence a line; none without seeds.
 std::vector<std::string> noise_lines(const Manifest& manifest,
                                      const std::vector<RunResult>& results);
 
-/// Why nothing is said of noise, everywhere.
+/// The reason, everywhere, why nothing is said of noise.
 inline constexpr const char* unknown_words =
     "what is noise is not known: no two points have ended, one of them with two seeds";
 

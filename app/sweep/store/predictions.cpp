@@ -12,7 +12,7 @@ namespace neve::app::sweep::store {
 
 namespace {
 
-/// Why a copy has no end; "" of one that has. Numbers of a damaged one are none.
+/// Tells why a copy has no end; "" if it has. A damaged one has no numbers.
 std::string failure_of(const Run& run, const RunResult& result) {
   if (!result.flaws.empty()) return result.flaws;
   if (is_whole(run, result)) return "";
@@ -65,7 +65,7 @@ predict::Prediction prediction_of(const std::vector<const RunResult*>& full) {
   return known;
 }
 
-/// What the copies of a point say. @param point  its first run
+/// Judges the copies of a point. @param point  its first run
 predict::Prediction judge_copies(const std::filesystem::path& folder, const Manifest& manifest,
                                  std::size_t point) {
   std::vector<predict::Copy> copies;

@@ -1,5 +1,5 @@
 #pragma once
-/// What is known of the points of a coarse sweep at full resolution: by coarse copies, or by runs
+/// Predictions for the points of a coarse sweep at full resolution: by coarse copies, or by runs
 /// that were made.
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace neve::app::sweep::store {
 std::vector<std::optional<RunResult>> full_results(const std::filesystem::path& folder,
                                                    const Manifest& manifest);
 
-/// Of the seeds of a point, those that ended at full resolution.
+/// Returns the results of the seeds of a point that ended at full resolution.
 /// @param full  see full_results() @param first  run of the point
 std::vector<const RunResult*> full_results_of(const std::vector<std::optional<RunResult>>& full,
                                               std::size_t first, int seeds);
@@ -39,7 +39,7 @@ std::size_t metric_of(predict::Quantity quantity);
 std::optional<predict::Quantity> telling_quantity(
     const std::vector<predict::Prediction>& predictions);
 
-/// How many points break, hold, are undecided, a sentence; "" without predictions.
+/// Counts the points that break, hold and are undecided, in a sentence; "" without predictions.
 std::string prediction_line(const std::vector<predict::Prediction>& predictions);
 
 }  // namespace neve::app::sweep::store

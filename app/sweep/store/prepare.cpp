@@ -49,8 +49,8 @@ const KnownRun* other_drawing(const std::vector<KnownRun>& known, const std::str
   return found;
 }
 
-/// Each run's folder: the one that has its key, or states of its simulation, or that of its number,
-/// or a new number.
+/// Assigns each run's folder: the one that has its key, or states of its simulation, or that of its
+/// number, or a new number.
 /// @param items  see all_of()
 std::vector<std::string> assign_folders(const plan::SweepPlan& plan,
                                         const std::vector<const plan::PlannedRun*>& items,

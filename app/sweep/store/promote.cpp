@@ -53,7 +53,7 @@ std::string scene_text(const std::string& folder, const Manifest& manifest, cons
   return scene::read_toml_file(manifest.scene_file);
 }
 
-/// Of those that the scene of a run names.
+/// Lists the files of the scene of a run that have changed since it was made.
 std::vector<std::string> changed_files(const fs::path& run_folder) {
   std::vector<std::string> changed;
   const Json run = record::read_run_json(run_folder);

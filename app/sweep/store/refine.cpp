@@ -20,7 +20,7 @@ bool is_open(const predict::Prediction& prediction) {
   return prediction.verdict == predict::Verdict::undecided;
 }
 
-/// From 1, the mean of those that share it.
+/// Ranks values from 1; equal ones have the mean of their ranks.
 std::vector<double> ranks_of(const std::vector<double>& values) {
   std::vector<double> ranks;
   for (const double value : values) {
@@ -106,7 +106,7 @@ std::optional<double> rank_correlation(const std::vector<double>& a, const std::
 
 namespace {
 
-/// Where the snow breaks in all of the runs, in none or in some; nothing where none tells.
+/// The number of runs that tell whether the snow breaks, and of those in which it does.
 struct Outcome {
   std::size_t judged = 0, broken = 0;
 

@@ -32,9 +32,8 @@ std::vector<std::size_t> points_to_refine(const Manifest& manifest,
 /// pairs, or where all values are equal.
 std::optional<double> rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
 
-/// How well the coarse runs ranked the points that were made at full resolution as well, a
-/// sentence;
-/// "" with less than three of them.
+/// Tells how well the coarse runs ranked the points that were made at full resolution as well, in a
+/// sentence; "" with less than three of them.
 std::string ranking_line(const Manifest& manifest, const std::vector<RunResult>& results,
                          const std::vector<std::optional<RunResult>>& full);
 

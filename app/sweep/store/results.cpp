@@ -27,7 +27,7 @@ std::optional<double> finite(double x) {
   return std::isfinite(x) ? std::optional(x) : std::nullopt;
 }
 
-/// In the order of metric_infos().
+/// Returns the metrics in the order of metric_infos().
 /// @param start  of the run, not of its frames @param whole  from there to the last frame
 std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRecord>& frames,
                                               const record::RunStart& start,
@@ -36,7 +36,7 @@ std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRec
                                               std::optional<double> diverged_at) {
   if (frames.empty()) return std::vector<std::optional<double>>(metric_infos().size());
   const record::FrameRecord& last = frames.back();
-  // Nothing where the frames before the first one are not known.
+  // Values are nothing if the frames before the first one are not known.
   std::optional<double> steps, max_speed, max_force, max_pressure, max_body_speed;
   if (whole) {
     steps = whole->steps;
@@ -47,7 +47,7 @@ std::vector<std::optional<double>> metrics_of(const std::vector<record::FrameRec
   }
   // Steps after the last frame count too.
   if (diverged_at) steps = std::max(steps.value_or(0), *diverged_at);
-  // Where a sink has taken all snow, it has no shape and no density.
+  // If a sink has taken all snow, it has no shape and no density.
   const auto of_snow = [&](double x) { return record::has_snow(last) ? finite(x) : std::nullopt; };
   return {of_snow(last.metrics.spread),
           of_snow(last.metrics.height),
@@ -180,7 +180,7 @@ RunResult read_result(const std::filesystem::path& folder, const Run& run,
   if (result.status.key != run.key) result.status = RunStatus{};
   std::vector<record::FrameRecord> frames;
   RunNotes notes;
-  // What a run that has not begun has in its folder is of its simulation drawn otherwise.
+  // Files in the folder of a run that has not begun are of its simulation, drawn otherwise.
   const bool has_begun = result.status.key == run.key && result.status.state != RunState::pending;
   const Json record = has_begun ? record::read_run_json(run_folder) : Json();
   // Numbers of another simulation are none of this run.
@@ -255,7 +255,7 @@ std::uint64_t hash_of(const scene::Override& setting) {
   return hash_bytes(text.data(), text.size());
 }
 
-/// Whether runs that differ in one parameter alone have been compared, and end with the same bits.
+/// True if runs that differ in one parameter alone were compared, and end with the same bits.
 bool is_idle(const std::string& address, const Manifest& manifest,
              const std::vector<RunResult>& results) {
   struct First {

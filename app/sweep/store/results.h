@@ -19,10 +19,10 @@ struct MetricInfo {
   bool is_cost = false;       ///< says something of a run that did not get to its end as well
   bool is_of_bodies = false;  ///< that move by themselves: listed only where there are some
 };
-/// In the order in which they are listed everywhere.
+/// Returns the metrics in the order in which they are listed everywhere.
 const std::vector<MetricInfo>& metric_infos();
 
-/// Where the snow of a run is at a frame.
+/// The place of the snow of a run at a frame.
 struct SnowPlace {
   int frame = 0;
   double time = 0;  ///< s
@@ -37,10 +37,10 @@ struct RunResult {
   /// One per metric_infos(), of the last frame; empty if there is no frame. Those of the snow are
   /// empty where none is left. See told_metric().
   std::vector<std::optional<double>> metrics;
-  /// That the run ended with: its numbers may be misleading.
+  /// The warnings that the run ended with: its numbers may be misleading.
   std::vector<std::string> warnings{};
   std::string flaws{};  ///< see flaws_of_run
-  /// Of a run that got to its last frame, against its first picture; see record::has_broken.
+  /// True if a run that got to its end broke since its first picture; see record::has_broken.
   std::optional<bool> has_broken{};
   std::optional<double> whole{};    ///< its largest piece as a share of that of its first picture
   std::vector<SnowPlace> places{};  ///< of the frames that have a picture
@@ -60,8 +60,8 @@ std::vector<std::size_t> listed_metrics(const std::vector<RunResult>& results);
 std::string flaws_of_run(const std::filesystem::path& folder, const Run& run,
                          const RunStatus& status);
 
-/// Why a run is to be made: nothing where it has ended and its files are whole; "" where it has not
-/// ended, or `retry` repeats what it ended as; otherwise its flaws.
+/// Tells why a run is to be made: nothing where it has ended and its files are whole; "" where it
+/// has not ended, or `retry` repeats what it ended as; otherwise its flaws.
 std::optional<std::string> why_to_make(const std::filesystem::path& folder, const Run& run,
                                        const RunStatus& status, const Retry& retry);
 

@@ -68,8 +68,8 @@ bool is_same(const std::vector<scene::Override>& a, const std::vector<scene::Ove
   });
 }
 
-/// Its key tells a run, and where a change of the scene or of the program gave all runs other keys,
-/// its settings do. Of runs that are the same, one that has its number.
+/// True if a mark is of a run. The key tells that; if a change of scene or program gave all runs
+/// other keys, the settings do. A mark that has nothing but a number is of the run with it.
 bool is_run_of(const KeptMark& kept, const Manifest& manifest, const Run& run, bool by_key) {
   if (kept.is_numbered) return kept.run == run.index;
   if (by_key) return !kept.key.empty() && kept.key == run.key;

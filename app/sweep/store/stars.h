@@ -22,7 +22,7 @@ struct KeptMark {
   bool is_numbered = false;                 ///< has nothing but the number
 };
 
-/// What a file has, by the runs that the sweep has now.
+/// The marks in a file, by the runs that the sweep has now.
 struct KeptMarks {
   Marks marks;
   std::vector<KeptMark> lost;  ///< of runs that it has no more
@@ -31,22 +31,22 @@ struct KeptMarks {
 /// Values of the parameters by which the sweep tells its runs apart.
 std::vector<scene::Override> telling_settings(const Manifest& manifest, const Run& run);
 
-/// None where there is no such file. @throws Error if it is broken, IoError
+/// Reads the marks; none without a file. @throws Error if it is broken, IoError
 KeptMarks read_marks(const std::filesystem::path& folder, const Manifest& manifest);
 
-/// Those of a file that the report has made; one without star and note was taken away there.
+/// Reads marks of a file of the report; one without star and note was taken away there.
 /// @throws Error if it is broken, or has no more than numbers, of runs that the sweep does not
 /// have; IoError
 KeptMarks read_marks_file(const std::filesystem::path& file, const Manifest& manifest);
 
-/// In the place of those that the same runs have; takes away those that were taken away.
+/// Puts marks in the place of those of the same runs; removes those that were taken away.
 void add_marks(const KeptMarks& more, KeptMarks& kept);
 
 /// Removes the file where nothing is marked. @throws IoError
 void write_marks(const std::filesystem::path& folder, const Manifest& manifest,
                  const KeptMarks& kept);
 
-/// Of the runs, for pages and scripts.
+/// Writes the marks of the runs, for pages and scripts.
 Json to_json(const Manifest& manifest, const Marks& marks);
 
 /// "the star of hardening = 5 ...": a line for each mark without a run.

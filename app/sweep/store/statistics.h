@@ -35,13 +35,13 @@ double f_tail(double f, double between, double within);
 /// Source: B. L. Welch 1947, The generalization of "Student's" problem.
 bool differ(const Summary& a, const Summary& b);
 
-/// What a test says of a metric. Without a point of two values nothing is known of noise, which is
-/// no evidence of it.
+/// The verdict of a test on a metric. Without a point of two values nothing is known of noise,
+/// which is no evidence of it.
 enum class Verdict { unknown, noise, real };
 
-/// Real if the means of some of these points differ by more than the values within points do: the F
-/// test of an analysis of variance. A metric for which they do not is noise. Unknown without two
-/// points that have values, or without a point that has two.
+/// Returns real if the means of some of these points differ by more than the values within points
+/// do: the F test of an analysis of variance. A metric for which they do not is noise. Unknown
+/// without two points that have values, or without a point that has two.
 Verdict vary(const std::vector<Summary>& points);
 
 /// Real if these steps, each from one point to another, change the metric by more than noise: the F

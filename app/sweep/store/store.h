@@ -44,7 +44,7 @@ struct RunStatus {
   std::string host;
   /// Attempts of its common beginning, which failed, and with it the run; 0: it began.
   int failed_beginning = 0;
-  /// Of run.json when it ended: its `simulation` and `drawings`. Other commands may replace both.
+  /// The `simulation` and `drawings` of run.json when it ended. Other commands may replace both.
   std::string states;
   std::map<std::string, std::string> drawings;
   bool is_damaged = false;  ///< there is a file, and it is not as neve wrote it
@@ -54,27 +54,28 @@ struct RunStatus {
 std::string run_folder_name(int number);
 std::filesystem::path runs_folder(const std::filesystem::path& sweep);
 
-/// Of a common beginning of forked runs: beginning for the first seed, beginning_2 for the second.
+/// Returns the folder of a beginning of forked runs: beginning for the first seed, then
+/// beginning_2.
 std::filesystem::path beginning_folder(const std::filesystem::path& sweep, const Run& beginning);
 
-/// Pending where there is no file or a broken one.
+/// Reads the status of a run; pending if its file is missing or broken.
 RunStatus read_status(const std::filesystem::path& run_folder);
 /// @throws IoError
 void write_status(const std::filesystem::path& run_folder, const RunStatus& status);
 
 /// Keeps what the run that has ended says of itself, to be compared with later.
 void note_record(const Json& run_json, RunStatus& status);
-/// Whether run.json is of another simulation than the one that the sweep made.
+/// True if run.json is of another simulation than the one that the sweep made.
 bool is_of_other_simulation(const RunStatus& status, const Json& run_json);
 /// Says that another command has simulated or drawn the run otherwise since; "" where it is as the
 /// sweep made it, and in folders of earlier versions.
 std::string difference_of_record(const RunStatus& status, const Json& run_json);
 
-/// Nothing is left to do, unless failed ones are to be run again.
+/// True if nothing is left to do, unless failed runs are to be run again.
 bool is_finished(RunState state);
-/// Ended otherwise than ok.
+/// True for a run that ended otherwise than ok.
 bool has_failed(RunState state);
-/// It ended by its own record, run.json: ok, or diverged once it had begun.
+/// True for an end by its own record, run.json: ok, or diverged once it had begun.
 bool has_record(const RunStatus& status);
 
 /// Pictures of a run that exist, from its first frame on. @param known  so many have been seen
@@ -93,7 +94,7 @@ struct KnownRun {
   bool has_states = false;  ///< of its frames
 };
 
-/// In the order of their folders.
+/// Lists the runs that have a folder, in the order of their folders.
 std::vector<KnownRun> known_runs(const std::filesystem::path& sweep);
 
 /// Name of the lock that the sweep which makes a run has on its folder; the run has one of its own.

@@ -8,7 +8,7 @@
 
 namespace neve::app::view::frontend {
 
-/// Not protected against threads.
+/// A queue of input events. It is not protected against threads.
 class EventQueue {
  public:
   static constexpr std::size_t limit = 256;

@@ -14,7 +14,7 @@ std::optional<int> key_named(const std::string& name);
 /// @return "" for a code that has no name
 std::string key_name(int key);
 
-/// Every name, for a misspelt one.
+/// Lists every name, for a misspelt one.
 std::vector<std::string> key_names();
 
 }  // namespace neve::app::view::frontend

@@ -59,7 +59,7 @@ std::vector<frontend::ScrollPlace> scroll_places() {
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
     if (!window->WasActive || window->Hidden || window->ScrollMax.y <= 0) continue;
     const ImRect& place = window->InnerRect;
-    // As ImGui moves a window for a notch of the wheel.
+    // ImGui moves a window by this much for a notch of the wheel.
     const float notch = std::min(5 * window->CalcFontSize(), 0.67f * place.GetHeight());
     places.push_back({place.Min.x, place.Min.y, place.GetWidth(), place.GetHeight(), notch});
   }

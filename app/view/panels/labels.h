@@ -28,12 +28,12 @@ class Labels {
   bool note(const std::string& name, const LabelPlace& place, int frame);
 
   std::optional<LabelPlace> find(const std::string& name) const;
-  /// In the order in which they were drawn.
+  /// Returns the names in the order in which they were drawn.
   const std::vector<std::string>& names() const { return names_; }
   /// The smallest visible widget around a place, or empty.
   std::string name_at(float x, float y) const;
 
-  /// When this one is drawn next and out of sight, its panel scrolls to it.
+  /// Lets a panel scroll to this widget when it is drawn next and out of sight.
   void scroll_to(const std::string& name) { wanted_ = name; }
 
   void clear();

@@ -8,7 +8,7 @@ namespace neve::app::view::panels {
 class Orbit {
  public:
   Orbit() = default;
-  /// From where a picture is taken now, and with what is up there: until it is turned.
+  /// Begins with the place and the upright of the present picture, until it is turned.
   Orbit(const sim::Vec3d& eye, const sim::Vec3d& target, const sim::Vec3d& up, double fov);
 
   sim::Vec3d eye() const;
@@ -21,12 +21,12 @@ class Orbit {
   void turn(double dx, double dy);
   /// Moves so that what is at the target follows the mouse. @param dx, dy as above
   void pan(double dx, double dy);
-  /// Nearer by so many notches, towards the point under the mouse.
+  /// Comes nearer by so many notches, towards the point under the mouse.
   /// @param x, y of the mouse, share of the picture's height from its middle, y up
   void zoom(double notches, double x, double y);
   /// The box fills the picture, seen from where it is seen now.
   void frame(const sim::shapes::Bounds& box, double aspect);
-  /// Along an axis: 0 x, 1 y, 2 z; from the other side the second time.
+  /// Looks along an axis: 0 x, 1 y, 2 z; from the other side the second time.
   void look_along(int axis);
   void move_target(const sim::Vec3d& target) { target_ = target; }
 

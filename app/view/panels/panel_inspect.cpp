@@ -1,4 +1,4 @@
-/// Inside the step: stages with their bypass switches, and the probed point.
+/// The inside of a step: stages with their bypass switches, and the probed point.
 
 #include <imgui.h>
 
@@ -178,7 +178,7 @@ void draw_stage(ViewerState& state, sim::Stage stage, const char* name) {
   ImGui::PopID();
 }
 
-/// Each stage of a step with a switch that skips it, like the bypass flag of a node.
+/// Draws each stage of a step with a switch that skips it, like the bypass flag of a node.
 void draw_stages(ViewerState& state) {
   const session::LiveFrame& live = *state.live;
   if (ImGui::BeginTable("stages", 3, ImGuiTableFlags_NoPadOuterX)) {

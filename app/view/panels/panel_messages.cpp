@@ -145,7 +145,7 @@ void draw_question(ViewerState& state, ImVec2 at) {
   ImGui::End();
 }
 
-/// With the gap before each.
+/// Returns the width of buttons, with the gap before each.
 float width_of_buttons(std::initializer_list<const char*> names) {
   const ImGuiStyle& style = ImGui::GetStyle();
   float width = 0;
@@ -181,7 +181,7 @@ void draw_time_line(ViewerState& state) {
   note_label(state.is_playing ? "Stop" : "Play");
   tip("play the kept frames, without simulating");
   ImGui::SameLine();
-  // As wide whichever frame is shown, so that no button comes to lie where another was.
+  // Widths are the same for all frames, so that no button comes to lie where another was.
   const float room = ImGui::GetContentRegionAvail().x;
   const std::string largest = std::to_string(start + last);
   const float in_full =
@@ -192,7 +192,7 @@ void draw_time_line(ViewerState& state) {
   const bool is_short = room - word - number - in_full < 14 * em();
   const float right = is_short ? in_short : in_full;
   const bool has_word = room - word - number - right >= 6 * em();
-  // Beside the bar, where the grab cannot cover it, and as wide for every frame.
+  // The number is beside the bar, where the grab cannot cover it, and as wide for every frame.
   ImGui::AlignTextToFramePadding();
   ImGui::Text("%s%d", has_word ? "frame " : "", start + live.frame);
   ImGui::SameLine(ImGui::GetItemRectMin().x - ImGui::GetWindowPos().x + (has_word ? word : 0) +
@@ -236,7 +236,7 @@ void draw_time_line(ViewerState& state) {
 
 void draw_help(ViewerState& state) {
   if (!state.is_help_open) return;
-  // Over a column, so that what it explains can be seen.
+  // The help lies over a column, so that what it explains can be seen.
   const PanelPlace place = column_beside(state);
   ImGui::SetNextWindowPos(place.at);
   ImGui::SetNextWindowSize(place.size);

@@ -56,13 +56,13 @@ bool is_removed(const ViewerState& state, const std::string& address) {
          });
 }
 
-/// What waits for Reset, below the list, where it moves nothing that a hand is about to click.
+/// The edits that wait for Reset, below the list, where they move nothing about to be clicked.
 class WaitingBox {
  public:
   explicit WaitingBox(ViewerState& state)
       : state_(state), waiting_(state.bench.waiting_for_reset()) {}
 
-  /// Of the list above it, which takes what is left.
+  /// Returns the size of the list above the box: it takes what is left.
   ImVec2 size_of_list() const {
     const float below = ImGui::GetStyle().ItemSpacing.y + height();
     return {0, waiting_.empty() ? 0 : -below};
@@ -135,7 +135,7 @@ void note_view(const scene::View& view, std::size_t index) {
   if (index < 9) tip(("key " + std::to_string(index + 1)).c_str());
 }
 
-/// In as many rows as their names need.
+/// Draws the buttons of views in as many rows as their names need.
 void draw_view_buttons(ViewerState& state, const std::vector<scene::View>& views) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
@@ -328,7 +328,7 @@ void draw_view_panel(ViewerState& state) {
   if (ImGui::Checkbox("cut by a plane", &is_cut)) {
     const std::string clip = "view." + view.name + ".clip";
     const bool is_cut_in_file = state.bench.document().in_file(clip + ".normal").has_value();
-    // What the file has is switched off by a word; what it has not, by taking the edit back.
+    // A plane of the file is switched off by a word, any other by taking the edit back.
     if (is_cut_in_file)
       panel.note({is_cut ? session::Edit::Kind::as_in_file : session::Edit::Kind::set, clip,
                   is_cut ? "" : "none", 0});

@@ -100,7 +100,7 @@ void draw_over_time(const ViewerState& state, const char* label, const std::stri
                     std::vector<render::PlotSeries> list, bool has_zero) {
   render::Plot plot;
   const scene::Scene& scene = *state.live->scene;
-  // Single frames and steps go on after the last frame.
+  // Single frames and steps continue after the last frame.
   const double newest =
       std::max(state.live->snapshot.time,
                state.live->samples->empty() ? 0.0 : state.live->samples->back().time);

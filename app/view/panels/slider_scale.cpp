@@ -11,7 +11,7 @@ namespace neve::app::view::panels {
 
 namespace {
 
-/// So many times less and more than usual are on a slider.
+/// A slider reaches so many times less and more than usual.
 constexpr double slider_reach = 100;
 /// Wider ranges have too much on a pixel.
 constexpr double widest_linear = 200;

@@ -38,7 +38,7 @@ void slider(const char* name, const char* format, double low, double high, doubl
   note_label(name);
 }
 
-/// Where a ball begins: a part of the way to what it is thrown at, in front of all colliders.
+/// Returns the start of a ball: a part of the way to its target, in front of all colliders.
 Vec3d start_of(const ViewerState& state, const Vec3d& ray, double reach) {
   constexpr double part = 0.5;
   const session::LiveFrame& live = *state.live;

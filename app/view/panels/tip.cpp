@@ -11,7 +11,7 @@ constexpr float tip_gap = 3;             // px between widget and tip
 /// ImGui hides a new window in its first frame, to learn its size.
 constexpr int frames_to_appear = 3;
 
-/// On which widget the mouse rests. There is one mouse, as there is one current ImGui context.
+/// The widget on which the mouse rests. There is one mouse, as there is one current ImGui context.
 struct Rest {
   ImVec2 widget{-1, -1};
   int frame = -1;

@@ -15,9 +15,9 @@ struct TipLine {
 
 /// True if the mouse rests long enough on the widget drawn last, enabled or not.
 bool wants_tip();
-/// Below that widget; above it where there is no room.
+/// Shows a tip below the widget drawn last, or above it if the screen ends there.
 void show_tip(const std::vector<TipLine>& lines);
-/// Both of one line.
+/// Shows a tip of one line if the mouse rests on the widget.
 void tip(const char* text);
 
 /// True if a tip is due soon without further input, or has just been drawn for the first time and

@@ -99,7 +99,7 @@ void draw_tour(ViewerState& state) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(stop.text);
     ImGui::PopTextWrapPos();
-    // At one place in every step, so that a hand that stays where it is goes on through the tour.
+    // Buttons stay at one place, so that a hand that stays there clicks through the tour.
     const auto button = [&](const char* label, int to, bool is_on = true) {
       ImGui::BeginDisabled(!is_on);
       if (ImGui::Button(label)) go_to(state, to);

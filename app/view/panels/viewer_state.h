@@ -135,11 +135,11 @@ scene::View view_to_keep(const ViewerState& state);
 void set_probe(ViewerState& state, std::optional<dump::Probe> probe);
 
 void toggle_run(ViewerState& state);
-/// Whether nothing of the run is newer than the end of this frame: it may be between two.
+/// True if nothing of the run is newer than the end of this frame: it may be between two.
 bool is_newest(const session::LiveFrame& live, int frame);
 /// Shows a kept frame, or where the run is.
 void show_frame(ViewerState& state, int frame);
-/// All snow, colliders, emitters and sinks, but those that are far larger than the snow.
+/// Frames all snow, colliders, emitters and sinks, but those that are far larger than the snow.
 void frame_all(ViewerState& state);
 /// Frames the probed or selected object; everything if there is none.
 void frame_selection(ViewerState& state);
@@ -184,7 +184,7 @@ void draw_panel_switch(ViewerState& state);
 void draw_left_column(ViewerState& state);
 void draw_right_column(ViewerState& state);
 
-/// Mouse over the picture, and drawings over it: handles, the probed place.
+/// Follows the mouse over the picture, and draws over it: handles, the probed place.
 void use_viewport(ViewerState& state);
 /// Keys that are not for a text field.
 void use_keys(ViewerState& state);

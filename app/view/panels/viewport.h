@@ -30,7 +30,7 @@ std::string probe_text(const session::ProbeReading& probe, const std::string& qu
 /// The probed place with its quantity, hints, and why there is nothing to see.
 void draw_marks(ViewerState& state);
 
-/// Why a slice with arrows shows none, or "".
+/// Tells why a slice with arrows shows none, or "".
 std::string reason_for_no_arrows(const scene::View& view, const picture::FieldSamples& fields);
 
 /// Throws a ball to what is below the mouse, or along the ray where nothing is.

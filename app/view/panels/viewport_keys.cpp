@@ -12,7 +12,7 @@ namespace neve::app::view::panels {
 
 namespace {
 
-/// Whether a sign that was typed in this frame counts: a key that is held types it again and again.
+/// True if a sign that was typed in this frame counts: a key that is held types it again and again.
 /// Phones type without keys.
 bool takes_signs(ViewerState& state) {
   bool is_new = false, is_down = false;

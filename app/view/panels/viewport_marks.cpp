@@ -61,7 +61,7 @@ double longest(const std::vector<Vec3f>& arrows) {
 
 std::string probe_text(const session::ProbeReading& probe, const std::string& quantity,
                        bool is_cut) {
-  // Which one it is says nothing of its size.
+  // The index of a point says nothing of its size.
   const bool is_index = quantity.empty() || quantity == "node" || quantity == "id";
   const std::string shown = !is_index ? quantity : probe.is_node ? "v_old" : "v";
   std::string text;

@@ -264,7 +264,7 @@ bool edit_value(const Knob& knob, scene::Range& value) {
   const auto is_valid = [&](const auto& ends) {
     return knob.valid.contains(ends[0]) && knob.valid.contains(ends[1]) && ends[0] < ends[1];
   };
-  // In a drag, on their way past each other, they stay as they were.
+  // A drag that would move the ends past each other leaves them as they were.
   const auto bound = [&](const auto& ends) { return ends[0] < ends[1] ? ends : before; };
   if (!settle(knob, before, numbers, is_valid, bound)) {
     if (!knob.refusal.empty()) knob.refusal += ", the first number smaller than the second";

@@ -93,7 +93,7 @@ class KnobPanel {
   bool is_changed(const std::string& address) const;
   /// True if a value below this address differs from the file.
   bool has_changes_below(const std::string& prefix) const;
-  /// Before and after the widget: id, label, tooltip, menu.
+  /// These calls come before and after a widget: id, label, tooltip, menu.
   void begin(const Knob& knob);
   void end(const Knob& knob, const std::string& value);
   void note(session::Edit edit) { edits_.push_back(std::move(edit)); }

@@ -22,7 +22,7 @@ std::string value_text(const pick::PickAxis& axis, double u) {
   return pick::short_value(axis, u) + (axis.unit.empty() ? "" : " " + axis.unit);
 }
 
-/// Cut on the right where there is no room.
+/// Draws a text, cut on the right where it has no room.
 void draw_cut(ImVec2 at, float width, const std::string& text, ImU32 color) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(at, ImVec2(at.x + width, at.y + 1.5f * em()), true);

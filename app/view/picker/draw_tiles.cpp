@@ -90,7 +90,7 @@ std::string badge_text(const PickerState& state, int tile) {
   return is_favourite && has_room ? number + "  favourite so far" : number;
 }
 
-/// At the lower edge, what the other seeds of a tile say.
+/// Draws what the other seeds of a tile say, at its lower edge.
 void draw_noise(const PickerState& state, const Frame& frame, int tile) {
   const auto k = static_cast<std::size_t>(tile);
   if (k >= state.noise.tiles.size() || state.noise.tiles[k].empty()) return;

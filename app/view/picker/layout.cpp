@@ -9,7 +9,7 @@ namespace {
 
 constexpr float narrow = 64;  // text sizes; in less there is room for one column
 
-/// Nine tiles as large as they can be, in the middle of the width.
+/// Places nine tiles as large as they can be, in the middle of the width.
 Grid grid_in(const Box& box, float gap, int tile_width, int tile_height) {
   const float shape = static_cast<float>(tile_height) / static_cast<float>(tile_width);
   const float across = (box.width - 2 * gap) / 3, down = (box.height - 2 * gap) / 3;

@@ -39,7 +39,7 @@ int Picker::run() {
     begin_round();
   while (!is_closed_ && !is_interrupted()) {
     front_.hold_input(input_.waiting() >= max_waiting_input);
-    // A page that nobody sees needs no pictures; its runs go on.
+    // A page that nobody sees needs no pictures; its runs continue.
     take_events(front_.wait(front_.is_ready() ? 1.0 / 60 : look_interval));
     take_line();
     follow_round();
@@ -116,7 +116,7 @@ void Picker::follow_round() {
     const std::optional<sweep::jobs::SweepProgress> progress = process_->progress();
     if (!progress || state_.is_stopping) return;
     look_at(*progress);
-    // Its sheet and its film are still being made.
+    // The sheet and the film of the round are still being made.
     if (state_.phase == Phase::making && state_.runs.have_all_ended()) ask();
   } catch (const Error&) {
     settle_ = std::max(settle_, 1);  // it is looked at again
@@ -161,7 +161,7 @@ void Picker::end_round(int code) {
   if (state_.phase == Phase::stuck) retry_ = [this] { begin_round(); };
 }
 
-/// All nine runs have ended. @throws Error where the page cannot be written
+/// Asks when all nine runs have ended. @throws Error where the page cannot be written
 void Picker::ask() {
   game_.write_page(state_.runs);
   state_.noise = pick::noise_of_round(game_.folder());
@@ -227,7 +227,7 @@ void Picker::take_answer() {
   answer_.reset();
 }
 
-/// At once, or when the runs that are being made have ended.
+/// Acts at once, or when the runs that are being made have ended.
 /// @param is_sheet_wanted  of the present round, which is the last one
 void Picker::after_runs(const std::function<void()>& action, bool is_sheet_wanted) {
   state_.note.clear();

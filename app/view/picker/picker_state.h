@@ -68,14 +68,14 @@ void click_tile(PickerState& state, int tile, bool is_pair);
 
 /// Panels; each draws into its own ImGui window.
 void draw_bar(PickerState& state);
-/// The same answers as large buttons, on a phone.
+/// Draws the answers of the bar as large buttons, on a phone.
 void draw_buttons(PickerState& state);
 void draw_tiles(PickerState& state);
 /// The axes, with the tiles and what is liked on them.
 void draw_axes(PickerState& state);
 /// The map of what was learned, which there is; as wide as the window.
 void draw_map(const PickerState& state);
-/// Beside or below the tiles: what was learned, or the pick.
+/// These draw the words beside or below the tiles: what was learned, or the pick.
 void draw_words(PickerState& state);
 void draw_result(PickerState& state);
 

@@ -52,8 +52,8 @@ class InputRecorder {
   std::vector<ReplayPlace> path_;  ///< of the mouse since the press, px
   double path_end_ = 0;            ///< s
   ReplayPlace pressed_on_;
-  /// Its label was here, px: what is dragged may take its label along, and a script looks for the
-  /// label once, before it drags. Absent: it is on none.
+  /// The place of its label, px: what is dragged may take its label along, and a script looks for
+  /// the label once, before it drags. Absent: it is on none.
   std::optional<panels::LabelPlace> pressed_label_;
 
   int simulation_frame_ = -1, awaited_frame_ = 0;

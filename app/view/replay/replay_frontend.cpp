@@ -60,7 +60,7 @@ class Hand {
     next({.kind = Kind::move, .x = to.x, .y = to.y, .held = step_.held});
   }
 
-  /// Notch by notch, as wheels turn.
+  /// Turns the wheel notch by notch, as hands do.
   void wheel() {
     const float notches = std::max(std::abs(step_.wheel_x), std::abs(step_.wheel_y));
     const int count = std::max(1, static_cast<int>(std::ceil(notches)));
@@ -344,7 +344,7 @@ bool ReplayFrontend::begin_on_places(const ReplayStep& step) {
   return true;
 }
 
-/// In sight and where it was a frame ago: panels that open move at first.
+/// True for a label in sight, where it was a frame ago: panels that open move at first.
 bool ReplayFrontend::find(const std::string& label, panels::LabelPlace& place) {
   const std::optional<panels::LabelPlace> found = panels::Labels::of_panels().find(label);
   if (!found) return false;

@@ -36,7 +36,7 @@ class ReplayFrontend : public frontend::Frontend {
   std::vector<frontend::InputEvent> wait(double seconds) override;
   void wake() override;
   bool is_ready() const override { return true; }
-  /// For a screenshot, and where labels are waited for.
+  /// True for a screenshot, and while a step waits for a label.
   bool is_picture_wanted() const override;
   /// @throws IoError when a screenshot cannot be written
   void show(render::Screen& screen) override;

@@ -267,7 +267,7 @@ std::vector<ReplayStep> parse_replay(std::string_view text, const std::string& f
 }
 
 double min_seconds(const std::vector<ReplayStep>& steps) {
-  // Of small panels without a window; measured, see docs/reports/strangers.md.
+  // These times, of small panels without a window, are measured: see docs/reports/strangers.md.
   constexpr double of_a_frame = 0.7e-3, of_waiting = 1.0 / 60;
   double seconds = 0;
   for (const ReplayStep& step : steps) {

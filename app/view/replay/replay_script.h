@@ -71,10 +71,10 @@ std::optional<ReplayGoal> parse_goal(const std::string& text);
 std::vector<ReplayStep> parse_replay(std::string_view text, const std::string& file);
 
 /// Real time that a script takes at least, s: a frame of the panels for each step, 60 a second
-/// where it waits for them. How long it waits for the simulation is not known.
+/// where it waits for them. Its wait for the simulation is not known.
 double min_seconds(const std::vector<ReplayStep>& steps);
 
-/// As parse_replay reads it, one step a line; defaults are left out.
+/// Writes steps as parse_replay reads them, one a line; omits defaults.
 std::string replay_text(const std::vector<ReplayStep>& steps);
 
 const char* name(ReplayStep::Kind kind);

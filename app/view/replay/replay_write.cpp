@@ -10,7 +10,7 @@ namespace {
 
 using Step = ReplayStep::Kind;
 
-/// Without digits that nobody can place a mouse by; whole numbers without a point.
+/// Omits digits that nobody can place a mouse by; whole numbers have no point.
 Json rounded(float value, int parts) {
   const double near = std::round(static_cast<double>(value) * parts) / parts;
   if (near == std::floor(near)) return static_cast<int>(near);

@@ -32,7 +32,7 @@ void place(const scene::CameraSettings& found, scene::CameraSettings& camera) {
   if (camera.eye && camera.target) return;
   camera.eye = found.eye;
   camera.target = found.target;
-  // Found with the eye: where it moves to.
+  // The keyframes of the move are found with the eye.
   if (camera.push_in) camera.keyframes = found.keyframes;
   camera.push_in = false;
 }

@@ -15,7 +15,7 @@
 
 namespace neve::app::view::session {
 
-/// When a change takes effect.
+/// The time at which a change takes effect.
 enum class Effect {
   display,  ///< drawing; the simulation knows nothing of it
   live,     ///< from the next step on
@@ -30,7 +30,7 @@ struct ChangedValue {
   std::string in_file;  ///< TOML; empty: the file has none, and a default counts
 };
 
-/// Where else the text of a document is kept.
+/// The other place that keeps the text of a document.
 enum class Source {
   own_file,      ///< in a file of the user
   shipped_file,  ///< in one that came with the program, which nobody named
@@ -50,15 +50,15 @@ class Document {
   /// such a file.
   const std::string& file() const { return file_; }
   bool has_file() const { return source_ != Source::no_file; }
-  /// That file may be written over.
+  /// True if that file may be written over.
   bool has_own_file() const { return source_ == Source::own_file; }
   const std::string& text() const { return text_; }
   const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
   double coarsening() const { return coarsening_; }
-  /// How coarse its cells are, for captions and records, with what a run or a picture that was
-  /// opened had already.
+  /// Returns how coarse its cells are, for captions and records, with what a run or a picture that
+  /// was opened had already.
   double whole_coarsening() const { return coarsened_ * coarsening_; }
-  /// What --coarsen sets in the scene beside lengths and times, as --set would.
+  /// Returns what --coarsen sets in the scene beside lengths and times, as --set would.
   const std::vector<std::string>& set_by_coarsening() const { return set_by_coarsening_; }
   /// The overrides of the command line, then the edits.
   std::vector<scene::Override> all_overrides() const { return with(edits_); }
@@ -70,8 +70,8 @@ class Document {
   /// @throws SceneError, UsageError; LimitError where the scene would need more than before, and
   /// more than its limits allow; and then nothing has changed
   void set(const std::string& address, const std::string& value, std::uint64_t gesture = 0);
-  /// Back to the value of the file and the command line: of one address, or with a '.' at its end
-  /// of all below it, or with "" of all.
+  /// Returns to the value of the file and the command line: of one address, or with a '.' at its
+  /// end of all below it, or with "" of all.
   void forget(const std::string& address);
 
   bool can_undo() const { return !done_.empty(); }
@@ -80,7 +80,7 @@ class Document {
   std::string undo();
   std::string redo();
 
-  /// In the order in which they were first changed.
+  /// Lists the changed values in the order in which they were first changed.
   std::vector<ChangedValue> changes() const;
   bool is_changed(const std::string& address) const;
   const std::vector<scene::Override>& edits() const { return edits_; }

@@ -1,5 +1,5 @@
 #pragma once
-/// From tuning to production: exports edits, as files and commands for the other tools.
+/// Exports of edits, from tuning to production: files and commands for the other tools.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-/// Between a session's thread and all others: requests one way, the newest frame the other way.
+/// Mail between a session's thread and all others: requests one way, the newest frame the other.
 
 #include <atomic>
 #include <condition_variable>
@@ -17,11 +17,11 @@ namespace neve::app::view::session {
 class Mailbox {
  public:
   using Request = std::function<void()>;
-  /// What a request leaves nothing of, once the next one of its kind is done. Those of a hand that
-  /// drags come many times faster than they are done.
+  /// The effect of a request, of which nothing is left once the next one of its kind is done.
+  /// Requests of a hand that drags come many times faster than they are done.
   enum class Kind { once, start, frame, views };
 
-  // For any thread.
+  // These members are for any thread.
   /// One of a kind takes the place of the one that waits, unless others have been asked for since.
   void ask(Request request, Kind kind = Kind::once) {
     change([&] {
@@ -55,7 +55,7 @@ class Mailbox {
     return latest_;
   }
 
-  // For the session's thread.
+  // These members are for the session's thread.
   struct Waiting {
     Request request;
     Kind kind = Kind::once;

@@ -72,7 +72,7 @@ std::string free_name(const scene::Scene& scene, const std::string& list, std::s
   return wanted + "_" + std::to_string(number);
 }
 
-/// Nothing for a plane, and for a mesh that cannot be read.
+/// Returns the bounds of a shape; nothing for a plane, and for a mesh that cannot be read.
 std::optional<Bounds> bounds_of(const Shape& shape) {
   if (std::holds_alternative<Plane>(shape.form)) return std::nullopt;
   try {
@@ -159,7 +159,7 @@ std::optional<Table> written_object(const Document& document, const std::string&
   return table ? std::optional(*table) : std::nullopt;
 }
 
-/// From an object to its copy: beside it, and snow above what exists.
+/// Returns the way from an object to its copy: beside it, and for snow above what exists.
 Vec3d way_of_copy(const scene::Scene& scene, const std::string& list, const Shape& shape) {
   const double cell = scene.solver.cell_size;
   if (const auto* plane = std::get_if<Plane>(&shape.form))

@@ -41,8 +41,8 @@ AddedObject copy_of(const Document& document, const std::string& address);
 
 /// The vectors that say where a shape is, by their address in it: "sphere.center".
 std::vector<std::pair<std::string, sim::Vec3d>> places_of(const sim::shapes::Shape& shape);
-/// Those of a collider: of its shape, and of the joint and the spring that it has, which go where
-/// it is put. Addresses are in the collider: "shape.sphere.center", "joint_point".
+/// Returns the places of a collider: of its shape, its joint and its spring, which go where it is
+/// put. Addresses are in the collider: "shape.sphere.center", "joint_point".
 std::vector<std::pair<std::string, sim::Vec3d>> places_of(const scene::Collider& collider);
 
 }  // namespace neve::app::view::session

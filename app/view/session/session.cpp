@@ -15,8 +15,8 @@ namespace neve::app::view::session {
 
 namespace {
 
-/// By how much a simulation that is watched steps back behind the pictures of it: where both want
-/// the same cores, these get about three times as much.
+/// The niceness of a simulation that is watched, behind the pictures of it: where both want the
+/// same cores, these get about three times as much.
 constexpr int niceness = 5;
 
 /// Lowers the priority of the calling thread and of the threads that it starts from now on.

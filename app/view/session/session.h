@@ -66,7 +66,7 @@ class Session {
   /// Does the next stage of a step on a copy of the shown frame, and shows its result. After the
   /// last one the step is taken, in an older frame only the frame shown again.
   void next_stage();
-  /// The same up to the end of this stage, wherever it is.
+  /// Shows the step up to the end of this stage, wherever it is.
   void show_stage(sim::Stage stage);
   /// Shows the state between two steps again.
   void leave_stage();
@@ -80,7 +80,7 @@ class Session {
 
   /// Shows a kept moment, the nearest at or before this frame. The run waits.
   void show_frame(int frame);
-  /// Back to where the run is.
+  /// Shows the moment at which the run is.
   void show_head();
   /// Continues the run from the kept frame shown, with the parameters it had then; frames and
   /// changes after it are forgotten.

@@ -17,7 +17,7 @@ namespace neve::app::view::session {
 
 namespace {
 
-/// Between two moments of a run that are shown; turning the view draws pictures in between.
+/// The time between two shown moments of a run; turning the view draws pictures in between.
 constexpr auto publish_interval = std::chrono::milliseconds(30);
 constexpr double speed_interval = 0.25;  ///< s
 
@@ -167,7 +167,7 @@ void Session::note_return(std::size_t steps) {
   steps_seen_ = simulation().steps();
 }
 
-/// What was told of moments after this one is of a run that was left.
+/// Forgets what was told of moments after this one: they are of a run that was left.
 void Session::return_to(double time) {
   samples_.forget_after(time);
   inspector_.look_again();
@@ -200,12 +200,12 @@ void Session::reach_frame() {
   timeline_->keep();
   require_room();
   const timeline::Moment& here = timeline_->here();
-  // Beyond the last one too: `frames` may be lowered while the run goes.
+  // A run stops beyond the last frame too: `frames` may be lowered while it runs.
   if (goal_ == Goal::frame || here.frame >= scene::last_frame(*here.scene)) goal_ = Goal::none;
   if (is_recording_) publish();
 }
 
-/// With colliders where they are, and the views that are looked at.
+/// Returns the scene with colliders where they are, and the views that are looked at.
 std::shared_ptr<const scene::Scene> Session::shown_scene() const {
   auto scene = std::make_shared<scene::Scene>(timeline_->scene());
   scene->views = views_;

@@ -20,7 +20,7 @@ bool has_nodes(sim::Stage stage) {
   return stage == rasterize || (stage >= elastic_forces && stage <= implicit_solve);
 }
 
-/// Before the step, a node has the values that the step rasterises.
+/// Nodes have values in a step alone: before it, they are shown as the solve of it leaves them.
 std::optional<sim::Stage> stage_of(bool is_node, const std::optional<sim::Stage>& stage) {
   return is_node ? std::optional(stage.value_or(sim::Stage::implicit_solve)) : stage;
 }

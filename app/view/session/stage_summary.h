@@ -17,7 +17,7 @@ scene::View view_of_stage(const scene::Scene& scene, scene::View view, sim::Stag
 void show_after_stage(const dump::StepInspection& inside, sim::Stage stage,
                       picture::Snapshot& snapshot);
 
-/// What the stage did to each particle, or to the nodes next to it. Nothing for the stages that
+/// Returns what the stage did to each particle, or to the nodes next to it; nothing for those that
 /// show in no particle: the volumes of the first step, and the colliders, which a copy leaves.
 std::optional<picture::StageChange> change_of_stage(const dump::StepInspection& inside,
                                                     sim::Stage stage);

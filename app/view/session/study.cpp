@@ -28,7 +28,7 @@ std::vector<std::string> axes_of(const StudyRequest& request) {
   return axes;
 }
 
-/// How many there are in "5, 10, 20", roughly: of lists in lists more.
+/// Counts the values in "5, 10, 20", roughly: lists in lists count as more.
 std::size_t values_of(const StudyAxis& axis) {
   return 1 + static_cast<std::size_t>(std::count(axis.values.begin(), axis.values.end(), ','));
 }

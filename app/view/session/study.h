@@ -23,7 +23,7 @@ struct StudyRequest {
   bool has_longer_steps = false;  ///< of forecast::longer_steps, for a quick look
 };
 
-/// What the view was started with, and its sweeps are.
+/// The folder, the cores and the backend that the view was started with, also for its sweeps.
 struct StudyPlace {
   std::filesystem::path folder;  ///< of the view
   int threads = 0;               ///< cores in all; 0: as many as there are
@@ -59,7 +59,7 @@ class Study {
   /// Looks how far it is, a few times a second. @return whether something is new
   bool poll();
 
-  /// Asks it to end; what there is stays, and the command continues from there.
+  /// Asks the sweep to end; its files stay, and the command continues from there.
   void stop();
 
   /// Packs the sweep into one file beside its folder: the report with all pictures that it shows.

@@ -51,8 +51,8 @@ std::filesystem::file_time_type time_of(const std::string& file) {
   return error ? std::filesystem::file_time_type{} : time;
 }
 
-/// A run at its newest moment, as a session has it in which its changes were made. Without one it
-/// starts again, and makes its changes at their steps.
+/// Opens a run at its newest moment, as a session has it in which its changes were made. Without
+/// one it starts again, and makes its changes at their steps.
 Opened open_run(const std::string& folder, const timeline::Edits& edits) {
   const timeline::Origin origin = timeline::Origin::of(folder, edits);
   const std::string beside =
@@ -217,7 +217,7 @@ std::string Workbench::copy_object(const std::string& address) {
 
 namespace {
 
-/// Whether a member somewhere in it is called file or files, however that is spelled.
+/// True if a member somewhere in it is called file or files, however that is spelled.
 bool has_file(const scene::toml::Value& value) {
   if (const auto* list = std::get_if<scene::toml::Array>(&value.data))
     return std::any_of(list->begin(), list->end(), has_file);
@@ -353,8 +353,8 @@ void Workbench::continue_anyway() {
   }
 }
 
-/// The scene of the start, with all that concerns pictures alone as it is now. Where another text
-/// was read and its Reset failed, it is that of the text of the start.
+/// Returns the scene of the start, with all that concerns pictures alone as it is now. If another
+/// text was read and its Reset failed, it is that of the text of the start.
 std::shared_ptr<const scene::Scene> Workbench::pictured(const LiveFrame& live) const {
   const Start& start = start_of(live);
   std::vector<scene::Override> edits = start.at_start;
@@ -647,7 +647,7 @@ void Workbench::say_saved_picture(const std::filesystem::path& file, const LiveF
   const std::string frame = "frame " + std::to_string(scene::number_of(*live.scene, live.frame)),
                     render = "; neve render " + shell_path(file.string()) + " makes ";
   std::string text = "saved " + file.string();
-  if (!live.is_frame_end)  // the run diverged there: any other goes on to its next frame
+  if (!live.is_frame_end)  // the run diverged there: any other continues to its next frame
     text += "; it shows step " + std::to_string(live.steps) +
             ", where the run diverged, and only whole frames can be made again" + render + frame;
   else

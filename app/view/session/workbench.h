@@ -48,8 +48,8 @@ class Workbench {
   Session& session() { return *session_; }
   const std::filesystem::path& folder() const { return options_.folder; }
   setup::Quality quality() const { return options_.quality; }
-  /// That the run of a frame started with: of the command line and the document. Captions list
-  /// them.
+  /// Returns the overrides that the run of a frame started with: of the command line and the
+  /// document. Captions list them.
   std::vector<std::string> overrides(const LiveFrame& live) const;
 
   /// Does it at once if that is possible; a change that needs a restart waits for reset(), but at
@@ -83,15 +83,15 @@ class Workbench {
   /// Reads the file again and starts again. If it is not a scene, everything stays, and the file
   /// still counts as changed.
   void reload();
-  /// Why the last reload failed; empty where it did not, or where the file has changed since.
+  /// Tells why the last reload failed; empty if it did not, or if the file has changed since.
   std::string reload_error() const;
   /// The change on disk is nothing to us.
   void keep_file();
 
   // Exports. Each leaves a message with the file it wrote or the error, and says false after one.
   bool save_scene(const std::filesystem::path& file);
-  /// Into the folder, in the place of no file but an earlier copy of this session, or of one with
-  /// the same text. @return its name; "" after an error
+  /// Saves into the folder, in the place of no file but an earlier copy of this session, or of one
+  /// with the same text. @return its name; "" after an error
   std::filesystem::path save_copy();
   bool may_save_over_file() const { return !options_.is_remote && document_.has_own_file(); }
   std::filesystem::path sweep_around(const std::string& address);
@@ -101,8 +101,8 @@ class Workbench {
   /// @return why it did not start; "" if it did
   std::string vary_from_here(const StudyRequest& request, const scene::View& view);
   Study& study() { return study_; }
-  /// The command that renders the scene as it is now, for the clipboard. Where the scene has no
-  /// file, one is written into the folder. @return "" after an error
+  /// Returns the command that renders the scene as it is now, for the clipboard. If the scene has
+  /// no file, one is written into the folder. @return "" after an error
   std::string command();
   /// Record that a picture of this moment needs to be made again.
   record::PictureRecord picture_record(const LiveFrame& live, const scene::View& view) const;
@@ -121,7 +121,7 @@ class Workbench {
   std::uint64_t errors_said() const { return errors_said_; }
 
  private:
-  /// What a run began with, and what it has learned since.
+  /// The document and the edits that a run began with, and the edits that it has learned since.
   struct Start {
     std::uint64_t number;  ///< as frames name it
     Document document;     ///< its text: another one may have been read since
@@ -167,7 +167,7 @@ class Workbench {
   std::unique_ptr<Session> session_;  ///< last: its thread calls back
 };
 
-/// What `neve view` starts with.
+/// The contents that `neve view` starts with.
 struct Opened {
   Document document;                   ///< of a run, with its changes as edits
   std::vector<std::string> overrides;  ///< as they were given, now or to the run

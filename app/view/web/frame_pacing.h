@@ -1,13 +1,13 @@
 #pragma once
-/// When the next picture may go to a browser, and how good it may be, so that what is seen is never
-/// old: the number of pictures on their way is bounded, and a slow network gets smaller ones.
+/// The pace and the quality of pictures to a browser, so that what is seen is never old: the number
+/// of pictures on their way is bounded, and a slow network gets smaller ones.
 
 #include <cstdint>
 #include <vector>
 
 namespace neve::app::view::web {
 
-/// Seconds are of a clock that never goes back. Not protected against threads.
+/// Seconds are of a clock that never goes back. The class is not protected against threads.
 class FramePacing {
  public:
   static constexpr int max_in_flight = 2;

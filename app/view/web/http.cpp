@@ -141,7 +141,7 @@ HttpHead read_http_head(std::string_view bytes) {
 
 namespace {
 
-/// Up to the empty line.
+/// Writes the head of an answer, up to the empty line.
 std::string http_head(int status, std::string_view type, std::uint64_t size,
                       const HttpHeaders& more) {
   std::string answer = "HTTP/1.1 " + std::to_string(status) + ' ' + std::string(reason_of(status)) +

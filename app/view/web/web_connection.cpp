@@ -155,7 +155,7 @@ void Connection::transmit(double now) {
   if (file_ && file_left_ > 0) return queue_piece(now);
   file_.reset();
   if (stage_ != Stage::answer) return;
-  // Closed at once with bytes unread, the answer would be lost with the connection.
+  // If it closed at once with bytes unread, the answer would be lost with the connection.
   ::shutdown(socket_, SHUT_WR);
   stage_ = Stage::drain;
   stage_end_ = now + drain_seconds;
@@ -197,7 +197,7 @@ double Connection::deadline() const {
   soonest = std::min(soonest, heard_ + missing_pings * limits_.ping_seconds);
   if (message_start_ > 0) soonest = std::min(soonest, message_start_ + limits_.message_seconds);
   if (!out_.empty()) soonest = std::min(soonest, moved_ + limits_.stall_seconds);
-  // Long enough for a sensible piece to be allowed again.
+  // The wait is long enough for a sensible piece to be allowed again.
   if (budget_ <= 0)
     soonest = std::min(soonest, refilled_ + 0.02 - budget_ / limits_.bytes_per_second);
   return soonest;

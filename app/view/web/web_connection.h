@@ -67,7 +67,7 @@ class Connection {
 
   /// Closes after a timeout; sends a ping when it is due.
   void expire(double now);
-  /// When expire() has something to do next.
+  /// Returns the time at which expire() has something to do next.
   double deadline() const;
 
   bool wants_input() const;

@@ -27,7 +27,7 @@ struct PublicPlace {
   std::string host;    ///< "hub", with a port where it is not the usual one
   std::string path;    ///< "/user/x/proxy/8080/"
 
-  /// Where a page may open its web socket: "wss://hub".
+  /// Returns the origin at which a page may open its web socket: "wss://hub".
   std::string socket_origin() const;
 };
 /// @throws UsageError for anything but http:// or https://, a host, and a path

@@ -154,7 +154,7 @@ void WebServer::wait(double now) {
     soonest = std::min(soonest, connection->deadline());
   }
   const double seconds = std::max(0.0, soonest - now);
-  // Rounded up, so that a deadline has passed when poll returns.
+  // The wait is rounded up, so that a deadline has passed when poll returns.
   const int milliseconds = seconds < 1e6 ? int(std::ceil(seconds * 1000)) : -1;
   if (::poll(files.data(), files.size(), milliseconds) < 0) return;
   now = clock_seconds();
@@ -182,7 +182,7 @@ void WebServer::accept_all(double now) {
   for (int k = 0; k < limits_.connections; ++k) {
     const int socket = accept_at(socket_);
     if (socket < 0) {
-      // Out of files or memory: what waits stays there, and asking again at once would not help.
+      // Without files or memory, what waits stays there, and asking again at once would not help.
       if (errno != EAGAIN && errno != EINTR && errno != ECONNABORTED) accept_again_ = now + 1;
       return;
     }
@@ -334,7 +334,7 @@ void WebServer::say_goodbye() {
   if (!to) return connections_.clear();
   to->queue(web_socket_frame(Opcode::text, goodbye_), now);
   to->finish(web_socket_frame(Opcode::close, close_payload(close_code::going_away, "ended")), now);
-  // Until it has closed too: ended earlier, with bytes of it unread, the goodbye could be lost.
+  // The connection has to close too: ended earlier, with bytes unread, it could lose the goodbye.
   while (to->stage() != Connection::Stage::dead && now < end) {
     pollfd file{to->socket(), short(to->wants_output() ? POLLIN | POLLOUT : POLLIN), 0};
     ::poll(&file, 1, int((end - now) * 1000) + 1);

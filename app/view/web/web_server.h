@@ -53,13 +53,13 @@ class WebServer {
 
   int port() const;
 
-  /// Queues a message for the viewer; it is dropped if the viewer has gone. From any thread.
+  /// Queues a message for the viewer, from any thread; it is dropped if the viewer has gone.
   void send(std::uint64_t viewer, Opcode opcode, std::string_view payload);
   /// @return messages for the viewer that the network has not taken
   int unsent(std::uint64_t viewer) const;
-  /// The path at which a page gets the file, once. From any thread.
+  /// Returns the path at which a page gets the file, once. Any thread may call it.
   std::string offer(std::unique_ptr<OpenFile> file);
-  /// There is room again for a message that on_message() refused. From any thread.
+  /// Tells, from any thread, that a message has room that on_message() refused.
   void resume();
 
  private:
