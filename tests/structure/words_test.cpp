@@ -174,6 +174,29 @@ TEST(Words, NamesSayMaxAndMin) {
   EXPECT_GT(names, 100'000u) << "the sources are not read as they are written";
 }
 
+/// A comment is read without the line below it: no sentence begins as a part of one.
+TEST(Words, NoSentenceOfACommentBeginsAsAFragment) {
+  const std::regex comment(R"(^\s*//+<? ?(.*)$)"), begins("^(What|Of|Where|How)\\b"),
+      inside("[.] (What|Of|Where|How)\\b");
+  std::size_t sentences = 0;
+  for (const std::string& file : sources_below({"app", "render", "sim", "tests"})) {
+    bool is_new = true;
+    for (const SourceLine& line : lines_of(file)) {
+      std::smatch found;
+      if (!std::regex_match(line.text, found, comment)) {
+        is_new = true;
+        continue;
+      }
+      const std::string text = found[1];
+      sentences += is_new ? 1 : 0;
+      EXPECT_FALSE((is_new && std::regex_search(text, begins)) || std::regex_search(text, inside))
+          << file << ":" << line.number << ": " << text << "; write a subject and a verb";
+      is_new = text.ends_with('.');
+    }
+  }
+  EXPECT_GT(sentences, 5000u) << "the sources are not read as they are written";
+}
+
 TEST(Words, TheGlossaryIsReadAsItIsWritten) {
   const std::vector<Avoided> words = words_to_avoid(lines_of("docs/glossary.md"));
   EXPECT_GT(words.size(), 20u);
