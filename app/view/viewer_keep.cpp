@@ -9,7 +9,6 @@
 #include "app/output/temporary.h"
 #include "app/record/run_json.h"
 #include "app/support/errors.h"
-#include "app/timeline/times.h"
 #include "app/view/viewer.h"
 
 namespace neve::app::view {
@@ -170,10 +169,11 @@ void Viewer::keep_recording() {
 void Viewer::follow_run() {
   const session::LiveFrame& live = *state_.live;
   if (take_.start == live.start && take_.returns == live.returns) return;
-  const int common =
-      take_.start == live.start ? timeline::frame_at(live.returned_to, live.scene->fps) : -1;
-  if (std::erase_if(take_.frames, [&](const auto& file) { return file.second > common; }) > 0)
-    take_.has_others = true;
+  const bool is_same_start = take_.start == live.start;
+  const auto is_left = [&](const auto& file) {
+    return !is_same_start || file.second / live.scene->fps > live.returned_to + 1e-9;
+  };
+  if (std::erase_if(take_.frames, is_left) > 0) take_.has_others = true;
   take_.start = live.start;
   take_.returns = live.returns;
 }
