@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "app/advice/suggest.h"
@@ -752,11 +754,11 @@ Found curve_problem(const Scene& scene, const Curve& curve, const FlatParam* par
 Found curves_problem(const Scene& scene) {
   if (scene.curves.empty()) return {};
   const std::vector<FlatParam> params = flatten(scene);
+  std::unordered_map<std::string_view, const FlatParam*> named;
+  for (const FlatParam& param : params) named.emplace(param.address, &param);
   for (const Curve& curve : scene.curves) {
-    const auto param = std::find_if(params.begin(), params.end(), [&](const FlatParam& p) {
-      return p.address == curve.parameter;
-    });
-    if (Found found = curve_problem(scene, curve, param == params.end() ? nullptr : &*param))
+    const auto param = named.find(curve.parameter);
+    if (Found found = curve_problem(scene, curve, param == named.end() ? nullptr : param->second))
       return found;
   }
   return {};

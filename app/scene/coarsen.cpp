@@ -117,12 +117,10 @@ std::vector<std::string> coarsen(Scene& scene, double factor) {
 }
 
 Scene without_dust(Scene scene) {
-  for (sim::Material& material : scene.materials) {
-    material.dust = 0;
-    std::erase_if(scene.curves, [&](const Curve& curve) {
-      return curve.parameter == "material." + material.name + ".dust";
-    });
-  }
+  for (sim::Material& material : scene.materials) material.dust = 0;
+  std::erase_if(scene.curves, [](const Curve& curve) {
+    return curve.parameter.starts_with("material.") && curve.parameter.ends_with(".dust");
+  });
   return scene;
 }
 

@@ -146,6 +146,21 @@ bool is_object_list(const std::string& word) {
   return word == "body" || word == "emitter" || word == "sink" || word == "collider";
 }
 
+/// Returns the name of an item of a list, or its number. @param k  its place, from 0
+std::string name_of_item(const toml::Value& item, std::size_t k) {
+  const toml::Table* members = std::get_if<toml::Table>(&item.data);
+  const toml::Entry* name = members ? members->find("name") : nullptr;
+  const std::string* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
+  return text && is_identifier(*text) ? *text : std::to_string(k + 1);
+}
+
+std::size_t item_count(const toml::Value& items) {
+  if (const toml::Table* table = std::get_if<toml::Table>(&items.data))
+    return table->entries.size();
+  const toml::Array* array = std::get_if<toml::Array>(&items.data);
+  return array ? array->size() : 0;
+}
+
 /// Explains body.velocity, where somebody forgot the name of the body.
 bool is_member_of_all(const std::string& list, const std::string& word) {
   const std::string member = list + ".NAME." + word;
@@ -155,18 +170,13 @@ bool is_member_of_all(const std::string& list, const std::string& word) {
   });
 }
 
-/// The address with NAME in the place of a name that the document has; empty if there is
-/// none.
-std::vector<std::string> patterns_of(const std::string& address, const toml::Table& root) {
-  std::vector<std::string> patterns;
-  const auto dot = address.find('.');
-  const toml::Entry* items = dot == std::string::npos ? nullptr : root.find(address.substr(0, dot));
-  if (!items) return patterns;
-  for (const std::string& name : item_names(items->value))
-    if (address.compare(dot + 1, name.size(), name) == 0 &&
-        address.substr(std::min(dot + 1 + name.size(), address.size())).starts_with("."))
-      patterns.push_back(address.substr(0, dot) + ".NAME" + address.substr(dot + 1 + name.size()));
-  return patterns;
+/// Returns the address with NAME in the place of the name of an item that the document has; empty
+/// if it has none of the name.
+std::string pattern_of(const std::string& address, const toml::Table& root) {
+  const Path path = words_of(address);
+  const toml::Entry* items = path.size() > 2 ? root.find(path[0]) : nullptr;
+  if (!items || item_place(items->value, path[1]) == item_count(items->value)) return {};
+  return path[0] + ".NAME" + address.substr(path[0].size() + 1 + path[1].size());
 }
 
 struct Target {
@@ -182,7 +192,7 @@ bool is_table_around(const std::string& pattern, const std::string& known) {
 }
 
 std::optional<Target> target_of(const std::string& address, const toml::Table& root) {
-  const std::vector<std::string> patterns = patterns_of(address, root);
+  const std::string in_item = pattern_of(address, root);
   std::optional<Target> table;
   for (const ParamInfo& info : params()) {
     const bool is_in_item = info.address.find(".NAME.") != std::string::npos;
@@ -190,8 +200,7 @@ std::optional<Target> target_of(const std::string& address, const toml::Table& r
       if (is_table_around(pattern, info.address)) table = {"table", is_in_item};
       return info.address == pattern && info.address.find('[') == std::string::npos;
     };
-    if (is_in_item ? std::any_of(patterns.begin(), patterns.end(), matches) : matches(address))
-      return Target{info.type, is_in_item};
+    if (matches(is_in_item ? in_item : address)) return Target{info.type, is_in_item};
   }
   return table;
 }
@@ -343,18 +352,22 @@ std::vector<std::string> item_names(const toml::Value& items) {
     for (const toml::Entry& entry : table->entries) names.push_back(entry.key);
   } else if (const toml::Array* array = std::get_if<toml::Array>(&items.data)) {
     for (const toml::Value& item : *array) {
-      const toml::Table* members = std::get_if<toml::Table>(&item.data);
-      const toml::Entry* name = members ? members->find("name") : nullptr;
-      const std::string* text = name ? std::get_if<std::string>(&name->value.data) : nullptr;
-      names.push_back(text && is_identifier(*text) ? *text : std::to_string(names.size() + 1));
+      names.push_back(name_of_item(item, names.size()));
     }
   }
   return names;
 }
 
 std::size_t item_place(const toml::Value& items, const std::string& name) {
-  const std::vector<std::string> names = item_names(items);
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  if (const toml::Table* table = std::get_if<toml::Table>(&items.data)) {
+    const auto found = std::ranges::find(table->entries, name, &toml::Entry::key);
+    return static_cast<std::size_t>(found - table->entries.begin());
+  }
+  const toml::Array* array = std::get_if<toml::Array>(&items.data);
+  if (!array) return 0;
+  std::size_t k = 0;
+  while (k < array->size() && name_of_item((*array)[k], k) != name) ++k;
+  return k;
 }
 
 const toml::Value* value_at(const toml::Table& root, const std::string& address) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 #include <variant>
@@ -104,6 +105,11 @@ bool sets(const scene::Override& change, const std::string& address) {
   return std::ranges::find(all, address) != all.end();
 }
 
+/// Returns the words that errors name a curve with.
+std::string flag_of(const scene::Curve& curve) {
+  return "curve." + curve.name + ":";
+}
+
 std::vector<scene::Override> values_at(const scene::Scene& scene, double time) {
   std::vector<scene::Override> values;
   for (const scene::Curve& curve : scene.curves) {
@@ -113,7 +119,7 @@ std::vector<scene::Override> values_at(const scene::Scene& scene, double time) {
       words.push_back(scene::toml::number_text(number));
     scene::Override value{curve.parameter,
                           words.size() == 1 ? words.front() : "[" + joined(words, ", ") + "]"};
-    value.flag = "curve." + curve.name + ":";
+    value.flag = flag_of(curve);
     values.push_back(std::move(value));
   }
   return values;
@@ -128,6 +134,44 @@ std::set<std::size_t> ends_of(const scene::Curve& curve) {
     ends.insert(static_cast<std::size_t>(most - x.begin()));
   }
   return ends;
+}
+
+/// A keyframe at an end of a curve.
+struct CurveEnd {
+  const scene::Curve* curve;
+  std::size_t keyframe;
+};
+
+/// Returns the ends of all curves by their times. Of many curves that share no times some moments
+/// are left off: each reads the scene again, with the values of all.
+std::map<double, std::vector<CurveEnd>> moments_of_ends(const scene::Scene& scene) {
+  constexpr std::size_t max_values = 20'000;
+  std::map<double, std::vector<CurveEnd>> moments;
+  for (const scene::Curve& curve : scene.curves)
+    for (const std::size_t k : ends_of(curve))
+      moments[curve.keyframes[k].time].push_back({&curve, k});
+  const std::size_t count = moments.size(),
+                    most = max_values / std::max<std::size_t>(1, scene.curves.size()) + 1;
+  std::size_t k = 0;
+  if (count > most)
+    std::erase_if(moments, [&](const auto&) {
+      const std::size_t place = k++;
+      return place * most / count == (place + 1) * most / count;
+    });
+  return moments;
+}
+
+/// Throws an error of a moment with the place of a keyframe.
+/// @param flag  of the change that failed: it names the curve at fault
+[[noreturn]] void fail_at(const std::vector<CurveEnd>& ends, const std::string& flag,
+                          const scene::toml::SceneError& error) {
+  const auto at_fault = std::ranges::find_if(
+      ends, [&](const CurveEnd& end) { return flag.starts_with(flag_of(*end.curve)); });
+  const CurveEnd& end = at_fault == ends.end() ? ends.front() : *at_fault;
+  throw scene::toml::SceneError(error.file, 0, 0,
+                                "curve." + end.curve->name + ".keyframes[" +
+                                    std::to_string(end.keyframe + 1) + "]: " + error.message,
+                                error.hint);
 }
 
 }  // namespace
@@ -146,21 +190,15 @@ std::optional<std::vector<double>> curve_value(const scene::Scene& scene,
 void require_curve_values(const scene::Scene& scene, const std::string& name) {
   scene::Scene still = scene;
   still.curves.clear();
-  for (const scene::Curve& curve : scene.curves)
-    for (const std::size_t k : ends_of(curve)) {
-      const auto fail = [&](const std::string& what, const std::string& hint) {
-        throw scene::toml::SceneError(
-            name, 0, 0,
-            "curve." + curve.name + ".keyframes[" + std::to_string(k + 1) + "]: " + what, hint);
-      };
-      try {
-        scene::apply(still, values_at(scene, curve.keyframes[k].time));
-      } catch (const scene::toml::SceneError& error) {
-        fail(error.message, error.hint);
-      } catch (const UsageError& error) {
-        fail(error.message, error.hint);
-      }
+  for (const auto& moment : moments_of_ends(scene)) {
+    try {
+      scene::apply(still, values_at(scene, moment.first));
+    } catch (const scene::toml::SceneError& error) {
+      fail_at(moment.second, "", {name, 0, 0, error.message, error.hint});
+    } catch (const UsageError& error) {
+      fail_at(moment.second, error.where, {name, 0, 0, error.message, error.hint});
     }
+  }
 }
 
 scene::Scene with_curves(const scene::Scene& scene, int frame) {

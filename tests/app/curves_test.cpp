@@ -272,6 +272,14 @@ TEST(Curves, ValuesThatNoSceneMayHaveAreNamedWithTheirKeyframe) {
                "[[curve]]\nname = \"c\"\nparameter = \"collider.blade.restitution\"\n"
                "keyframes = [{ time = 0, value = 0 }, { time = 1, value = 0.5 }]\n");
   EXPECT_NE(sprung.find("curve.c.keyframes[2]"), std::string::npos) << sprung;
+  // Curves that share their times are asked once, and the one at fault is named.
+  const std::string second =
+      error_of(blade +
+               "[[curve]]\nname = \"a\"\nparameter = \"solver.cfl\"\n"
+               "keyframes = [{ time = 0, value = 0.3 }, { time = 1, value = 0.4 }]\n"
+               "[[curve]]\nname = \"b\"\nparameter = \"collider.blade.restitution\"\n"
+               "keyframes = [{ time = 0, value = 0 }, { time = 1, value = 0.5 }]\n");
+  EXPECT_NE(second.find("curve.b.keyframes[2]"), std::string::npos) << second;
 }
 
 /// Its snow is none that a file could have.
