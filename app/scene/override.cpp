@@ -172,7 +172,7 @@ bool is_member_of_all(const std::string& list, const std::string& word) {
 
 /// Returns the address with NAME in the place of the name of an item that the document has; empty
 /// if it has none of the name.
-std::string pattern_of(const std::string& address, const toml::Table& root) {
+std::string pattern_with_name(const std::string& address, const toml::Table& root) {
   const Path path = words_of(address);
   const toml::Entry* items = path.size() > 2 ? root.find(path[0]) : nullptr;
   if (!items || item_place(items->value, path[1]) == item_count(items->value)) return {};
@@ -192,7 +192,7 @@ bool is_table_around(const std::string& pattern, const std::string& known) {
 }
 
 std::optional<Target> target_of(const std::string& address, const toml::Table& root) {
-  const std::string in_item = pattern_of(address, root);
+  const std::string in_item = pattern_with_name(address, root);
   std::optional<Target> table;
   for (const ParamInfo& info : params()) {
     const bool is_in_item = info.address.find(".NAME.") != std::string::npos;

@@ -142,8 +142,8 @@ struct CurveEnd {
   std::size_t keyframe;
 };
 
-/// Returns the ends of all curves by their times. Of many curves that share no times some moments
-/// are left off: each reads the scene again, with the values of all.
+/// Returns the ends of all curves by their times. If many curves share no times, some moments are
+/// left off: each reads the scene again, with the values of all.
 std::map<double, std::vector<CurveEnd>> moments_of_ends(const scene::Scene& scene) {
   constexpr std::size_t max_values = 20'000;
   std::map<double, std::vector<CurveEnd>> moments;

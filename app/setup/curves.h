@@ -18,8 +18,8 @@ namespace neve::app::setup {
 /// Check: Curves.GiveTheValueOfTheMiddleOfAFrame
 std::vector<scene::Override> curve_values(const scene::Scene& scene, int frame);
 
-/// Asks all rules of a scene of the values at the ends of its curves; those between break none. Of
-/// thousands of curves that share no times it asks at some of the ends.
+/// Asks all rules of a scene of the values at the ends of its curves; those between break none. If
+/// thousands of curves share no times, it asks at some of the ends.
 /// @param name  of the scene in messages @throws SceneError with the place of the keyframe
 void require_curve_values(const scene::Scene& scene, const std::string& name);
 
