@@ -61,7 +61,7 @@ struct RecordedKey {
 struct Take {
   std::filesystem::path folder;
   std::map<std::filesystem::path, int> frames{};  ///< by their files, relative to the folder
-  std::uint64_t start = 0, returns = 0;           ///< of the run
+  session::KeptRun run{};
   bool has_others = false;  ///< the folder has pictures of a run that was left
 };
 

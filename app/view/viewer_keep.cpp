@@ -168,14 +168,8 @@ void Viewer::keep_recording() {
 /// some pictures of the one before, and mix with the rest.
 void Viewer::follow_run() {
   const session::LiveFrame& live = *state_.live;
-  if (take_.start == live.start && take_.returns == live.returns) return;
-  const bool is_same_start = take_.start == live.start;
-  const auto is_left = [&](const auto& file) {
-    return !is_same_start || file.second / live.scene->fps > live.returned_to + 1e-9;
-  };
-  if (std::erase_if(take_.frames, is_left) > 0) take_.has_others = true;
-  take_.start = live.start;
-  take_.returns = live.returns;
+  const auto time_of = [&](const auto& file) { return file.second / live.scene->fps; };
+  if (take_.run.follow(live, take_.frames, time_of) > 0) take_.has_others = true;
 }
 
 /// Begins another folder, with the frames that both runs have.

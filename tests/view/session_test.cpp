@@ -422,6 +422,24 @@ TEST(Samples, ForcesAreUnknownInsideAFrameAndKnownAtItsEnd) {
     EXPECT_EQ(std::isnan(sample.max_force), sample.time < run.simulation().time()) << sample.time;
 }
 
+TEST(Samples, MomentsThatTheRunHasLeftAreForgotten) {
+  const auto scene = scene_of(tiny_scene);
+  timeline::Timeline run(*scene, {},
+                         std::make_shared<setup::SeededScene>(setup::seed_scene(*scene)), 0);
+  view::session::Samples samples;
+  samples.begin();
+  samples.note(run);
+  for (int frame = 1; frame <= 2; ++frame) {
+    ASSERT_TRUE(run.advance_frame());
+    samples.note(run);
+  }
+  ASSERT_EQ(samples.list()->size(), 3u);
+  const auto shown = samples.list();
+  samples.forget_after(samples.list()->at(1).time);
+  EXPECT_EQ(samples.list()->size(), 2u);
+  EXPECT_EQ(shown->size(), 3u) << "readers hold the list that they were given";
+}
+
 /// A hand that drags asks far more often than a session can do what it is asked for.
 TEST(Mailbox, ARequestTakesThePlaceOfTheOneOfItsKindThatWaits) {
   using Kind = view::session::Mailbox::Kind;

@@ -96,11 +96,7 @@ void toggle_run(ViewerState& state) {
 }
 
 void ProbeTrace::take(const session::LiveFrame& live) {
-  if (live.start != start) points.clear();
-  if (live.start == start && live.returns != returns)
-    std::erase_if(points, [&](const auto& point) { return point.first > live.returned_to + 1e-9; });
-  start = live.start;
-  returns = live.returns;
+  run.follow(live, points, [](const auto& point) { return point.first; });
   if (!live.probe || live.probed != target) return;
   if (quantity.empty() && !live.probe->rows.empty()) quantity = live.probe->is_node ? "v_old" : "v";
   for (const session::ProbeRow& row : live.probe->rows)

@@ -25,7 +25,7 @@ struct ProbeTrace {
   std::string quantity;             ///< empty: the first one
   std::map<double, double> points;  ///< s, magnitude
   std::optional<dump::Probe> target;
-  std::uint64_t start = 0, returns = 0;  ///< of the run that they are of
+  session::KeptRun run{};
 
   /// Adds the moment. Points of another run are forgotten, later ones of this run stay while an
   /// earlier moment is shown.

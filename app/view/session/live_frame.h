@@ -2,7 +2,9 @@
 /// State of a simulation at one moment, for display: immutable, shared between threads.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -124,6 +126,25 @@ struct LiveFrame {
   std::optional<HistogramReading> histogram;
   std::string error;         ///< why something that was asked for was not done, the last one
   std::uint64_t errors = 0;  ///< how many there were, to tell a new one from the same
+};
+
+/// The run that kept moments are of.
+struct KeptRun {
+  std::uint64_t start = 0, returns = 0;  ///< of its LiveFrame
+
+  /// Erases the moments that the run of a frame does not have, because it began again or left them.
+  /// @param time_of  a moment, s @return the number of those erased
+  template <class Moments, class TimeOf>
+  std::size_t follow(const LiveFrame& live, Moments& moments, const TimeOf& time_of) {
+    constexpr double rounding = 1e-9;  // s
+    if (start == live.start && returns == live.returns) return 0;
+    const bool is_same_start = start == live.start;
+    start = live.start;
+    returns = live.returns;
+    return std::erase_if(moments, [&](const auto& moment) {
+      return !is_same_start || time_of(moment) > live.returned_to + rounding;
+    });
+  }
 };
 
 }  // namespace neve::app::view::session
