@@ -58,21 +58,27 @@ struct ThinAdvice {
   double coarsening;     ///< of the scene
 };
 
+/// "a, b, c, d, e and 12 more"; all where there are few.
+std::string first_names(std::vector<std::string> names) {
+  constexpr std::size_t max_named = 5;
+  if (names.size() <= max_named) return joined(names, ", ");
+  const std::size_t left = names.size() - max_named;
+  names.resize(max_named);
+  return fmt::format("{} and {} more", joined(names, ", "), left);
+}
+
 /// All of a kind in one finding, of the thinnest.
 void report_thin(const std::vector<Thin>& thin, const ThinAdvice& advice,
                  std::vector<Finding>& findings) {
   if (thin.empty()) return;
   const auto worst = std::min_element(
       thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.cells < b.cells; });
-  constexpr std::size_t max_named = 5;
   std::vector<std::string> others;
   for (auto other = thin.begin(); other != thin.end(); ++other)
-    if (other != worst && others.size() < max_named) others.push_back(other->name);
-  const std::size_t left = thin.size() - 1 - others.size();
+    if (other != worst) others.push_back(other->name);
   std::string what = fmt::format("{} is {} cells thick", worst->name, rough_text(worst->cells));
   if (!others.empty())
-    what += fmt::format(" (also under {}: {}{})", advice.bound, joined(others, ", "),
-                        left > 0 ? fmt::format(" and {} more", left) : "");
+    what += fmt::format(" (also under {}: {})", advice.bound, first_names(others));
   findings.push_back(
       {worst->cells < advice.warned ? Severity::warning : Severity::note, worst->address + ".shape",
        what,
@@ -308,6 +314,7 @@ double thickness(const sim::shapes::Shape& shape) {
 
 void check_units(const scene::Scene& scene, std::vector<Finding>& findings, double coarsening) {
   const std::vector<setup::SnowPiece> pieces = setup::snow_places(scene);
+  std::vector<std::string> idle;
   for (const sim::Material& material : scene.materials) {
     const bool is_used =
         std::any_of(pieces.begin(), pieces.end(),
@@ -317,12 +324,14 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
       const std::vector<Finding> doubts = law_findings(material);
       findings.insert(findings.end(), doubts.begin(), doubts.end());
     } else if (material.name != sim::Material{}.name) {  // snow is there in every scene
-      findings.push_back(
-          {Severity::warning, "material." + material.name,
-           fmt::format("no body and no emitter is of {}: its numbers do nothing", material.name),
-           fmt::format("{}.material = \"{}\"", pieces.front().address, material.name)});
+      idle.push_back(material.name);
     }
   }
+  if (!idle.empty())
+    findings.push_back({Severity::warning, "material." + idle.front(),
+                        fmt::format("no body and no emitter is of {}: {} numbers do nothing",
+                                    first_names(idle), idle.size() == 1 ? "its" : "their"),
+                        fmt::format("{}.material = \"{}\"", pieces.front().address, idle.front())});
   if (const auto birth = dense_birth(scene))
     findings.push_back(
         {Severity::warning, birth->address, evidence_text(*birth), advice_text(*birth)});

@@ -112,11 +112,6 @@ struct PlaceKey {
   const char* operator()(const sim::shapes::Cover&) const { return ".cover.center"; }
 };
 
-/// Advises on an unknown name of a thing in the scene.
-std::string name_advice(const std::string& name, const std::vector<std::string>& known) {
-  return advice::suggest(name, {"", known, true}, "expected " + list_of(known));
-}
-
 Found material_problem(const Scene& scene, const std::string& wanted, const std::string& address) {
   std::vector<std::string> names;
   for (const sim::Material& material : scene.materials) {

@@ -1,5 +1,7 @@
 #include "app/scene/leaf.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -254,12 +256,20 @@ std::vector<std::string> choices(const sim::laws::OneOf& member) {
 }
 
 std::string list_of(const std::vector<std::string>& names) {
+  constexpr std::size_t max_named = 60;  // no table and no parameter has as many words
+  const std::size_t named = names.size() > max_named ? max_named / 3 : names.size();
   std::string text;
-  for (std::size_t k = 0; k < names.size(); ++k) {
+  for (std::size_t k = 0; k < named; ++k) {
     if (k > 0) text += k + 1 == names.size() ? " or " : ", ";
     text += toml::toml_string(names[k]);
   }
+  if (named < names.size()) text += fmt::format(" or one of {} more", names.size() - named);
   return text;
+}
+
+std::string name_advice(const std::string& name, const std::vector<std::string>& known) {
+  if (known.empty()) return "the scene has none";
+  return advice::suggest(name, {"", known, true}, "expected " + list_of(known));
 }
 
 namespace {

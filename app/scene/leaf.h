@@ -66,8 +66,11 @@ toml::Value to_value(const sim::laws::OneOf& member);
 /// Names of the values of a parameter that a law describes.
 std::vector<std::string> choices(const sim::laws::OneOf& member);
 
-/// "a, b or c", quoted as in TOML.
+/// "a, b or c", quoted as in TOML; the first ones of very many, and how many more.
 std::string list_of(const std::vector<std::string>& names);
+
+/// Advises on an unknown name of a thing in the scene.
+std::string name_advice(const std::string& name, const std::vector<std::string>& known);
 
 /// Fails with the names that are allowed, and the nearest.
 [[noreturn]] void fail_choice(const Leaf& leaf, const std::vector<std::string>& allowed);

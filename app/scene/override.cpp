@@ -57,7 +57,7 @@ void refuse_unknown_name(const Override& change, const toml::Table& root) {
                   "write " + path[0] + ".NAME." + rest +
                       (known.empty() ? "; the scene has none" : ", NAME being " + list_of(known)));
     change.fail(change.key, "there is no " + path[0] + " " + toml::toml_string(path[1]),
-                known.empty() ? "the scene has none" : "expected " + list_of(known));
+                name_advice(path[1], known));
   }
 }
 
@@ -450,7 +450,7 @@ void remove_item_called(toml::Table& root, const Override& change, const std::st
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
     change.fail(change.key, "there is no " + list + " " + toml::toml_string(name),
-                names.empty() ? "the scene has none" : "expected " + list_of(names));
+                name_advice(name, names));
   remove_item(root, list, static_cast<std::size_t>(found - names.begin()));
 }
 

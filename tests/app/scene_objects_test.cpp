@@ -102,7 +102,9 @@ TEST(Objects, UnnamedOnesKeepTheirNumbersWhenAnotherIsRemoved) {
 
 TEST(Objects, MistakesAreTold) {
   EXPECT_EQ(object_error("body.bull=none"),
-            "--set body.bull=none: error: there is no body \"bull\"; expected \"ball\", \"2\" or "
+            "--set body.bull=none: error: there is no body \"bull\"; did you mean \"ball\"?");
+  EXPECT_EQ(object_error("body.slab=none"),
+            "--set body.slab=none: error: there is no body \"slab\"; expected \"ball\", \"2\" or "
             "\"3\"");
   EXPECT_EQ(object_error("sink.hole=none"),
             "--set sink.hole=none: error: there is no sink \"hole\"; the scene has none");

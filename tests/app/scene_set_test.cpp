@@ -128,10 +128,21 @@ TEST(Set, UnknownAddressesNameTheNearest) {
       "--set body.ball.densty=300: error: unknown parameter \"body.ball.densty\"; did you mean "
       "\"material.snow.density\"?");
   EXPECT_EQ(override_error("body.bull.velocity=[0,0,0]"),
-            "--set body.bull.velocity=[0,0,0]: error: there is no body \"bull\"; expected "
-            "\"ball\" or \"2\"");
+            "--set body.bull.velocity=[0,0,0]: error: there is no body \"bull\"; did you mean "
+            "\"ball\"?");
   EXPECT_EQ(override_error("view.fog.size=[1,1]"),
             "--set view.fog.size=[1,1]: error: there is no view \"fog\"; expected \"close\"");
+  std::string many = scene_text;
+  for (int k = 1; k <= 100; ++k) many += "[material.kind" + std::to_string(k) + "]\n";
+  try {
+    set({"material.gravel.density=300"}, many.c_str());
+    ADD_FAILURE();
+  } catch (const app::UsageError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("there is no material \"gravel\"; expected \"snow\", \"wet\", \"kind1\""),
+              std::string::npos);
+    EXPECT_TRUE(text.ends_with("\"kind18\" or one of 82 more")) << text;
+  }
   EXPECT_EQ(override_error("body.velocity=[0,0,0]"),
             "--set body.velocity=[0,0,0]: error: body.velocity does not say which body; write "
             "body.NAME.velocity, NAME being \"ball\" or \"2\"");

@@ -65,6 +65,11 @@ TEST(Senses, AMaterialOfNothingIsSaid) {
   expect_only("[material.powder]\npreset = \"powder\"\n",
               "material.powder: no body and no emitter is of powder: its numbers do nothing; "
               "body.ball.material = \"powder\"");
+  std::string many;
+  for (int k = 0; k < 250; ++k) many += "[material.idle" + std::to_string(k) + "]\n";
+  expect_only(many,
+              "material.idle0: no body and no emitter is of idle0, idle1, idle2, idle3, idle4 and "
+              "245 more: their numbers do nothing; body.ball.material = \"idle0\"");
 }
 
 TEST(Senses, GrainsAreNotPacked) {
