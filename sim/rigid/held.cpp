@@ -1,6 +1,7 @@
 #include "sim/rigid/held.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
@@ -34,18 +35,20 @@ std::array<Vec3d, 2> across(const Vec3d& axis) {
   return {first, axis.cross(first)};
 }
 
+/// Forces are taken where a body that turns is in the middle of the step, rad away at most.
+constexpr double farthest = 0.25;
+
 /// 1/s. A body is put back by so many times its size, or radians. Contact lets a body out of what
 /// it overlaps without regard to what holds it; put back in a single step, it was thrown along what
 /// is free, by 1e9 m/s.
 constexpr double recovery = 2;
 
 /// A step of one freedom on a spring and a damper, under a force that is constant in it. With the
-/// place x from where the spring is at rest, and the impulse J of other forces over the inertia:
-/// its way / dt = way_by_speed v + way_by_place x / dt + way_by_push J, and the speed at its end
-/// likewise.
+/// impulse J over the inertia, of other forces and of the spring as it was at the start:
+/// its way / dt = way_by_speed v + way_by_push J, and the speed at its end likewise.
 struct Swing {
-  double way_by_speed, way_by_place, way_by_push;
-  double end_by_speed, end_by_place, end_by_push;
+  double way_by_speed, way_by_push;
+  double end_by_speed, end_by_push;
 };
 
 /// Integral of the way that a speed of 1 makes in time 1, over that time.
@@ -53,14 +56,16 @@ struct Swing {
 /// at rest
 double way_of_push(double stiffness, double damping, double end) {
   constexpr double small = 1e-3, tiny = 1e-9;
-  if (stiffness < small && damping < small)  // differences of nearly equal numbers: by its series
+  if (std::abs(stiffness) < small &&
+      damping < small)  // differences of nearly equal numbers: by its series
     return 0.5 - damping / 6 + (damping * damping - stiffness) / 24 -
            damping * (damping * damping - 2 * stiffness) / 120;
-  if (stiffness < tiny) return (1 + std::expm1(-damping) / damping) / damping;
+  if (std::abs(stiffness) < tiny) return (1 + std::expm1(-damping) / damping) / damping;
   return (1 - end) / stiffness;
 }
 
-/// The exact motion, in a step of any length after one of any length.
+/// The exact motion, in a step of any length after one of any length, also away from a place where
+/// the force is zero and its stiffness negative.
 Swing exact_swing(double stiffness, double damping) {
   const double half = 0.5 * damping, over = half * half - stiffness;
   double even = 0, odd = 0;  // e^-half times cos and sin(t) / t, or cosh and sinh(u) / u
@@ -76,46 +81,59 @@ Swing exact_swing(double stiffness, double damping) {
   }
   const double end_of_place = even + half * odd,
                push = way_of_push(stiffness, damping, end_of_place);
-  return {odd, -stiffness * push, push, even - half * odd, -stiffness * odd, odd};
+  return {odd, push, even - half * odd, odd};
 }
 
 /// Implicit Euler: what is too fast for the step comes to rest.
 Swing damped_swing(double stiffness, double damping) {
   const double kept = 1 / (1 + damping + stiffness);
-  return {kept, -stiffness * kept, kept, kept, -stiffness * kept, kept};
+  return {kept, kept, kept, kept};
 }
 
 /// Swings of more than 12 steps a period are exact; those of less than six are damped. In between
 /// both are mixed. Neither adds to the energy, nor does the mixture, whatever steps follow.
-Swing swing_of(double stiffness, double damping) {
+/// @param stiffest  that the spring is anywhere on the way of the freedom
+Swing swing_of(double stiffness, double stiffest, double damping) {
   constexpr double finely = 0.5, coarsely = 1;  // rad in a step
-  const double share = (std::sqrt(stiffness) - finely) / (coarsely - finely);
-  const Swing b = damped_swing(stiffness, damping);
+  const double share = (std::sqrt(stiffest) - finely) / (coarsely - finely);
+  const Swing b = damped_swing(stiffest, damping);
   if (share >= 1) return b;
   const Swing a = exact_swing(stiffness, damping);
   if (share <= 0) return a;
   const auto mix = [&](double from, double to) { return from + share * (to - from); };
-  return {mix(a.way_by_speed, b.way_by_speed), mix(a.way_by_place, b.way_by_place),
-          mix(a.way_by_push, b.way_by_push),   mix(a.end_by_speed, b.end_by_speed),
-          mix(a.end_by_place, b.end_by_place), mix(a.end_by_push, b.end_by_push)};
+  return {mix(a.way_by_speed, b.way_by_speed), mix(a.way_by_push, b.way_by_push),
+          mix(a.end_by_speed, b.end_by_speed), mix(a.end_by_push, b.end_by_push)};
 }
 
+/// One freedom on all its springs and dampers, in its own units.
+struct Freedom {
+  double inertia;
+  double force = 0;  ///< of the springs, at the start of the step
+  double stiffness = 0, stiffest = 0;
+  double damping = 0;
+
+  void add(double spring, double damper, double beyond) {
+    force -= spring * beyond;
+    stiffness += spring;
+    stiffest += spring;
+    damping += damper;
+  }
+};
+
 struct SpringStep {
-  double impulse = 0;  ///< of the spring, for the way in the step
+  double impulse = 0;  ///< of the springs, for the way in the step
   double later = 0;    ///< speed at its end beyond that of the way
 };
 
-/// @param beyond  of rest  @param speed  at the start  @param push  impulse of all else
-/// @param inertia  of the freedom
-SpringStep spring(double stiffness, double damping, double beyond, double speed, double push,
-                  double inertia, double dt) {
-  const Swing swing = swing_of(stiffness * dt * dt / inertia, damping * dt / inertia);
-  const double by_push = push / inertia, by_place = beyond / dt;
-  const double way =
-      swing.way_by_speed * speed + swing.way_by_place * by_place + swing.way_by_push * by_push;
-  const double end =
-      swing.end_by_speed * speed + swing.end_by_place * by_place + swing.end_by_push * by_push;
-  return {inertia * (way - speed) - push, end - way};
+/// @param speed  at the start  @param push  impulse of all else
+SpringStep spring_step(const Freedom& on, double speed, double push, double dt) {
+  const double square = dt * dt / on.inertia;
+  const Swing swing =
+      swing_of(on.stiffness * square, on.stiffest * square, on.damping * dt / on.inertia);
+  const double pushed = (push + on.force * dt) / on.inertia;
+  const double way = swing.way_by_speed * speed + swing.way_by_push * pushed;
+  const double end = swing.end_by_speed * speed + swing.end_by_push * pushed;
+  return {on.inertia * (way - speed) - push, end - way};
 }
 
 }  // namespace
@@ -144,6 +162,25 @@ bool Held::turns_freely(const shapes::RigidBody& body) {
   return body.joint == Joint::none &&
          std::none_of(body.hold.begin(), body.hold.end(),
                       [](HeldAxis axis) { return axis >= HeldAxis::turn_x; });
+}
+
+std::optional<Held::Pivot> Held::pivot_of(const shapes::RigidBody& body) {
+  if (body.joint != Joint::hinge && body.joint != Joint::ball) return {};
+  const Vec3d axis = body.joint_axis.stableNormalized();
+  int about = -1, turns_held = 0;  // the axis of the scene that it turns about
+  for (int a = 0; a < 3; ++a) {
+    const bool turns = !is_held(body, turn_about(a));
+    turns_held += !turns;
+    if (body.joint == Joint::hinge ? std::abs(axis[a]) > 1 - 1e-12 : turns) about = a;
+  }
+  if (body.joint == Joint::ball && turns_held == 0 && body.hold.empty()) return Pivot{};
+  if (body.joint == Joint::ball && turns_held != 2) return {};
+  // Beside its joint, the body may be held along the axis and in the turns across it: as it is.
+  for (const HeldAxis held : body.hold)
+    if (about < 0 || (held != static_cast<HeldAxis>(about) && held < HeldAxis::turn_x) ||
+        held == turn_about(about))
+      return {};
+  return Pivot{body.joint == Joint::hinge ? axis : Vec3d(Vec3d::Unit(about))};
 }
 
 bool Held::holds(const shapes::RigidBody& body) {
@@ -220,38 +257,97 @@ Held::Speeds Held::allowed(const Speeds& given, const Mat3d& inertia) const {
 Held::Speeds Held::add_springs(double dt, const Speeds& before, const Speeds& pushed,
                                const Mat3d& inertia, Vec3d& impulse, Vec3d& moment) const {
   Speeds later{Vec3d::Zero(), Vec3d::Zero()};
-  if (held_.spring_stiffness > 0 || held_.spring_damping > 0) {
-    for (int a = 0; a < 3; ++a) {
-      const SpringStep along =
-          spring(held_.spring_stiffness, held_.spring_damping, centre_[a] - held_.spring_place[a],
-                 before.velocity[a], mass_ * (pushed.velocity[a] - before.velocity[a]), mass_, dt);
-      impulse[a] += along.impulse;
-      later.velocity[a] += along.later;
+  const bool has_spring = held_.spring_stiffness > 0 || held_.spring_damping > 0;
+  const bool has_joint = held_.joint_stiffness > 0 || held_.joint_damping > 0;
+  if (!has_spring && !has_joint) return later;
+  if (held_.joint == Joint::hinge || held_.joint == Joint::ball)
+    return add_turns(dt, before, pushed, inertia, impulse, moment);
+  const auto add_along = [&](const Vec3d& axis, const Freedom& freedom) {
+    const double speed = axis.dot(before.velocity);
+    const SpringStep along =
+        spring_step(freedom, speed, mass_ * (axis.dot(pushed.velocity) - speed), dt);
+    impulse += along.impulse * axis;
+    later.velocity += along.later * axis;
+  };
+  if (held_.joint == Joint::slider) {
+    Freedom along{mass_};
+    along.add(held_.joint_stiffness, held_.joint_damping, axis_.dot(centre_ - start_));
+    along.add(held_.spring_stiffness, held_.spring_damping,
+              axis_.dot(centre_ - held_.spring_place));
+    add_along(axis_, along);
+    return later;
+  }
+  for (int a = 0; a < 3; ++a) {
+    Freedom along{mass_};
+    along.add(held_.spring_stiffness, held_.spring_damping, centre_[a] - held_.spring_place[a]);
+    add_along(Vec3d::Unit(a), along);
+  }
+  return later;
+}
+
+Held::Speeds Held::add_turns(double dt, const Speeds& before, const Speeds& pushed,
+                             const Mat3d& inertia, Vec3d& impulse, Vec3d& moment) const {
+  const std::optional<Pivot> pivot = pivot_of(held_);
+  const bool is_hinge = pivot ? pivot->axis.has_value() : held_.joint == Joint::hinge;
+  const Vec3d axis = pivot && pivot->axis ? *pivot->axis : axis_;
+  // Of a hinge, nothing along its axis moves.
+  const auto moving = [&](const Vec3d& x) { return is_hinge ? Vec3d(x - axis.dot(x) * axis) : x; };
+  const Vec3d arm = moving(now_ * -arm_);  // of the centre of mass, from the joint
+  const double square = arm.squaredNorm();
+  const Mat3d about = inertia + mass_ * (square * Mat3d::Identity() - arm * arm.transpose());
+  // Of what the spring pulls, the part along the arm moves nothing. The rest is the weight of a
+  // pendulum: its stiffness is negative where it stands on its head.
+  const Vec3d weight = moving(held_.spring_stiffness * (held_.spring_place - held_.joint_point));
+  // The joint will turn the momentum of the free body into a spin about it.
+  const auto momentum = [&](const Speeds& free) {
+    return Vec3d(inertia * free.spin + mass_ * arm.cross(free.velocity));
+  };
+  const Vec3d start = momentum(before), push = momentum(pushed) - start;
+  Speeds later{Vec3d::Zero(), Vec3d::Zero()};
+  if (is_hinge) {
+    Freedom turn{axis.dot(about * axis)};
+    if (held_.joint == Joint::hinge)
+      turn.add(held_.joint_stiffness, held_.joint_damping,
+               hinge_angle(axis, now_ * rotation_.transpose(), angle_));
+    const double rate = axis.dot(start) / turn.inertia,
+                 half = std::clamp(0.5 * dt * rate, -farthest, farthest);
+    const Vec3d middle = Eigen::AngleAxisd(half, axis) * arm;
+    turn.force += axis.dot(middle.cross(weight)) + middle.dot(weight) * half;
+    turn.stiffness += middle.dot(weight);
+    turn.stiffest += arm.norm() * weight.norm();
+    turn.damping += held_.spring_damping * square;
+    const SpringStep step = spring_step(turn, rate, axis.dot(push), dt);
+    moment += step.impulse * axis;
+    later.spin = step.later * axis;
+  } else if (square > 0) {
+    // Ways across the arm, in the two directions in which an impulse gives a speed along itself.
+    const Eigen::LDLT<Mat3d> turning = about.ldlt();
+    const auto spin = [&](const Vec3d& m) { return Vec3d(turning.solve(m)); };
+    const auto speed = [&](const Vec3d& m) { return Vec3d(spin(m).cross(arm)); };
+    Eigen::Matrix<double, 3, 2> ways;
+    ways << across(arm / std::sqrt(square))[0], across(arm / std::sqrt(square))[1];
+    Eigen::Matrix2d given;
+    for (int k = 0; k < 2; ++k) given.col(k) = ways.transpose() * speed(arm.cross(ways.col(k)));
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> apart(given);
+    const Vec3d moved = arm.cross(speed(start)) / square;  // rad/s
+    const double angle = std::min(0.5 * dt * moved.norm(), farthest);
+    const Eigen::AngleAxisd half(angle, moved.stableNormalized());
+    const Vec3d middle = half * arm;
+    for (int k = 0; k < 2; ++k) {
+      const Vec3d way = ways * apart.eigenvectors().col(k);
+      Freedom along{1 / apart.eigenvalues()[k]};
+      along.stiffness = middle.dot(weight) / square;
+      along.force =
+          (half * way).dot(weight) + along.stiffness * angle * half.axis().cross(arm).dot(way);
+      along.stiffest = weight.norm() / std::sqrt(square);
+      along.damping = held_.spring_damping;
+      const SpringStep step =
+          spring_step(along, way.dot(speed(start)), along.inertia * way.dot(speed(push)), dt);
+      impulse += step.impulse * way;
+      later.spin += spin(arm.cross(along.inertia * step.later * way));
     }
   }
-  if (held_.joint_stiffness <= 0 && held_.joint_damping <= 0) return later;
-  if (held_.joint == Joint::slider) {
-    const double speed = axis_.dot(before.velocity);
-    const SpringStep along =
-        spring(held_.joint_stiffness, held_.joint_damping, axis_.dot(centre_ - start_), speed,
-               mass_ * (axis_.dot(pushed.velocity) - speed), mass_, dt);
-    impulse += along.impulse * axis_;
-    later.velocity += along.later * axis_;
-  } else if (held_.joint == Joint::hinge) {
-    const Vec3d arm = now_ * arm_, off = arm - axis_.dot(arm) * axis_;
-    const double about = axis_.dot(inertia * axis_) + mass_ * off.squaredNorm();
-    // The joint will turn the momentum of the free body into a spin about the axis.
-    const auto turning = [&](const Speeds& free) {
-      return axis_.dot(inertia * free.spin) - mass_ * axis_.dot(arm.cross(free.velocity));
-    };
-    const SpringStep turn =
-        spring(held_.joint_stiffness, held_.joint_damping,
-               hinge_angle(axis_, now_ * rotation_.transpose(), angle_), turning(before) / about,
-               turning(pushed) - turning(before), about, dt);
-    moment += turn.impulse * axis_;
-    later.spin += turn.later * axis_;
-    later.velocity -= turn.later * axis_.cross(arm);
-  }
+  later.velocity = later.spin.cross(arm);
   return later;
 }
 

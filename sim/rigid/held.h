@@ -4,6 +4,9 @@
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <optional>
+#include <vector>
+
 #include "sim/rigid/mass.h"
 
 namespace neve::sim::rigid {
@@ -24,6 +27,12 @@ class Held final : public btTypedConstraint {
   static bool holds(const shapes::RigidBody& body);
   /// True where no row is about a turn.
   static bool turns_freely(const shapes::RigidBody& body);
+  /// What the body turns about: a ball joint, or the axis of a hinge or of a ball joint with two
+  /// turns held. Nothing where `hold` takes more of the motion, or there is no such joint.
+  struct Pivot {
+    std::optional<Vec3d> axis;
+  };
+  static std::optional<Pivot> pivot_of(const shapes::RigidBody& body);
 
   struct Speeds {
     Vec3d velocity, spin;
@@ -39,8 +48,9 @@ class Held final : public btTypedConstraint {
   void set_place(const Vec3d& centre, const Mat3d& rotation, double angle);
 
   /// Adds the impulse of the springs in a step of dt, and its moment about the centre of mass:
-  /// exact for the one freedom that the joint leaves where a period has 12 steps or more, damped
-  /// and stable where it has less.
+  /// exact where a period has 12 steps or more and the force is linear in the freedom that the
+  /// joint leaves, damped and stable where it has less. A spring across a hinge or a ball joint
+  /// swings as a pendulum, to the square of the step.
   /// @param before  the step @param pushed  by all else in it
   /// @return the speeds at the end of the step beyond those of its way, which impulses give
   Speeds add_springs(double dt, const Speeds& before, const Speeds& pushed, const Mat3d& inertia,
@@ -58,6 +68,9 @@ class Held final : public btTypedConstraint {
   };
   std::vector<Row> rows() const;
   void add_joint(std::vector<Row>& rows) const;
+  /// Adds the springs of what turns about a joint, as add_springs() does.
+  Speeds add_turns(double dt, const Speeds& before, const Speeds& pushed, const Mat3d& inertia,
+                   Vec3d& impulse, Vec3d& moment) const;
 
   const shapes::RigidBody held_;
   const double mass_, size_;  ///< m, the radius of gyration

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "sim/rigid/contact_search.h"
@@ -224,7 +225,7 @@ class RigidBodies::World {
     out.body->setFriction(bullet_friction(collider));
     out.body->setActivationState(DISABLE_DEACTIVATION);
     // Bullet's gyroscopic torque is damped; see free_turn. A held body takes it along in its rows.
-    if (Held::turns_freely(collider.body)) out.body->setFlags(0);
+    if (Held::turns_freely(collider.body) || Held::pivot_of(collider.body)) out.body->setFlags(0);
     if (Held::holds(collider.body)) {
       const Mat3d turned = rotation_from_degrees(collider.shape.rotation) * body.axes;
       out.held = std::make_unique<Held>(*out.body, collider, body.mass, turned, unit_);
@@ -620,9 +621,11 @@ struct Turn {
 
 /// The turn of a body that nothing turns, and its spin at the end. The angular momentum stays as it
 /// is, and the implicit midpoint of the turn keeps the energy to second order, without drift.
-/// @param momentum  angular, about the centre of mass @param inertia  in the axes of the form
+/// @param momentum  angular, about what it turns about @param inertia  in the axes of the form
+/// @param halvings  that are left: a body on a joint may be turned further than the midpoint finds
 Turn free_turn(const Mat3d& rotation, const Mat3d& axes, const Vec3d& momentum,
-               const Mat3d& inertia, double dt) {
+               const Mat3d& inertia, double dt, int halvings = 8) {
+  constexpr double min_spin = 1e-300;
   const Mat3d inverse = inertia.inverse();
   const auto spin_at = [&](const Mat3d& attitude) {
     const Mat3d form = attitude * axes;
@@ -632,16 +635,39 @@ Turn free_turn(const Mat3d& rotation, const Mat3d& axes, const Vec3d& momentum,
     return Mat3d(rotation_from_vector(time * spin) * rotation);
   };
   constexpr int most = 30;  // a step turns by less than a quarter: each one gains a digit
-  constexpr double enough = 1e-15;
+  constexpr double enough = 1e-15, nothing_found = 1e-6;
   Vec3d spin = spin_at(rotation);
-  for (int k = 0; k < most; ++k) {
+  double change = INFINITY;  // of the spin, for its length
+  for (int k = 0; k < most && change > enough; ++k) {
     const Vec3d next = spin_at(turned(0.5 * dt, spin));
-    const bool is_found = (next - spin).norm() <= enough * next.norm();
+    change = (next - spin).norm() / std::max(next.norm(), min_spin);
     spin = next;
-    if (is_found) break;
+  }
+  if (change > nothing_found && halvings > 0) {
+    const Turn half = free_turn(rotation, axes, momentum, inertia, 0.5 * dt, halvings - 1);
+    return free_turn(half.rotation, axes, momentum, inertia, 0.5 * dt, halvings - 1);
   }
   const Mat3d end = turned(dt, spin);
   return {end, spin_at(end)};
+}
+
+/// The turn of a body about its hinge or ball joint, and its spin at the end: of a hinge it is the
+/// same, of a ball joint that of a body whose inertia is about the joint.
+/// @param lever  from the joint to the centre of mass, in the axes of the form
+/// @param hinge  its axis; nothing: a ball joint
+Turn joined_turn(const Motion& at, const Mat3d& axes, const Vec3d& lever,
+                 const MassProperties& mass, const std::optional<Vec3d>& hinge, double dt) {
+  const Mat3d form = at.rotation * axes;
+  const Mat3d inertia = mass.inertia + mass.mass * (lever.squaredNorm() * Mat3d::Identity() -
+                                                    lever * lever.transpose());
+  const Vec3d momentum = form * (mass.inertia * (form.transpose() * at.spin)) +
+                         mass.mass * (form * lever).cross(at.velocity);
+  if (!hinge) return free_turn(at.rotation, axes, momentum, inertia, dt);
+  const Vec3d axis = *hinge, in_form = form.transpose() * axis;
+  const Vec3d spin = axis.dot(momentum) / in_form.dot(inertia * in_form) * axis;
+  // What is beside the axis turns a body back that has tilted, for this step.
+  const Vec3d beside = at.spin - axis.dot(at.spin) * axis;
+  return {rotation_from_vector(dt * (spin + beside)) * at.rotation, spin};
 }
 
 }  // namespace
@@ -649,29 +675,48 @@ Turn free_turn(const Mat3d& rotation, const Mat3d& axes, const Vec3d& momentum,
 void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& collider) const {
   const Body& body = bodies_[k];
   const Motion& after = body.after;
+  const auto arm_of = [&](const Mat3d& rotation) {
+    return Vec3d(rotation * body.axes * body.mass.centre);
+  };
+  const std::optional<Held::Pivot> pivot = Held::pivot_of(collider.body);
+  // From the joint to the centre of mass, in the axes of the form.
+  const Mat3d at_first = rotation_from_degrees(collider.shape.rotation);
+  const Vec3d lever =
+      body.axes.transpose() * at_first.transpose() *
+      (shapes::center(collider.shape) + arm_of(at_first) - collider.body.joint_point);
   const Turn turn =
-      Held::turns_freely(collider.body)
+      pivot ? joined_turn(after, body.axes, lever, body.mass, pivot->axis, dt)
+      : Held::turns_freely(collider.body)
           ? free_turn(after.rotation, body.axes, inertia(k) * after.spin, body.mass.inertia, dt)
           : Turn{rotation_from_vector(dt * after.spin) * after.rotation, after.spin};
   const Vec3d spin = turn.spin + body.later_spin;
   // Products of many turns stay a turn.
   const Eigen::Quaterniond attitude = Eigen::Quaterniond(turn.rotation).normalized();
   const Mat3d rotation = attitude.toRotationMatrix();
-  const Vec3d arm = rotation * body.axes * body.mass.centre;
-  const Vec3d point = body.after.centre + dt * body.after.velocity - arm;
+  const Vec3d arm = arm_of(rotation);
+  Vec3d centre = after.centre + dt * after.velocity,
+        velocity = after.velocity + body.later_velocity;
+  if (pivot) {
+    // The centre of mass goes round the joint, and its speed with it: along the tangent at its
+    // start it would leave the circle, and lose speed as it is put back. What velocity has beside
+    // that goes back to the joint, for this step.
+    const Vec3d from = after.rotation * body.axes * lever, to = rotation * body.axes * lever;
+    centre += to - from - dt * after.spin.cross(from);
+    velocity = spin.cross(to);
+  }
+  const Vec3d point = centre - arm;
   const Mat3d since_start = rotation * rotation_from_degrees(collider.shape.rotation).transpose();
   double joint_angle = 0;
   if (collider.body.joint == shapes::Joint::hinge) {
     const Vec3d axis = collider.body.joint_axis.stableNormalized();
     joint_angle = hinge_angle(axis, since_start, body.joint_angle + dt * axis.dot(body.after.spin));
   }
-  collider.pose_offset = {
-      time,
-      point - shapes::center(collider.shape),
-      since_start,
-      collider.pose_offset.delay,
-      std::array{Vec3d(body.after.velocity + body.later_velocity - spin.cross(arm)), spin},
-      joint_angle};
+  collider.pose_offset = {time,
+                          point - shapes::center(collider.shape),
+                          since_start,
+                          collider.pose_offset.delay,
+                          std::array{Vec3d(velocity - spin.cross(arm)), spin},
+                          joint_angle};
 }
 
 }  // namespace neve::sim::rigid
