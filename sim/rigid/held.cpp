@@ -290,13 +290,13 @@ Held::Speeds Held::add_turns(double dt, const Speeds& before, const Speeds& push
   const std::optional<Pivot> pivot = pivot_of(held_);
   const bool is_hinge = pivot ? pivot->axis.has_value() : held_.joint == Joint::hinge;
   const Vec3d axis = pivot && pivot->axis ? *pivot->axis : axis_;
-  // Of a hinge, nothing along its axis moves.
+  // A hinge lets nothing move along its axis.
   const auto moving = [&](const Vec3d& x) { return is_hinge ? Vec3d(x - axis.dot(x) * axis) : x; };
   const Vec3d arm = moving(now_ * -arm_);  // of the centre of mass, from the joint
   const double square = arm.squaredNorm();
   const Mat3d about = inertia + mass_ * (square * Mat3d::Identity() - arm * arm.transpose());
-  // Of what the spring pulls, the part along the arm moves nothing. The rest is the weight of a
-  // pendulum: its stiffness is negative where it stands on its head.
+  // The pull of the spring along the arm moves nothing. The rest is the weight of a pendulum: its
+  // stiffness is negative where it stands on its head.
   const Vec3d weight = moving(held_.spring_stiffness * (held_.spring_place - held_.joint_point));
   // The joint will turn the momentum of the free body into a spin about it.
   const auto momentum = [&](const Speeds& free) {

@@ -27,8 +27,8 @@ class Held final : public btTypedConstraint {
   static bool holds(const shapes::RigidBody& body);
   /// True where no row is about a turn.
   static bool turns_freely(const shapes::RigidBody& body);
-  /// What the body turns about: a ball joint, or the axis of a hinge or of a ball joint with two
-  /// turns held. Nothing where `hold` takes more of the motion, or there is no such joint.
+  /// The body turns about a ball joint, or about the axis of a hinge or of a ball joint with two
+  /// turns held. There is no pivot where `hold` takes more of the motion, or without such a joint.
   struct Pivot {
     std::optional<Vec3d> axis;
   };

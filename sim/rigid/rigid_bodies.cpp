@@ -665,7 +665,7 @@ Turn joined_turn(const Motion& at, const Mat3d& axes, const Vec3d& lever,
   if (!hinge) return free_turn(at.rotation, axes, momentum, inertia, dt);
   const Vec3d axis = *hinge, in_form = form.transpose() * axis;
   const Vec3d spin = axis.dot(momentum) / in_form.dot(inertia * in_form) * axis;
-  // What is beside the axis turns a body back that has tilted, for this step.
+  // The part beside the axis turns a body back that has tilted, for this step.
   const Vec3d beside = at.spin - axis.dot(at.spin) * axis;
   return {rotation_from_vector(dt * (spin + beside)) * at.rotation, spin};
 }
@@ -698,8 +698,8 @@ void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& 
         velocity = after.velocity + body.later_velocity;
   if (pivot) {
     // The centre of mass goes round the joint, and its speed with it: along the tangent at its
-    // start it would leave the circle, and lose speed as it is put back. What velocity has beside
-    // that goes back to the joint, for this step.
+    // start it would leave the circle, and lose speed as it is put back. The rest of the
+    // velocity goes back to the joint, for this step.
     const Vec3d from = after.rotation * body.axes * lever, to = rotation * body.axes * lever;
     centre += to - from - dt * after.spin.cross(from);
     velocity = spin.cross(to);

@@ -241,7 +241,7 @@ TEST_F(SweepFileTest, MistakesAreLocatedAndNearestNamesGiven) {
        "4:1 unknown parameter \"material.snow.hardning\"; did you mean "
        "\"material.snow.hardening\"?"},
       {"[axis]\n\"body.bull.velocity\" = [[0, 0, 0]]\n",
-       "4:1 there is no body \"bull\"; expected \"ball\""},
+       "4:1 there is no body \"bull\"; did you mean \"ball\"?"},
       {"[axis]\n\"solver.transfer\" = [\"flip\", \"apix\"]\n",
        "4:30 solver.transfer = \"apix\"; expected \"flip\", \"apic\", \"mls\", \"aflip\" or "
        "\"asflip\"; did you mean \"apic\"?"},

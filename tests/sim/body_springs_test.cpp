@@ -228,7 +228,7 @@ TEST(BodySprings, ASpringAcrossABallJointKeepsEnergyAndMomentum) {
   }
 }
 
-/// What a damper takes of a spin does not depend on the step.
+/// A damper takes as much of a spin in long steps as in short ones.
 TEST(BodySprings, ADamperAcrossAJointTakesTheSpinExactly) {
   for (const auto joint : {shapes::Joint::hinge, shapes::Joint::ball})
     for (const double dt : {1e-3, 0.01}) {

@@ -649,11 +649,11 @@ TEST(RigidBodies, APendulumSwingsInItsTime) {
   EXPECT_NEAR(world.pose(0).point.norm(), 0.25, 1e-3) << "the hinge came off";
 }
 
-/// What swings or spins on a joint keeps its energy, and about the vertical its angular momentum,
-/// for as long as it does. Gravity pushes at the start of a step, so the energy of one swing comes
-/// and goes by some thousandths, of 1 ms, and none is lost. With speeds along the tangent at the
-/// start of each step, a top of 20 rad/s lost a third of it in 10 s, and turned round the other
-/// way.
+/// A body that swings or spins on a joint keeps its energy, and about the vertical its angular
+/// momentum, for as long as it does. Gravity pushes at the start of a step, so the energy of one
+/// swing comes and goes by some thousandths, of 1 ms, and none is lost. With speeds along the
+/// tangent at the start of each step, a top of 20 rad/s lost a third of it in 10 s, and turned
+/// round the other way.
 TEST(RigidBodies, WhatTurnsOnAJointKeepsItsEnergy) {
   struct Case {
     shapes::Joint joint;
