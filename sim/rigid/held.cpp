@@ -1,10 +1,8 @@
 #include "sim/rigid/held.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -231,26 +229,30 @@ void Held::add_joint(std::vector<Row>& rows) const {
 }
 
 Held::Speeds Held::allowed(const Speeds& given, const Mat3d& inertia) const {
-  const std::vector<Row> held = rows();
-  if (held.empty()) return given;  // a spring or a damper alone
-  const auto count = static_cast<Eigen::Index>(held.size());
-  // The rows, and the speeds that an impulse along each gives; a row may repeat others.
-  Eigen::MatrixXd row(count, 6), given_by(6, count);
-  const Eigen::LDLT<Mat3d> turning = inertia.ldlt();
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Row& r = held[static_cast<std::size_t>(k)];
-    row.row(k) << r.along.transpose(), r.about.transpose();
-    if (r.along.isZero(0)) row.row(k) *= size_;  // a length, as the others
-    given_by.col(k) << row.row(k).head<3>().transpose() / mass_,
-        turning.solve(Vec3d(row.row(k).tail<3>()));
-  }
-  Eigen::Matrix<double, 6, 1> speeds;
+  using Six = Eigen::Matrix<double, 6, 1>;
+  const Mat3d turning = inertia.inverse();
+  const auto speeds_of = [&](const Six& impulse) {
+    Six speeds;
+    speeds << impulse.head<3>() / mass_, turning * impulse.tail<3>();
+    return speeds;
+  };
+  Six speeds;
   speeds << given.velocity, given.spin;
-  const Eigen::MatrixXd response = row * given_by;
-  // Values, not expressions: each one that holds the decomposition would be compiled anew.
-  const Eigen::VectorXd missing = row * speeds;
-  const Eigen::VectorXd impulses = response.completeOrthogonalDecomposition().solve(missing);
-  speeds -= given_by * impulses;
+  // Each impulse is one that gives no speed along the rows before.
+  std::vector<Six> impulses;
+  for (const Row& r : rows()) {
+    constexpr double nothing = 1e-20;  // of a square: the row repeats others
+    Six row;
+    row << r.along, r.about;
+    const double whole = row.dot(speeds_of(row));
+    for (int pass = 0; pass < 2; ++pass)  // the second takes what rounding has left
+      for (const Six& other : impulses) row -= row.dot(speeds_of(other)) * other;
+    const double left = row.dot(speeds_of(row));
+    if (left <= nothing * whole) continue;
+    row /= std::sqrt(left);
+    speeds -= row.dot(speeds) * speeds_of(row);
+    impulses.push_back(row);
+  }
   return {speeds.head<3>(), speeds.tail<3>()};
 }
 
@@ -321,21 +323,20 @@ Held::Speeds Held::add_turns(double dt, const Speeds& before, const Speeds& push
     later.spin = step.later * axis;
   } else if (square > 0) {
     // Ways across the arm, in the two directions in which an impulse gives a speed along itself.
-    const Eigen::LDLT<Mat3d> turning = about.ldlt();
-    const auto spin = [&](const Vec3d& m) { return Vec3d(turning.solve(m)); };
+    const Mat3d turning = about.inverse();
+    const auto spin = [&](const Vec3d& m) { return Vec3d(turning * m); };
     const auto speed = [&](const Vec3d& m) { return Vec3d(spin(m).cross(arm)); };
-    Eigen::Matrix<double, 3, 2> ways;
-    ways << across(arm / std::sqrt(square))[0], across(arm / std::sqrt(square))[1];
-    Eigen::Matrix2d given;
-    for (int k = 0; k < 2; ++k) given.col(k) = ways.transpose() * speed(arm.cross(ways.col(k)));
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> apart(given);
+    const std::array<Vec3d, 2> ways = across(arm / std::sqrt(square));
+    const std::array<Vec3d, 2> given{speed(arm.cross(ways[0])), speed(arm.cross(ways[1]))};
+    const double turned = 0.5 * std::atan2(2 * ways[0].dot(given[1]),
+                                           ways[0].dot(given[0]) - ways[1].dot(given[1])),
+                 c = std::cos(turned), s = std::sin(turned);
     const Vec3d moved = arm.cross(speed(start)) / square;  // rad/s
     const double angle = std::min(0.5 * dt * moved.norm(), farthest);
     const Eigen::AngleAxisd half(angle, moved.stableNormalized());
     const Vec3d middle = half * arm;
-    for (int k = 0; k < 2; ++k) {
-      const Vec3d way = ways * apart.eigenvectors().col(k);
-      Freedom along{1 / apart.eigenvalues()[k]};
+    for (const Vec3d& way : {Vec3d(c * ways[0] + s * ways[1]), Vec3d(c * ways[1] - s * ways[0])}) {
+      Freedom along{1 / way.dot(speed(arm.cross(way)))};
       along.stiffness = middle.dot(weight) / square;
       along.force =
           (half * way).dot(weight) + along.stiffness * angle * half.axis().cross(arm).dot(way);
