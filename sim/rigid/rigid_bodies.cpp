@@ -663,7 +663,8 @@ Turn joined_turn(const Motion& at, const Mat3d& axes, const Vec3d& lever,
   const Vec3d momentum = form * (mass.inertia * (form.transpose() * at.spin)) +
                          mass.mass * (form * lever).cross(at.velocity);
   if (!hinge) return free_turn(at.rotation, axes, momentum, inertia, dt);
-  const Vec3d axis = *hinge, in_form = form.transpose() * axis;
+  const Vec3d& axis = *hinge;
+  const Vec3d in_form = form.transpose() * axis;
   const Vec3d spin = axis.dot(momentum) / in_form.dot(inertia * in_form) * axis;
   // The part beside the axis turns a body back that has tilted, for this step.
   const Vec3d beside = at.spin - axis.dot(at.spin) * axis;
