@@ -58,15 +58,6 @@ struct ThinAdvice {
   double coarsening;     ///< of the scene
 };
 
-/// "a, b, c, d, e and 12 more"; all where there are few.
-std::string first_names(std::vector<std::string> names) {
-  constexpr std::size_t max_named = 5;
-  if (names.size() <= max_named) return joined(names, ", ");
-  const std::size_t left = names.size() - max_named;
-  names.resize(max_named);
-  return fmt::format("{} and {} more", joined(names, ", "), left);
-}
-
 /// All of a kind in one finding, of the thinnest.
 void report_thin(const std::vector<Thin>& thin, const ThinAdvice& advice,
                  std::vector<Finding>& findings) {
@@ -78,7 +69,7 @@ void report_thin(const std::vector<Thin>& thin, const ThinAdvice& advice,
     if (other != worst) others.push_back(other->name);
   std::string what = fmt::format("{} is {} cells thick", worst->name, rough_text(worst->cells));
   if (!others.empty())
-    what += fmt::format(" (also under {}: {})", advice.bound, first_names(others));
+    what += fmt::format(" (also under {}: {})", advice.bound, first_joined(others));
   findings.push_back(
       {worst->cells < advice.warned ? Severity::warning : Severity::note, worst->address + ".shape",
        what,
@@ -330,7 +321,7 @@ void check_units(const scene::Scene& scene, std::vector<Finding>& findings, doub
   if (!idle.empty())
     findings.push_back({Severity::warning, "material." + idle.front(),
                         fmt::format("no body and no emitter is of {}: {} numbers do nothing",
-                                    first_names(idle), idle.size() == 1 ? "its" : "their"),
+                                    first_joined(idle), idle.size() == 1 ? "its" : "their"),
                         fmt::format("{}.material = \"{}\"", pieces.front().address, idle.front())});
   if (const auto birth = dense_birth(scene))
     findings.push_back(

@@ -4,6 +4,7 @@
 #include <new>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "app/output/atomic_file.h"
 #include "app/output/checkpoint.h"
@@ -12,6 +13,7 @@
 #include "app/record/picture_record.h"
 #include "app/support/errors.h"
 #include "app/support/room.h"
+#include "app/support/text.h"
 #include "render/image/exr.h"
 
 namespace neve::app::record {
@@ -279,12 +281,9 @@ std::optional<Verification> verify_list(const fs::path& list, const std::string&
 }
 
 std::string flaw_text(const std::vector<Flaw>& flaws) {
-  constexpr std::size_t most = 5;
-  std::string text;
-  for (std::size_t k = 0; k < std::min(most, flaws.size()); ++k)
-    text += (k > 0 ? ", " : "") + flaws[k].file + " " + flaws[k].what;
-  if (flaws.size() > most) text += " and " + std::to_string(flaws.size() - most) + " more";
-  return text;
+  std::vector<std::string> texts;
+  for (const Flaw& flaw : flaws) texts.push_back(flaw.file + " " + flaw.what);
+  return first_joined(std::move(texts));
 }
 
 }  // namespace neve::app::record

@@ -143,6 +143,14 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
+std::string first_joined(std::vector<std::string> words) {
+  constexpr std::size_t most = 5;
+  if (words.size() <= most) return joined(words, ", ");
+  const std::size_t left = words.size() - most;
+  words.resize(most);
+  return joined(words, ", ") + " and " + std::to_string(left) + " more";
+}
+
 std::string shell_word(const std::string& text) {
   const std::string plain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,=+:@%";

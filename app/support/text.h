@@ -59,5 +59,7 @@ std::vector<std::string> comma_separated(std::string_view text);
 /// A text with its numbers, roughly, in place of {}.
 std::string filled(std::string_view text, const std::vector<double>& numbers);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
+/// "a, b, c, d, e and 12 more"; all where there are few.
+std::string first_joined(std::vector<std::string> words);
 
 }  // namespace neve::app

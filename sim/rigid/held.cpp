@@ -33,9 +33,6 @@ std::array<Vec3d, 2> across(const Vec3d& axis) {
   return {first, axis.cross(first)};
 }
 
-/// Forces are taken where a body that turns is in the middle of the step, rad away at most.
-constexpr double farthest = 0.25;
-
 /// 1/s. A body is put back by so many times its size, or radians. Contact lets a body out of what
 /// it overlaps without regard to what holds it; put back in a single step, it was thrown along what
 /// is free, by 1e9 m/s.
@@ -43,10 +40,13 @@ constexpr double recovery = 2;
 
 /// A step of one freedom on a spring and a damper, under a force that is constant in it. With the
 /// impulse J over the inertia, of other forces and of the spring as it was at the start:
-/// its way / dt = way_by_speed v + way_by_push J, and the speed at its end likewise.
+/// its way / dt = way_by_speed v + way_by_push J, and the speed at its end likewise: a push adds to
+/// that as a speed adds to the way.
 struct Swing {
   double way_by_speed, way_by_push;
-  double end_by_speed, end_by_push;
+  double end_by_speed;
+
+  double end_by_push() const { return way_by_speed; }
 };
 
 /// Integral of the way that a speed of 1 makes in time 1, over that time.
@@ -54,8 +54,8 @@ struct Swing {
 /// at rest
 double way_of_push(double stiffness, double damping, double end) {
   constexpr double small = 1e-3, tiny = 1e-9;
-  if (std::abs(stiffness) < small &&
-      damping < small)  // differences of nearly equal numbers: by its series
+  // Differences of nearly equal numbers: by its series.
+  if (std::abs(stiffness) < small && damping < small)
     return 0.5 - damping / 6 + (damping * damping - stiffness) / 24 -
            damping * (damping * damping - 2 * stiffness) / 120;
   if (std::abs(stiffness) < tiny) return (1 + std::expm1(-damping) / damping) / damping;
@@ -79,13 +79,13 @@ Swing exact_swing(double stiffness, double damping) {
   }
   const double end_of_place = even + half * odd,
                push = way_of_push(stiffness, damping, end_of_place);
-  return {odd, push, even - half * odd, odd};
+  return {odd, push, even - half * odd};
 }
 
 /// Implicit Euler: what is too fast for the step comes to rest.
 Swing damped_swing(double stiffness, double damping) {
   const double kept = 1 / (1 + damping + stiffness);
-  return {kept, kept, kept, kept};
+  return {kept, kept, kept};
 }
 
 /// Swings of more than 12 steps a period are exact; those of less than six are damped. In between
@@ -100,7 +100,7 @@ Swing swing_of(double stiffness, double stiffest, double damping) {
   if (share <= 0) return a;
   const auto mix = [&](double from, double to) { return from + share * (to - from); };
   return {mix(a.way_by_speed, b.way_by_speed), mix(a.way_by_push, b.way_by_push),
-          mix(a.end_by_speed, b.end_by_speed), mix(a.end_by_push, b.end_by_push)};
+          mix(a.end_by_speed, b.end_by_speed)};
 }
 
 /// One freedom on all its springs and dampers, in its own units.
@@ -130,7 +130,7 @@ SpringStep spring_step(const Freedom& on, double speed, double push, double dt) 
       swing_of(on.stiffness * square, on.stiffest * square, on.damping * dt / on.inertia);
   const double pushed = (push + on.force * dt) / on.inertia;
   const double way = swing.way_by_speed * speed + swing.way_by_push * pushed;
-  const double end = swing.end_by_speed * speed + swing.end_by_push * pushed;
+  const double end = swing.end_by_speed * speed + swing.end_by_push() * pushed;
   return {on.inertia * (way - speed) - push, end - way};
 }
 
@@ -290,13 +290,15 @@ Held::Speeds Held::add_springs(double dt, const Speeds& before, const Speeds& pu
 Held::Speeds Held::add_turns(double dt, const Speeds& before, const Speeds& pushed,
                              const Mat3d& inertia, Vec3d& impulse, Vec3d& moment) const {
   const std::optional<Pivot> pivot = pivot_of(held_);
-  const bool is_hinge = pivot ? pivot->axis.has_value() : held_.joint == Joint::hinge;
-  const Vec3d axis = pivot && pivot->axis ? *pivot->axis : axis_;
+  // Forces are taken where the body is in the middle of the step, so many rad away at most.
+  constexpr double farthest = 0.25;
+  const bool is_hinge = held_.joint == Joint::hinge || (pivot && pivot->axis);
+  const Vec3d axis = pivot ? pivot->axis.value_or(axis_) : axis_;
   // A hinge lets nothing move along its axis.
   const auto moving = [&](const Vec3d& x) { return is_hinge ? Vec3d(x - axis.dot(x) * axis) : x; };
   const Vec3d arm = moving(now_ * -arm_);  // of the centre of mass, from the joint
   const double square = arm.squaredNorm();
-  const Mat3d about = inertia + mass_ * (square * Mat3d::Identity() - arm * arm.transpose());
+  const Mat3d about = inertia + mass_ * inertia_at(arm);
   // The pull of the spring along the arm moves nothing. The rest is the weight of a pendulum: its
   // stiffness is negative where it stands on its head.
   const Vec3d weight = moving(held_.spring_stiffness * (held_.spring_place - held_.joint_point));

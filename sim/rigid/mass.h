@@ -22,6 +22,11 @@ MassProperties mass_properties(const shapes::Shape& shape, double density);
 /// Returns those of a collider that has a body: its mass, density or inertia as given.
 MassProperties mass_properties(const shapes::Collider& collider);
 
+/// Inertia of a kilogram at a place, about the origin, m2.
+inline Mat3d inertia_at(const Vec3d& place) {
+  return place.squaredNorm() * Mat3d::Identity() - place * place.transpose();
+}
+
 /// Centre of mass of a collider at a time, m, also of one that deforms; the middle of the box
 /// around what has none. A plane and a terrain have their point. @throws ShapeError
 Vec3d centre_at(const shapes::Collider& collider, double time);

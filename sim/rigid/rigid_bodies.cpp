@@ -658,8 +658,7 @@ Turn free_turn(const Mat3d& rotation, const Mat3d& axes, const Vec3d& momentum,
 Turn joined_turn(const Motion& at, const Mat3d& axes, const Vec3d& lever,
                  const MassProperties& mass, const std::optional<Vec3d>& hinge, double dt) {
   const Mat3d form = at.rotation * axes;
-  const Mat3d inertia = mass.inertia + mass.mass * (lever.squaredNorm() * Mat3d::Identity() -
-                                                    lever * lever.transpose());
+  const Mat3d inertia = mass.inertia + mass.mass * inertia_at(lever);
   const Vec3d momentum = form * (mass.inertia * (form.transpose() * at.spin)) +
                          mass.mass * (form * lever).cross(at.velocity);
   if (!hinge) return free_turn(at.rotation, axes, momentum, inertia, dt);
@@ -680,8 +679,8 @@ void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& 
     return Vec3d(rotation * body.axes * body.mass.centre);
   };
   const std::optional<Held::Pivot> pivot = Held::pivot_of(collider.body);
-  // From the joint to the centre of mass, in the axes of the form.
   const Mat3d at_first = rotation_from_degrees(collider.shape.rotation);
+  // From the joint to the centre of mass, in the axes of the form.
   const Vec3d lever =
       body.axes.transpose() * at_first.transpose() *
       (shapes::center(collider.shape) + arm_of(at_first) - collider.body.joint_point);
@@ -706,7 +705,7 @@ void RigidBodies::move(std::size_t k, double dt, double time, shapes::Collider& 
     velocity = spin.cross(to);
   }
   const Vec3d point = centre - arm;
-  const Mat3d since_start = rotation * rotation_from_degrees(collider.shape.rotation).transpose();
+  const Mat3d since_start = rotation * at_first.transpose();
   double joint_angle = 0;
   if (collider.body.joint == shapes::Joint::hinge) {
     const Vec3d axis = collider.body.joint_axis.stableNormalized();

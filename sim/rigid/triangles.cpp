@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/rigid/mass.h"
+
 namespace neve::sim::rigid {
 
 namespace {
@@ -126,7 +128,7 @@ Twist twist_of(const std::vector<Vec3d>& places, const std::vector<Vec3d>& veloc
   Vec3d momentum = Vec3d::Zero();
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Vec3d arm = places[k] - middle;
-    inertia += arm.squaredNorm() * Mat3d::Identity() - arm * arm.transpose();
+    inertia += inertia_at(arm);
     momentum += arm.cross(velocities[k] - mean);
   }
   // Places on a line say nothing about a spin around it, and one place nothing about any.
