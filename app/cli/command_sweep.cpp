@@ -29,7 +29,7 @@
 #include "app/sweep/plan/dry_run_report.h"
 #include "app/sweep/plan/refinement.h"
 #include "app/sweep/plan/shared_view.h"
-#include "app/sweep/plan/study_forecast.h"
+#include "app/sweep/plan/sweep_forecast.h"
 #include "app/sweep/plan/sweep_plan.h"
 #include "app/sweep/read/read_sweep.h"
 #include "app/sweep/sheet/collect.h"
@@ -375,7 +375,7 @@ Left left_of(const sweep::plan::SweepPlan& plan, const std::vector<int>& unfinis
 }
 
 /// Gives the manifest the cost of each run and copy.
-void take_costs(const sweep::plan::SweepPlan& plan, const sweep::plan::StudyForecast& forecast,
+void take_costs(const sweep::plan::SweepPlan& plan, const sweep::plan::SweepForecast& forecast,
                 sweep::store::Manifest& manifest) {
   double cost = 0, seconds = 0;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
@@ -399,7 +399,7 @@ double foresee_runs(const sweep::plan::SweepOptions& options, const sweep::plan:
   std::set<std::size_t> known(left.runs.begin(), left.runs.end());
   for (const sweep::plan::PlannedVariant* copy : left.copies) known.insert(copy->of);
   const std::vector<std::size_t> places(known.begin(), known.end());
-  const sweep::plan::StudyForecast forecast = sweep::plan::foresee_study(
+  const sweep::plan::SweepForecast forecast = sweep::plan::foresee_sweep(
       plan, places, sweep::plan::small_effort(plan, places, cores), cores);
   take_costs(plan, forecast, manifest);
   sweep::store::write_manifest(plan.folder, manifest);

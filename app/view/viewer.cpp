@@ -103,7 +103,7 @@ void Viewer::take_live_frame() {
 /// Turns errors since the last picture into messages, and opens their tab.
 void Viewer::show_news() {
   const session::LiveFrame& live = *state_.live;
-  if (bench_.study().poll()) settle_ = 3;
+  if (bench_.sweep().poll()) settle_ = 3;
   if (live.errors != state_.errors_seen) {
     state_.errors_seen = live.errors;
     bench_.say(session::Message::Kind::error, live.error);
@@ -272,7 +272,7 @@ void Viewer::draw_panels() {
   panels::draw_offer(state_);
   panels::draw_help(state_);
   panels::draw_files(state_);
-  panels::draw_study(state_);
+  panels::draw_sweep(state_);
   panels::use_viewport(state_);
   panels::draw_tour(state_);
   panels::use_keys(state_);

@@ -135,7 +135,7 @@ class Viewer {
   std::optional<StateKey> points_of_;  ///< the state that they belong to
   std::filesystem::path sheet_file_;
   std::pair<int, int> sheet_room_;  ///< px, that it was made for
-  render::Image sheet_;             ///< of the study that is shown in the picture's place
+  render::Image sheet_;             ///< of the sweep that is shown in the picture's place
   double scale_ = 1;                ///< of the picture last painted
   double full_seconds_ = 0;         ///< that a picture of full size takes
   Clock::time_point moved_at_{};

@@ -46,16 +46,16 @@ void Viewer::paint_picture() {
   }
 }
 
-/// The sheet of the study in the place of the picture, whole. @return false where none is to be
+/// The sheet of the sweep in the place of the picture, whole. @return false where none is to be
 /// shown, or it cannot be read, which is a message
 bool Viewer::show_sheet() {
   // Pictures that are to be kept have to be painted.
-  if (state_.is_recording || state_.wants_picture) state_.study.shows_sheet = false;
-  if (!state_.study.shows_sheet) {
+  if (state_.is_recording || state_.wants_picture) state_.sweep.shows_sheet = false;
+  if (!state_.sweep.shows_sheet) {
     sheet_file_.clear();
     return false;
   }
-  const std::filesystem::path file = bench_.study().progress().sheet();
+  const std::filesystem::path file = bench_.sweep().progress().sheet();
   const render::PicturePlace& p = state_.viewport;
   try {
     if (file != sheet_file_ || sheet_room_ != std::pair(p.width, p.height)) {
@@ -69,7 +69,7 @@ bool Viewer::show_sheet() {
       sheet_room_ = {p.width, p.height};
     }
   } catch (const std::exception& error) {
-    state_.study.shows_sheet = false;
+    state_.sweep.shows_sheet = false;
     bench_.say(session::Message::Kind::error, std::string("no sheet: ") + error.what());
     return false;
   }

@@ -142,14 +142,14 @@ TEST(Statistics, TwoPointsShareALetterExactlyWhereTheyAreTooCloseToCall) {
 
 /// Three points of four seeds, on an axis; spread tells them apart but for the first two, height is
 /// noise, and the second breaks in one seed.
-struct Study {
+struct MadeSweep {
   Manifest manifest;
   std::vector<RunResult> results;
 };
 
-Study study_of_seeds() {
-  Study study;
-  Manifest& m = study.manifest;
+MadeSweep sweep_of_seeds() {
+  MadeSweep sweep;
+  Manifest& m = sweep.manifest;
   m.view = "particles";
   m.title = "Noise";
   m.tile_label = "differences";
@@ -164,19 +164,19 @@ Study study_of_seeds() {
     run.coordinates = {k / 4};
     run.settings = {{"m.hardening", std::to_string(5 << (k / 4))},
                     {"seed", std::to_string(1 + k % 4)}};
-    RunResult& result = study.results.emplace_back();
+    RunResult& result = sweep.results.emplace_back();
     result.status.state = RunState::ok;
     result.metrics.resize(metric_infos().size());
     result.metrics[0] = spread[k / 4] + 0.01 * (k % 4);
     result.metrics[1] = 0.1 + 0.02 * ((k * 5) % 4);
     result.has_broken = k == 6;
   }
-  return study;
+  return sweep;
 }
 
 TEST(Noise, ATileSaysHowOftenTheSnowBreaksAndWhichTilesAreTooCloseToCall) {
-  const Study study = study_of_seeds();
-  const sheet::Seals seals = sheet::seals_of(study.manifest, study.results, {});
+  const MadeSweep sweep = sweep_of_seeds();
+  const sheet::Seals seals = sheet::seals_of(sweep.manifest, sweep.results, {});
   ASSERT_EQ(seals.of_points.size(), 3u);
   EXPECT_EQ(seals.of_points[0].outcome, "holds in 4 of 4");
   EXPECT_EQ(seals.of_points[1].outcome, "breaks in 1 of 4: not here");
@@ -196,9 +196,9 @@ TEST(Noise, ATileSaysHowOftenTheSnowBreaksAndWhichTilesAreTooCloseToCall) {
             "spread of 4 seeds, from min to max (bar), and their mean (square, number)");
   EXPECT_EQ(seals.key[3].text, "the line goes from 0.5 to 0.93 m on every tile");
   EXPECT_EQ(seals.key[4].mark, sheet::KeyLine::Mark::doubt);
-  const std::vector<Point> points = points_of(study.manifest, study.results);
-  EXPECT_FALSE(is_noise(study.manifest, points, 0));
-  EXPECT_TRUE(is_noise(study.manifest, points, 1));
+  const std::vector<Point> points = points_of(sweep.manifest, sweep.results);
+  EXPECT_FALSE(is_noise(sweep.manifest, points, 0));
+  EXPECT_TRUE(is_noise(sweep.manifest, points, 1));
 }
 
 /// Copies of two resolutions of snow that breaks.
@@ -215,10 +215,10 @@ predict::Prediction prediction_of(double spread) {
 }
 
 TEST(Noise, ATileSaysWhatIsPredictedAndWhichIntervalsOverlap) {
-  Study study = study_of_seeds();
+  MadeSweep sweep = sweep_of_seeds();
   const std::vector<predict::Prediction> predictions{prediction_of(0.5), prediction_of(0.52),
                                                      predict::silent("a copy diverged")};
-  const sheet::Seals seals = sheet::seals_of(study.manifest, study.results, predictions);
+  const sheet::Seals seals = sheet::seals_of(sweep.manifest, sweep.results, predictions);
   ASSERT_EQ(seals.of_points.size(), 3u);
   EXPECT_EQ(seals.of_points[1].outcome,
             "expected at full resolution: breaks; coarse: breaks in 1 of 4");
@@ -227,7 +227,7 @@ TEST(Noise, ATileSaysWhatIsPredictedAndWhichIntervalsOverlap) {
   EXPECT_EQ(seals.of_points[2].whisker.value, "") << "where copies cannot say there is no number";
   EXPECT_TRUE(seals.is_noise) << "0.5 and 0.52 m with 7 % each";
   EXPECT_TRUE(seals.key[0].text.starts_with("all tiles are too close to call: "));
-  const sheet::Seals apart = sheet::seals_of(study.manifest, study.results,
+  const sheet::Seals apart = sheet::seals_of(sweep.manifest, sweep.results,
                                              {predictions[0], prediction_of(0.6), predictions[2]});
   // The key explains each mark on the tiles: letters, white, blue and yellow.
   const auto explained = [](const sheet::Seals& of, sheet::KeyLine::Mark mark) {
@@ -269,9 +269,9 @@ predict::Prediction full_runs(double spread, int runs, int broken) {
 }
 
 TEST(Noise, ATileHasTheWhiskerOfCoarseSeedsBesideThatOfFullResolution) {
-  const Study study = study_of_seeds();
+  const MadeSweep sweep = sweep_of_seeds();
   const sheet::Seals seals =
-      sheet::seals_of(study.manifest, study.results,
+      sheet::seals_of(sweep.manifest, sweep.results,
                       {full_runs(0.5, 4, 2), predict::silent(""), full_runs(1.5, 4, 4)});
   ASSERT_EQ(seals.of_points.size(), 3u);
   EXPECT_TRUE(seals.of_points[0].outcome.starts_with("full: breaks in 2 of 4; coarse: "))
@@ -321,8 +321,8 @@ TEST(Noise, WhatATileSaysOfNoiseIsBelowItsPicture) {
   seals.of_points[2] = {"breaks", false, false, {"0.2 m"}, {}, {"0.3 m"}};
   EXPECT_EQ(sheet::rows_of(seals, 40), 3);
 
-  const Study study = study_of_seeds();
-  const Manifest& manifest = study.manifest;
+  const MadeSweep sweep = sweep_of_seeds();
+  const Manifest& manifest = sweep.manifest;
   const sheet::SheetLayout plain = sheet::layout_sheet(manifest, false, 8192),
                            sealed = sheet::layout_sheet(manifest, false, 8192, {seals, ""});
   EXPECT_EQ(plain.seal_height, 0);
@@ -345,11 +345,11 @@ TEST(Noise, WordsOfSmallTilesWrap) {
   words.heading =
       "frame 4   t = 0.167 s   -   3 points of 4 seeds, 12 runs   -   coarsened 2x, "
       "thresholds for cells of 0.02 m   -   1 of 3 tiles at full resolution";
-  Study study = study_of_seeds();
-  study.manifest.tile_width = 160;
-  study.manifest.tile_height = 100;
-  const sheet::SheetLayout plain = sheet::layout_sheet(study.manifest, false, 8192),
-                           layout = sheet::layout_sheet(study.manifest, false, 8192, words);
+  MadeSweep sweep = sweep_of_seeds();
+  sweep.manifest.tile_width = 160;
+  sweep.manifest.tile_height = 100;
+  const sheet::SheetLayout plain = sheet::layout_sheet(sweep.manifest, false, 8192),
+                           layout = sheet::layout_sheet(sweep.manifest, false, 8192, words);
   const std::size_t letters = sheet::letters_in(layout.tile_width, layout.font_size);
   EXPECT_EQ(sheet::rows_of(words.seals, letters), 4);
   EXPECT_EQ(layout.seal_height, sheet::rows_height(4, layout.font_size));
@@ -388,24 +388,24 @@ TEST(Noise, TheLinesOfWhiskersAreEquallyLongOnAllTiles) {
 }
 
 TEST(Refine, HowWellCoarseRankedIsSaidOfMeans) {
-  const Study study = study_of_seeds();
-  std::vector<std::optional<RunResult>> full(study.results.begin(), study.results.end());
+  const MadeSweep sweep = sweep_of_seeds();
+  std::vector<std::optional<RunResult>> full(sweep.results.begin(), sweep.results.end());
   full[5].reset();  // one seed that has not ended
-  const std::string line = ranking_line(study.manifest, study.results, full);
+  const std::string line = ranking_line(sweep.manifest, sweep.results, full);
   EXPECT_TRUE(line.starts_with("3 points at full resolution: ")) << line;
   EXPECT_NE(line.find("rank correlation of the means of coarse and full: spread 1.00"),
             std::string::npos)
       << line;
   full.assign(full.size(), std::nullopt);
-  EXPECT_EQ(ranking_line(study.manifest, study.results, full), "");
+  EXPECT_EQ(ranking_line(sweep.manifest, sweep.results, full), "");
 }
 
 TEST(Refine, OpenPointsComeFirstThenTheBestByAMetric) {
-  const Study study =
-      study_of_seeds();  // spreads of about 0.5, 0.5 and 0.9 m; one of four breaks in the second
+  const MadeSweep sweep =
+      sweep_of_seeds();  // spreads of about 0.5, 0.5 and 0.9 m; one of four breaks in the second
   const auto chosen = [&](std::size_t count, const std::string& best,
                           const std::vector<predict::Prediction>& predictions) {
-    return points_to_refine(study.manifest, study.results, predictions, count,
+    return points_to_refine(sweep.manifest, sweep.results, predictions, count,
                             Best::parse("--best", best));
   };
   using Runs = std::vector<std::size_t>;
@@ -431,11 +431,11 @@ TEST(Refine, RankCorrelationIsSpearmans) {
 }
 
 TEST(Noise, TablesHavePredictionsWithTheirIntervalsInEachRunOfAPoint) {
-  const Study study = study_of_seeds();
+  const MadeSweep sweep = sweep_of_seeds();
   const std::vector<predict::Prediction> predictions{prediction_of(0.5), prediction_of(0.6),
                                                      predict::silent("a copy diverged")};
-  for (const std::string& csv : {sheet::data_csv(study.manifest, study.results, predictions),
-                                 sheet::points_csv(study.manifest, study.results, predictions)}) {
+  for (const std::string& csv : {sheet::data_csv(sweep.manifest, sweep.results, predictions),
+                                 sheet::points_csv(sweep.manifest, sweep.results, predictions)}) {
     const std::vector<neve::test::CsvRow> rows = neve::test::parse_csv(csv);
     const auto cell = [&](std::size_t row, const std::string& name) {
       const auto found = std::find(rows[0].begin(), rows[0].end(), name);
@@ -452,39 +452,39 @@ TEST(Noise, TablesHavePredictionsWithTheirIntervalsInEachRunOfAPoint) {
 }
 
 TEST(Noise, ASweepSaysInWordsWhatItsSeedsTell) {
-  Study study = study_of_seeds();
-  const std::vector<std::string> lines = noise_lines(study.manifest, study.results);
+  MadeSweep sweep = sweep_of_seeds();
+  const std::vector<std::string> lines = noise_lines(sweep.manifest, sweep.results);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0], "spread: of 3 pairs of points 2 differ, the others are too close to call");
   EXPECT_EQ(lines[1].find("noise here: height"), 0u) << lines[1];
   EXPECT_EQ(lines[2], "1 of 3 points break with some seeds and hold with others");
-  Study without = study;  // a point has no snow left, or its runs did not end
+  MadeSweep without = sweep;  // a point has no snow left, or its runs did not end
   for (std::size_t k = 4; k < 8; ++k) without.results[k].metrics.assign(metric_infos().size(), {});
   EXPECT_TRUE(noise_lines(without.manifest, without.results)[0].ends_with(
       "the others are too close to call; the runs of 2 more do not tell"))
       << noise_lines(without.manifest, without.results)[0];
-  for (std::size_t k = 0; k < 12; ++k) study.results[k] = study.results[k - k % 4];
-  ASSERT_EQ(noise_lines(study.manifest, study.results).size(), 1u) << "lattices without lumps";
-  study.manifest.seeds = 1;
-  EXPECT_TRUE(noise_lines(study.manifest, study.results).empty());
+  for (std::size_t k = 0; k < 12; ++k) sweep.results[k] = sweep.results[k - k % 4];
+  ASSERT_EQ(noise_lines(sweep.manifest, sweep.results).size(), 1u) << "lattices without lumps";
+  sweep.manifest.seeds = 1;
+  EXPECT_TRUE(noise_lines(sweep.manifest, sweep.results).empty());
 }
 
 TEST(Noise, WithoutTwoEndedSeedsOfAPointNothingIsCalledNoise) {
-  Study study = study_of_seeds();
+  MadeSweep sweep = sweep_of_seeds();
   for (std::size_t k = 0; k < 12; ++k)
-    if (k % 4 != 0) study.results[k].status.state = RunState::pending;
-  Manifest& m = study.manifest;
-  const std::vector<Point> points = points_of(m, study.results);
+    if (k % 4 != 0) sweep.results[k].status.state = RunState::pending;
+  Manifest& m = sweep.manifest;
+  const std::vector<Point> points = points_of(m, sweep.results);
   for (const std::size_t metric : {0, 1}) EXPECT_FALSE(is_noise(m, points, metric));
-  EXPECT_EQ(noise_lines(m, study.results).front(), unknown_words);
-  EXPECT_EQ(sheet::metric_plots_svg(m, study.results).find("noise here"), std::string::npos);
-  const sheet::Seals seals = sheet::seals_of(m, study.results, {});
+  EXPECT_EQ(noise_lines(m, sweep.results).front(), unknown_words);
+  EXPECT_EQ(sheet::metric_plots_svg(m, sweep.results).find("noise here"), std::string::npos);
+  const sheet::Seals seals = sheet::seals_of(m, sweep.results, {});
   EXPECT_FALSE(seals.is_noise);
   EXPECT_EQ(seals.key.front().text, unknown_words);
   EXPECT_TRUE(seals.of_points[0].groups.empty());
   EXPECT_NE(seals.of_points[0].whisker.value, "");
   const std::vector<neve::test::CsvRow> rows =
-      neve::test::parse_csv(sheet::points_csv(m, study.results));
+      neve::test::parse_csv(sheet::points_csv(m, sweep.results));
   for (std::size_t k = 0; k < rows[0].size(); ++k) {
     const std::string& name = rows[0][k];
     if (name == "spread_rank" || name == "spread_groups") {
@@ -495,20 +495,20 @@ TEST(Noise, WithoutTwoEndedSeedsOfAPointNothingIsCalledNoise) {
   m.axes.clear();
   m.screened = {{"hardening", {}, {"m.hardening"}}, {"friction", {}, {"c.friction"}}};
   for (std::size_t k = 0; k < 12; ++k) m.runs[k].coordinates = {k < 4 ? 0 : 2, k < 8 ? 0 : 2};
-  for (const sheet::Effect& effect : sheet::effects_on(m, study.results, 0)) {
+  for (const sheet::Effect& effect : sheet::effects_on(m, sweep.results, 0)) {
     EXPECT_FALSE(effect.is_noise);
     EXPECT_TRUE(effect.is_unknown);
   }
-  EXPECT_TRUE(sheet::effect_lines(m, study.results).front().starts_with("spread (m): friction "));
-  EXPECT_NE(sheet::effects_csv(m, study.results).find(",\n"), std::string::npos);
+  EXPECT_TRUE(sheet::effect_lines(m, sweep.results).front().starts_with("spread (m): friction "));
+  EXPECT_NE(sheet::effects_csv(m, sweep.results).find(",\n"), std::string::npos);
 }
 
 TEST(Noise, RunsThatFailAreCountedAndNotAveraged) {
-  Study study = study_of_seeds();
-  study.results[1].status.state = RunState::diverged;
-  study.results[1].has_broken.reset();
-  study.results[1].metrics[0] = 1e9;
-  const Point point = points_of(study.manifest, study.results).front();
+  MadeSweep sweep = sweep_of_seeds();
+  sweep.results[1].status.state = RunState::diverged;
+  sweep.results[1].has_broken.reset();
+  sweep.results[1].metrics[0] = 1e9;
+  const Point point = points_of(sweep.manifest, sweep.results).front();
   EXPECT_EQ(point.ended, 3u);
   EXPECT_EQ(point.metrics[0].count, 3u);
   EXPECT_LT(point.metrics[0].max, 1);
@@ -516,12 +516,12 @@ TEST(Noise, RunsThatFailAreCountedAndNotAveraged) {
 }
 
 TEST(Noise, TablesHaveARowForEachRunAndARowForEachPoint) {
-  const Study study = study_of_seeds();
+  const MadeSweep sweep = sweep_of_seeds();
   const std::vector<neve::test::CsvRow> runs =
-      neve::test::parse_csv(sheet::data_csv(study.manifest, study.results));
+      neve::test::parse_csv(sheet::data_csv(sweep.manifest, sweep.results));
   EXPECT_EQ(runs.size(), 13u);
   const std::vector<neve::test::CsvRow> points =
-      neve::test::parse_csv(sheet::points_csv(study.manifest, study.results));
+      neve::test::parse_csv(sheet::points_csv(sweep.manifest, sweep.results));
   ASSERT_EQ(points.size(), 4u);
   const auto cell = [&](std::size_t row, const std::string& name) {
     const auto found = std::find(points[0].begin(), points[0].end(), name);
@@ -539,14 +539,14 @@ TEST(Noise, TablesHaveARowForEachRunAndARowForEachPoint) {
   EXPECT_EQ(cell(2, "spread_rank"), "2");
   EXPECT_EQ(cell(3, "spread_rank"), "1");
   EXPECT_EQ(cell(3, "spread_groups"), "a");
-  Manifest plain = study.manifest;
+  Manifest plain = sweep.manifest;
   plain.seeds = 1;
-  EXPECT_EQ(sheet::points_csv(plain, study.results), "");
+  EXPECT_EQ(sheet::points_csv(plain, sweep.results), "");
 }
 
 TEST(Noise, PlotsNameTheMetricsThatAreNoise) {
-  const Study study = study_of_seeds();
-  const std::string svg = sheet::metric_plots_svg(study.manifest, study.results);
+  const MadeSweep sweep = sweep_of_seeds();
+  const std::string svg = sheet::metric_plots_svg(sweep.manifest, sweep.results);
   EXPECT_NE(svg.find("height: noise here"), std::string::npos);
   EXPECT_EQ(svg.find("spread: noise here"), std::string::npos);
   EXPECT_NE(svg.find("point 0: mean 0.515, 0.5 to 0.53 in 4 runs"), std::string::npos);
@@ -554,24 +554,24 @@ TEST(Noise, PlotsNameTheMetricsThatAreNoise) {
 }
 
 TEST(Noise, AScreeningSaysWhichEffectsAreWithinIt) {
-  Study study = study_of_seeds();
-  Manifest& m = study.manifest;
+  MadeSweep sweep = sweep_of_seeds();
+  Manifest& m = sweep.manifest;
   m.axes.clear();
   m.screened = {{"hardening", {}, {"m.hardening"}}, {"friction", {}, {"c.friction"}}};
   // One trajectory: hardening changes the spread by noise, friction by more.
   for (std::size_t k = 0; k < 12; ++k) {
     m.runs[k].coordinates = {k < 4 ? 0 : 2, k < 8 ? 0 : 2};
-    study.results[k].metrics[2] = double((k * 7) % 5);
+    sweep.results[k].metrics[2] = double((k * 7) % 5);
   }
-  const std::vector<sheet::Effect> effects = sheet::effects_on(m, study.results, 0);
+  const std::vector<sheet::Effect> effects = sheet::effects_on(m, sweep.results, 0);
   ASSERT_EQ(effects.size(), 2u);
   EXPECT_EQ(effects[0].steps, 1);
   EXPECT_TRUE(effects[0].is_noise);
   EXPECT_FALSE(effects[1].is_noise);
   EXPECT_NEAR(effects[1].mean, 0.39 * 1.5, 1e-9);  // for the whole range, of two thirds
-  const std::string csv = sheet::effects_csv(m, study.results);
+  const std::string csv = sheet::effects_csv(m, sweep.results);
   EXPECT_NE(csv.find("within_noise"), std::string::npos);
-  const std::vector<std::string> lines = sheet::effect_lines(m, study.results);
+  const std::vector<std::string> lines = sheet::effect_lines(m, sweep.results);
   ASSERT_FALSE(lines.empty());
   EXPECT_EQ(lines[0], "spread (m): friction 0.585");
   ASSERT_EQ(lines.size(), 2u);

@@ -523,7 +523,7 @@ TEST(SweepReport, SweepReportIsOneFileThatNamesNothingOutside) {
   EXPECT_NE(html.find("Test &lt;/script&gt; &amp; &quot;quotes&quot;"), std::string::npos);
   std::size_t scripts = 0;
   for (std::size_t at = 0; (at = html.find("</script>", at)) != std::string::npos; ++at) ++scripts;
-  EXPECT_EQ(scripts, 3u) << "the study, its stars, the program";
+  EXPECT_EQ(scripts, 3u) << "the sweep, its stars, the program";
 }
 
 TEST(SweepReport, SweepReportKeepsParametersAsTheyWereWritten) {

@@ -11,7 +11,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 /// A sweep of three parameters.
-store::Manifest study_of(const std::vector<std::vector<const char*>>& values) {
+store::Manifest sweep_of(const std::vector<std::vector<const char*>>& values) {
   store::Manifest m;
   m.tile_label = "differences";
   m.parameters = {{"m.hardening", "hardening", "", "number"},
@@ -27,7 +27,7 @@ store::Manifest study_of(const std::vector<std::vector<const char*>>& values) {
 }
 
 store::Manifest screening() {
-  store::Manifest m = study_of({{"5", "140000.123", "0.3"},
+  store::Manifest m = sweep_of({{"5", "140000.123", "0.3"},
                                 {"8.33333333", "140000.123", "0.3"},
                                 {"8.33333333", "68560.2", "0.3"},
                                 {"8.33333333", "68560.2", "0.5"},
@@ -50,7 +50,7 @@ TEST(TileWords, OfAScreeningNameTheParameterThatChanged) {
 }
 
 TEST(TileWords, TakeAsManyLinesAsThereAreAndSayWhatIsLeftOut) {
-  const store::Manifest m = study_of({{"5", "48000", "0.3"}});
+  const store::Manifest m = sweep_of({{"5", "48000", "0.3"}});
   const auto words = [&](const WordRoom& room) { return tile_words(m, m.runs[0], false, room); };
   EXPECT_EQ(words({80, 1}), Words{"hardening = 5, E = 48000 Pa, friction = 0.3"});
   EXPECT_EQ(words({20, 3}), (Words{"hardening = 5", "E = 48000 Pa", "friction = 0.3"}));
@@ -59,7 +59,7 @@ TEST(TileWords, TakeAsManyLinesAsThereAreAndSayWhatIsLeftOut) {
 }
 
 TEST(TileWords, AreTheNameOrNothingWhereThatIsAskedFor) {
-  store::Manifest m = study_of({{"5", "48000", "0.3"}});
+  store::Manifest m = sweep_of({{"5", "48000", "0.3"}});
   m.tile_label = "none";
   EXPECT_TRUE(tile_words(m, m.runs[0], false, {}).empty());
   m.tile_label = "name";
@@ -83,7 +83,7 @@ TEST(SheetLayout, TheRowsOfAScreeningAreWholeTrajectories) {
 
 /// Several lines would hide the snow: they are above the picture, one is on it.
 TEST(TileWords, OfSeveralLinesAreAboveThePicture) {
-  store::Manifest m = study_of({{"5", "48000", "0.3"}, {"7", "48000", "0.4"}});
+  store::Manifest m = sweep_of({{"5", "48000", "0.3"}, {"7", "48000", "0.4"}});
   m.tile_width = 240;
   m.tile_height = 135;
   const SheetLayout many = layout_sheet(m, false, 8192);

@@ -1,5 +1,5 @@
 /// report.html in a real browser: what a person does there with mouse and keys, and how much work
-/// it is for a large study.
+/// it is for a large sweep.
 
 #include <algorithm>
 #include <array>
@@ -39,12 +39,12 @@ RunResult result_of(const app::sweep::Run& run, int frame_count) {
 }
 
 /// A made sweep on a grid of a logarithmic axis, a choice and more.
-struct Study {
+struct MadeSweep {
   Manifest manifest;
   std::vector<RunResult> results;
 
   /// @param sizes of the axes: stiffness, transfer, and further numbers
-  Study(const std::vector<int>& sizes, int frame_count) {
+  MadeSweep(const std::vector<int>& sizes, int frame_count) {
     manifest.version = "1";
     manifest.title = "Test </script><img src=x onerror=alert(1)> & \"quotes\"";
     manifest.scene_file = "scene.toml";
@@ -125,9 +125,9 @@ class ReportPage : public testing::Test {
     EXPECT_EQ(browser->exceptions, "") << "the page's script failed";
   }
 
-  void open(const Study& study, int width = 1280, int height = 800) {
+  void open(const MadeSweep& sweep, int width = 1280, int height = 800) {
     browser->resize(width, height);
-    browser->open(study.write(folder));
+    browser->open(sweep.write(folder));
     ASSERT_TRUE(becomes("document.body && document.body.dataset.ready === 'yes'"));
   }
 
@@ -213,10 +213,10 @@ class ReportPage : public testing::Test {
 };
 
 TEST_F(ReportPage, ArrowKeysWalkAlongEveryAxisAndThroughTime) {
-  Study study({3, 3, 2}, 3);
-  study.manifest.first_number = 1;
-  study.manifest.runs[6].settings.push_back({"fps", "12"});
-  open(study);
+  MadeSweep sweep({3, 3, 2}, 3);
+  sweep.manifest.first_number = 1;
+  sweep.manifest.runs[6].settings.push_back({"fps", "12"});
+  open(sweep);
   EXPECT_EQ(picture(), "runs/0000/particles/0002.png");
   EXPECT_EQ(text_of("#moment-text"), "frame 2, 0.042 s") << "frame 1 is at 0 s";
   focus("#axis-0");
@@ -244,12 +244,12 @@ TEST_F(ReportPage, ArrowKeysWalkAlongEveryAxisAndThroughTime) {
 }
 
 TEST_F(ReportPage, RunsWithoutAGridShowTheNearestOneAndSaySo) {
-  Study study({4, 3}, 1);
-  for (app::sweep::Run& run : study.manifest.runs) run.coordinates.clear();
-  study.manifest.axes.clear();
-  study.manifest.runs.erase(study.manifest.runs.begin() + 4);  // stiffness 3162, apic
-  study.results.erase(study.results.begin() + 4);
-  open(study);
+  MadeSweep sweep({4, 3}, 1);
+  for (app::sweep::Run& run : sweep.manifest.runs) run.coordinates.clear();
+  sweep.manifest.axes.clear();
+  sweep.manifest.runs.erase(sweep.manifest.runs.begin() + 4);  // stiffness 3162, apic
+  sweep.results.erase(sweep.results.begin() + 4);
+  open(sweep);
   focus("#axis-0");
   press_right();
   EXPECT_EQ(text_of("#nearest"), "");
@@ -261,7 +261,7 @@ TEST_F(ReportPage, RunsWithoutAGridShowTheNearestOneAndSaySo) {
 }
 
 TEST_F(ReportPage, TwoRunsBesideEachOtherHaveTheWholeWidthAndNothingIsEmptyBelowThem) {
-  open(Study({3, 3}, 2), 1400, 860);
+  open(MadeSweep({3, 3}, 2), 1400, 860);
   const auto box = [&](const std::string& part, const char* side) {
     return value("Math.round(document.querySelector('" + part + "').getBoundingClientRect()." +
                  side + ")")
@@ -278,7 +278,7 @@ TEST_F(ReportPage, TwoRunsBesideEachOtherHaveTheWholeWidthAndNothingIsEmptyBelow
 }
 
 TEST_F(ReportPage, TwoRunsArePinnedAndTheirDifferenceIsBlackWhereTheyAreTheSame) {
-  open(Study({3, 3}, 1));
+  open(MadeSweep({3, 3}, 1));
   click("[data-pin=a]");
   EXPECT_EQ(value("state.mode"), "side");
   focus("#axis-1");
@@ -311,7 +311,7 @@ TEST_F(ReportPage, TwoRunsArePinnedAndTheirDifferenceIsBlackWhereTheyAreTheSame)
 }
 
 TEST_F(ReportPage, BrushesFilterSheetAndTable) {
-  open(Study({3, 3}, 1));
+  open(MadeSweep({3, 3}, 1));
   EXPECT_EQ(tiles(), 9);
   EXPECT_EQ(lines(), 9);
   // The first axis is the stiffness: its upper half keeps the greatest value.
@@ -344,11 +344,11 @@ TEST_F(ReportPage, BrushesFilterSheetAndTable) {
 }
 
 TEST_F(ReportPage, StarsAndNotesAreOnTilesInTheTableAndOfferedToTheFolder) {
-  Study study({3, 3}, 1);
-  study.manifest.marks[4] = {true, "as agreed"};
-  open(study);
+  MadeSweep sweep({3, 3}, 1);
+  sweep.manifest.marks[4] = {true, "as agreed"};
+  open(sweep);
   value("localStorage.clear()");
-  open(study);
+  open(sweep);
   tiles();
   EXPECT_EQ(value("document.querySelectorAll('.tile .star.on').length"), 1);
   EXPECT_EQ(value("document.getElementById('unsaved').hidden"), true);
@@ -386,17 +386,17 @@ TEST_F(ReportPage, StarsAndNotesAreOnTilesInTheTableAndOfferedToTheFolder) {
   EXPECT_EQ(text_of("#count"), "3 of 9 runs");
   click("#only-stars input");
   // Marks exist when the page is opened again; those that the folder has are not offered.
-  study.manifest.marks[2] = {true, ""};
-  open(study);
+  sweep.manifest.marks[2] = {true, ""};
+  open(sweep);
   EXPECT_EQ(value("rows[0].mark.star && rows[2].mark.star"), true);
   EXPECT_EQ(value("unsavedRows().map(row => row.run).join()"), "0");
   value("localStorage.clear()");
 }
 
 TEST_F(ReportPage, CellsOfTheHeatMapAreRunsAndArrowKeysMoveThere) {
-  Study study({3, 3}, 1);
-  study.fail(4, "too fast");
-  open(study);
+  MadeSweep sweep({3, 3}, 1);
+  sweep.fail(4, "too fast");
+  open(sweep);
   EXPECT_EQ(value("heat.cells.map(cell => cell.runs.length).join('')"), "111111111");
   const auto [x, y] = place_of("#heat", 0.95, 0.1);
   browser->click(x, y);
@@ -417,22 +417,22 @@ TEST_F(ReportPage, CellsOfTheHeatMapAreRunsAndArrowKeysMoveThere) {
 
 /// Cells tell the arithmetic mean, although values a factor of 20 apart have a logarithmic scale.
 TEST_F(ReportPage, CellsOfSeveralRunsTellTheMeanOfTheirValues) {
-  Study study({2, 2, 3}, 1);
-  for (std::size_t k = 0; k < study.results.size(); ++k)
-    study.results[k].metrics[0] = std::array{1.0, 4.0, 100.0}[k % 3];
-  open(study);
+  MadeSweep sweep({2, 2, 3}, 1);
+  for (std::size_t k = 0; k < sweep.results.size(); ++k)
+    sweep.results[k].metrics[0] = std::array{1.0, 4.0, 100.0}[k % 3];
+  open(sweep);
   EXPECT_EQ(value("columns[state.colour].scale.isLog"), true);
   EXPECT_EQ(value("heat.cells[0].runs.length"), 3);
   EXPECT_EQ(value("meanText(columns[state.colour], heat.cells[0])"), "35");
 }
 
 TEST_F(ReportPage, PicturesAreNamedAsTheFolderHasThem) {
-  open(Study({3, 3}, 1));
+  open(MadeSweep({3, 3}, 1));
   EXPECT_EQ(value("[7, -2, 12345].map(pictureName).join(' ')"), "0007.png -002.png 12345.png");
 }
 
 TEST_F(ReportPage, HeadsOfTheTableSortIt) {
-  open(Study({3, 3}, 1));
+  open(MadeSweep({3, 3}, 1));
   const auto runs = [&] {
     return value(
                "[...document.querySelectorAll('#table tbody tr[data-at]')].map(r => "
@@ -451,25 +451,25 @@ TEST_F(ReportPage, HeadsOfTheTableSortIt) {
 
 /// A row of three points of four seeds: spread tells the last from the others, the second breaks
 /// once.
-Study study_with_seeds() {
-  Study study({3, 4}, 1);
-  Manifest& m = study.manifest;
+MadeSweep sweep_with_seeds() {
+  MadeSweep sweep({3, 4}, 1);
+  Manifest& m = sweep.manifest;
   m.seeds = 4;
   m.axes.pop_back();
   m.parameters.back() = {"seed", "seed", "", "integer"};
   for (std::size_t k = 0; k < 12; ++k) {
     m.runs[k].coordinates.pop_back();
     m.runs[k].settings.back() = {"seed", std::to_string(1 + k % 4)};
-    for (std::size_t metric = 1; metric < study.results[k].metrics.size(); ++metric)
-      study.results[k].metrics[metric] = 1.0 + 0.1 * double((k * 5 + metric) % 4);
-    study.results[k].metrics[0] = (k < 8 ? 0.5 : 0.9) + 0.01 * double(k % 4);
-    study.results[k].has_broken = k == 6;
+    for (std::size_t metric = 1; metric < sweep.results[k].metrics.size(); ++metric)
+      sweep.results[k].metrics[metric] = 1.0 + 0.1 * double((k * 5 + metric) % 4);
+    sweep.results[k].metrics[0] = (k < 8 ? 0.5 : 0.9) + 0.01 * double(k % 4);
+    sweep.results[k].has_broken = k == 6;
   }
-  return study;
+  return sweep;
 }
 
 TEST_F(ReportPage, PointsOfSeveralSeedsHaveOneTileEachAndSayWhatIsNoise) {
-  open(study_with_seeds());
+  open(sweep_with_seeds());
   EXPECT_EQ(tiles(), 3);
   EXPECT_EQ(lines(), 3);
   const auto all = [&](const std::string& selector) {
@@ -502,7 +502,7 @@ TEST_F(ReportPage, PointsOfSeveralSeedsHaveOneTileEachAndSayWhatIsNoise) {
 
 TEST_F(ReportPage, ButtonsKeysAndASliderFlipThroughTheSeedsOfAllTiles) {
   for (const int width : {1280, 390}) {
-    open(study_with_seeds(), width, 800);
+    open(sweep_with_seeds(), width, 800);
     EXPECT_EQ(value("document.querySelectorAll('#draws button').length"), 4);
     focus("#axis-0");
     press_right();
@@ -526,7 +526,7 @@ TEST_F(ReportPage, ButtonsKeysAndASliderFlipThroughTheSeedsOfAllTiles) {
 }
 
 TEST_F(ReportPage, CommandsAreCopiedAndOpenTheRun) {
-  open(Study({3, 3}, 2));
+  open(MadeSweep({3, 3}, 2));
   browser->call("Browser.grantPermissions",
                 {{"permissions", {"clipboardReadWrite", "clipboardSanitizedWrite"}}});
   click("#shown-links button");
@@ -548,29 +548,29 @@ TEST_F(ReportPage, CommandsAreCopiedAndOpenTheRun) {
 }
 
 TEST_F(ReportPage, WordsOfStrangersStayText) {
-  Study study({2, 2}, 1);
+  MadeSweep sweep({2, 2}, 1);
   const std::string evil = "</script><img src=x onerror=\"document.title='owned'\">";
-  for (app::sweep::Run& run : study.manifest.runs) run.label = evil;
-  study.manifest.axes[0].name = evil;
-  study.manifest.axes[1].values[0] = evil;
-  study.manifest.parameters[0].name = evil;
-  study.manifest.scene_file = evil;
-  study.results[0].warnings = {evil};
-  study.fail(1, evil);
-  open(study);
+  for (app::sweep::Run& run : sweep.manifest.runs) run.label = evil;
+  sweep.manifest.axes[0].name = evil;
+  sweep.manifest.axes[1].values[0] = evil;
+  sweep.manifest.parameters[0].name = evil;
+  sweep.manifest.scene_file = evil;
+  sweep.results[0].warnings = {evil};
+  sweep.fail(1, evil);
+  open(sweep);
   click(".tile.failed");
   EXPECT_EQ(value("document.querySelectorAll('img[src=x], [onerror]').length"), 0);
-  EXPECT_EQ(value("document.title"), study.manifest.title);
+  EXPECT_EQ(value("document.title"), sweep.manifest.title);
   EXPECT_EQ(text_of("#shown-title"), "run 1 \u00b7 " + evil);
   EXPECT_EQ(text_of("#shown-note"), "diverged: " + evil);
   EXPECT_EQ(text_of(".slider label"), evil);
 }
 
 TEST_F(ReportPage, NothingIsWiderThanAWindowOfADeskOrAPhone) {
-  Study study({4, 3, 3}, 2);
-  study.fail(5, "explodes at once with a reason that is much longer than a phone is wide");
+  MadeSweep sweep({4, 3, 3}, 2);
+  sweep.fail(5, "explodes at once with a reason that is much longer than a phone is wide");
   for (const int width : {1280, 860, 390}) {
-    open(study, width, 800);
+    open(sweep, width, 800);
     EXPECT_LE(value("document.documentElement.scrollWidth"), width);
     click("[data-pin=a]");
     EXPECT_LE(value("document.documentElement.scrollWidth"), width) << "two beside each other";
@@ -600,10 +600,10 @@ constexpr const char* measure_frames = R"((async act => {
 }))";
 
 TEST_F(ReportPage, LargeSweepsLoadAndDrawOnlyWhatIsInSight) {
-  Study study({20, 5, 5}, 3);
-  for (std::size_t k = 7; k < study.results.size(); k += 50) study.fail(k, "too fast");
-  ASSERT_EQ(study.results.size(), 500u);
-  open(study);
+  MadeSweep sweep({20, 5, 5}, 3);
+  for (std::size_t k = 7; k < sweep.results.size(); k += 50) sweep.fail(k, "too fast");
+  ASSERT_EQ(sweep.results.size(), 500u);
+  open(sweep);
   wait_for_pictures();
   const double opened =
       value("performance.timing.domContentLoadedEventEnd - performance.timing.navigationStart");

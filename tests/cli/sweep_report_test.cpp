@@ -11,7 +11,7 @@
 namespace neve::test {
 namespace {
 
-const std::string study = std::string(R"(
+const std::string sweep_text = std::string(R"(
 [sweep]
 title = "Hardening & <speed>"
 scene = "scene.toml"
@@ -28,7 +28,7 @@ tile = [160, 90]
 class SweepResults : public Cli {
  protected:
   SweepResults() {
-    folder.write("study.toml", study);
+    folder.write("study.toml", sweep_text);
     made = neve({"sweep", "study.toml", "--quiet"});
   }
 

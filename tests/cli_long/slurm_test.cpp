@@ -11,7 +11,7 @@ namespace neve::test {
 namespace {
 
 /// Seven runs, more than the site's arrays take; one explodes, one cannot start.
-const std::string study = std::string(R"(
+const std::string sweep_text = std::string(R"(
 [sweep]
 scene = "scene.toml"
 frames = "0-2"
@@ -48,7 +48,7 @@ TEST_F(Cli, SlurmMakesTheSameTableAsThisMachine) {
   if (const std::string missing = Slurm::missing(); !missing.empty()) SKIP_OR_FAIL(missing);
   const Slurm slurm;
   if (!slurm.is_up()) SKIP_OR_FAIL("Slurm is installed and does not start");
-  folder.write("study.toml", study);
+  folder.write("study.toml", sweep_text);
   const auto local = neve({"sweep", "study.toml", "--out", "local"});
   EXPECT_EQ(local.exit_code, 7) << local.errors;
   const auto array = neve({"sweep", "study.toml", "--out", "array", "--engine", "slurm"});

@@ -33,7 +33,8 @@ constexpr Allowed all_allowed[] = {
 };
 
 /// Names of code that must not have these words, and the names that may.
-constexpr std::string_view banned_in_names = "most_[a-zA-Z]|least_[a-zA-Z]|[Cc]heckup";
+constexpr std::string_view banned_in_names =
+    "most_[a-zA-Z]|least_[a-zA-Z]|[Cc]heckup|[Ss]tud(y|ies)";
 constexpr std::string_view allowed_names[] = {
     "at_most", "at_least",
     "least_J_P",  // a member of sim::Warnings, named so in saved states
@@ -155,7 +156,7 @@ TEST(Words, TheDocumentationHasNoneThatTheGlossaryAvoids) {
   expect_no_avoided(words_to_avoid(lines_of("docs/glossary.md")), texts);
 }
 
-TEST(Words, NamesSayMaxAndMin) {
+TEST(Words, NamesSayMaxMinAndSweep) {
   const std::regex banned{std::string(banned_in_names)}, name("[A-Za-z_][A-Za-z0-9_]*");
   std::size_t names = 0;
   for (const std::string& file : sources_below({"app", "render", "sim"}))
@@ -169,7 +170,7 @@ TEST(Words, NamesSayMaxAndMin) {
             std::any_of(std::begin(allowed_names), std::end(allowed_names),
                         [&](std::string_view fine) { return found.find(fine) != found.npos; });
         EXPECT_TRUE(is_fine) << file << ":" << line.number << ": " << found
-                             << "; write max_, min_ or check";
+                             << "; write max_, min_, check or sweep";
       }
   EXPECT_GT(names, 100'000u) << "the sources are not read as they are written";
 }

@@ -69,8 +69,8 @@ TEST_F(ViewByScript, VaryFromHereMakesASweepOfTheFrameThatIsShown) {
     {"screenshot": "run.png"}])");
   SKIP_WITHOUT_GL(result);
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  ASSERT_TRUE(std::filesystem::exists(folder / "out/vary_0001/study.cdb/sheet.png"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "out/vary_0001/study.cdb/report.html"));
+  ASSERT_TRUE(std::filesystem::exists(folder / "out/vary_0001/sweep.cdb/sheet.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/vary_0001/sweep.cdb/report.html"));
   // The sheet is in the place of the picture until it is clicked.
   EXPECT_NE(read_text(folder / "out/done.png"), read_text(folder / "out/run.png"));
   // A run of the command line that forks there has the same state.
@@ -82,7 +82,7 @@ TEST_F(ViewByScript, VaryFromHereMakesASweepOfTheFrameThatIsShown) {
   const auto hash = [&](const std::string& run) {
     return json_of(run + "/run.json")["frames"].back()["state_hash"];
   };
-  EXPECT_EQ(hash("out/vary_0001/study.cdb/runs/0001"), hash("branch"));
+  EXPECT_EQ(hash("out/vary_0001/sweep.cdb/runs/0001"), hash("branch"));
 }
 
 /// However often the button is pressed, later frames stay until the question is answered.

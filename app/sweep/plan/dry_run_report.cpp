@@ -12,7 +12,7 @@
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "app/sweep/plan/labels.h"
-#include "app/sweep/plan/study_forecast.h"
+#include "app/sweep/plan/sweep_forecast.h"
 
 namespace neve::app::sweep::plan {
 
@@ -42,7 +42,7 @@ Totals totals_of(const SweepPlan& plan) {
 }
 
 /// s of one thread, of all copies for the prediction.
-double seconds_of_copies(const SweepPlan& plan, const StudyForecast& forecast) {
+double seconds_of_copies(const SweepPlan& plan, const SweepForecast& forecast) {
   double seconds = 0;
   for (const PlannedVariant& variant : plan.variants)
     if (variant.failure.empty())
@@ -52,13 +52,13 @@ double seconds_of_copies(const SweepPlan& plan, const StudyForecast& forecast) {
 
 /// s on these cores, of the runs of all rounds and of what is made besides them.
 double seconds_in_all(const SweepPlan& plan, const Refinement& refinement,
-                      const StudyForecast& forecast, double of_runs, int rounds, int cores) {
+                      const SweepForecast& forecast, double of_runs, int rounds, int cores) {
   return rounds * of_runs +
          (seconds_of_copies(plan, forecast) + cost_of(refinement, plan, forecast).seconds) / cores;
 }
 
 Json refinement_json(const SweepPlan& plan, const Refinement& refinement,
-                     const StudyForecast& forecast) {
+                     const SweepForecast& forecast) {
   const RefinementCost cost = cost_of(refinement, plan, forecast);
   return {{"points", cost.points},
           {"named", refinement.named},
@@ -67,7 +67,7 @@ Json refinement_json(const SweepPlan& plan, const Refinement& refinement,
           {"memory_bytes", whole_bytes(refinement.memory)}};
 }
 
-void print_json(const SweepPlan& plan, const StudyForecast& foreseen,
+void print_json(const SweepPlan& plan, const SweepForecast& foreseen,
                 const forecast::Cost& seconds_of_all, const Refinement& refinement, int rounds,
                 int cores) {
   Json json;
@@ -132,7 +132,7 @@ std::string frames_text(const SweepPlan& plan) {
                  : fmt::format("up to frame {}", all.last);
 }
 
-void print_table(const SweepPlan& plan, const StudyForecast& forecast) {
+void print_table(const SweepPlan& plan, const SweepForecast& forecast) {
   std::size_t width = 4;
   std::vector<std::string> what;
   for (const PlannedRun& item : plan.runs) {
@@ -161,7 +161,7 @@ std::string rounds_text(const SweepPlan& plan, int rounds, double seconds) {
       rounds, static_cast<std::size_t>(rounds) * plan.runs.size(), duration_text(rounds * seconds));
 }
 
-std::string copies_text(const SweepPlan& plan, const StudyForecast& forecast, int cores) {
+std::string copies_text(const SweepPlan& plan, const SweepForecast& forecast, int cores) {
   if (plan.variants.empty()) return "";
   return fmt::format(
       "the prediction takes {} coarse copies, {} more at most: copies that are runs "
@@ -171,7 +171,7 @@ std::string copies_text(const SweepPlan& plan, const StudyForecast& forecast, in
 
 /// Points at full resolution, which are no part of what is said of the runs.
 std::string full_runs_text(const SweepPlan& plan, const Refinement& refinement,
-                           const StudyForecast& forecast, int cores) {
+                           const SweepForecast& forecast, int cores) {
   if (!refinement.is_wanted()) return "";
   const auto limit = static_cast<double>(plan.sweep.limits.memory);
   return fmt::format("{}; at most {} of memory a run{}\n",
@@ -188,7 +188,7 @@ void print_sweep_plan(const SweepPlan& plan, const Refinement& refinement, int r
                       bool is_json) {
   std::vector<std::size_t> all(plan.runs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const StudyForecast forecast = foresee_study(plan, all, whole_effort(cores), cores);
+  const SweepForecast forecast = foresee_sweep(plan, all, whole_effort(cores), cores);
   const Totals totals = totals_of(plan);
   const auto seconds = forecast.seconds_of_all(all, cores);
   if (is_json) return print_json(plan, forecast, seconds, refinement, rounds, cores);

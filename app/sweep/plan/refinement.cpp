@@ -63,7 +63,7 @@ Refinement refinement_of(const SweepOptions& options, const SweepPlan& plan) {
 }
 
 RefinementCost cost_of(const Refinement& refinement, const SweepPlan& plan,
-                       const StudyForecast& forecast) {
+                       const SweepForecast& forecast) {
   const int seeds = plan.sweep.runs_per_point();
   const std::set<int> named(refinement.named.begin(), refinement.named.end());
   std::set<int> others;
@@ -92,7 +92,7 @@ RefinementCost cost_of(const Refinement& refinement, const SweepPlan& plan,
 }
 
 std::string refinement_text(const Refinement& refinement, const SweepPlan& plan,
-                            const StudyForecast& forecast, int cores) {
+                            const SweepForecast& forecast, int cores) {
   const RefinementCost cost = cost_of(refinement, plan, forecast);
   const bool is_one = cost.points == 1,
              has_both = refinement.chosen > 0 && !refinement.named.empty();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/sweep/plan/study_forecast.h"
+#include "app/sweep/plan/sweep_forecast.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "app/sweep/plan/sweep_plan.h"
 
@@ -32,11 +32,11 @@ struct RefinementCost {
 };
 /// @param plan  its runs, or those of them that are wanted
 RefinementCost cost_of(const Refinement& refinement, const SweepPlan& plan,
-                       const StudyForecast& forecast);
+                       const SweepForecast& forecast);
 
 /// "then 2 points at full resolution, 8 runs with their seeds, about 3 min more if they cost as
 /// most"
 std::string refinement_text(const Refinement& refinement, const SweepPlan& plan,
-                            const StudyForecast& forecast, int cores);
+                            const SweepForecast& forecast, int cores);
 
 }  // namespace neve::app::sweep::plan

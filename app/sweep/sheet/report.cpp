@@ -137,7 +137,7 @@ std::string report_html(const std::string& folder, const store::Manifest& manife
   const std::string ranking =
       store::ranking_line(manifest, results, store::full_results(folder, manifest));
   std::string script;
-  for (const char* file : {"study.js", "noise.js", "page.js", "stars.js", "walk.js", "lists.js",
+  for (const char* file : {"sweep.js", "noise.js", "page.js", "stars.js", "walk.js", "lists.js",
                            "charts.js", "start.js"})
     script += find_embedded_report(file);
   return fill_page(

@@ -223,7 +223,7 @@ void draw_time_line(ViewerState& state) {
     return is_pressed;
   };
   if (button("Vary from here", "Vary", true, "runs that begin at this frame, with other values"))
-    open_study(state);
+    open_sweep(state);
   if (button("Continue from here", "Continue", live.is_older,
              "simulate from this frame with the current values;\nlater frames are dropped, after a "
              "question"))

@@ -52,10 +52,10 @@ struct Hint {
 };
 
 /// Input of the dialog "Vary from here".
-struct StudyForm {
+struct SweepForm {
   bool is_open = false;
   std::string filter;  ///< of the parameters
-  std::vector<session::StudyAxis> axes;
+  std::vector<session::SweepAxis> axes;
   int last_frame = 0;
   bool has_longer_steps = false;
   bool waits_for_sheet = false;  ///< of runs that were started
@@ -120,7 +120,7 @@ struct ViewerState {
   bool is_picture_downloaded = false;  ///< the one that is saved next
   bool is_file_list_open = false;
   std::vector<session::WrittenFile> files{};
-  StudyForm study{};
+  SweepForm sweep{};
   Throwing throwing{};
 };
 
@@ -173,8 +173,8 @@ void draw_help(ViewerState& state);
 void draw_files(ViewerState& state);
 void open_file_list(ViewerState& state);
 /// The dialog that varies parameters from the shown frame on, while it is open.
-void draw_study(ViewerState& state);
-void open_study(ViewerState& state);
+void draw_sweep(ViewerState& state);
+void open_sweep(ViewerState& state);
 void start_tour(ViewerState& state);
 void draw_tour(ViewerState& state);
 /// Draws a pending question: a file that changed.

@@ -101,8 +101,8 @@ void use_viewport(ViewerState& state) {
                          mouse.x < left(state) + static_cast<float>(state.viewport.width) &&
                          mouse.y < top(state) + static_cast<float>(state.viewport.height);
   const bool is_over = is_inside && !io.WantCaptureMouse;
-  if (state.study.shows_sheet) {
-    if (is_over && ImGui::IsMouseClicked(0)) state.study.shows_sheet = false;
+  if (state.sweep.shows_sheet) {
+    if (is_over && ImGui::IsMouseClicked(0)) state.sweep.shows_sheet = false;
     dragging = -1;
     return;
   }

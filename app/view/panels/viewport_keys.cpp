@@ -69,8 +69,8 @@ void use_keys(ViewerState& state) {
       ImGui::ClosePopupToLevel(0, true);
     else if (state.is_help_open)
       state.is_help_open = false;
-    else if (state.study.shows_sheet)
-      state.study.shows_sheet = false;
+    else if (state.sweep.shows_sheet)
+      state.sweep.shows_sheet = false;
     else if (state.throwing.is_on)
       state.throwing.is_on = false;
     else if (state.probe)

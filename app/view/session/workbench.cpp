@@ -113,7 +113,7 @@ Workbench::Workbench(Document document, WorkbenchOptions options, std::function<
       options_(std::move(options)),
       starts_{{0, document_, {}, options_.session.past ? document_.edits() : Edits{}}},
       file_time_(time_of(document_.file())),
-      study_(options_.program.empty() ? this_program() : options_.program),
+      sweep_(options_.program.empty() ? this_program() : options_.program),
       // A run starts without the changes that were made later, which are edits of its document.
       session_(std::make_unique<Session>(
           options_.session.past ? document_.scene_with({}) : document_.scene(), session_options(),
@@ -574,10 +574,10 @@ std::string Workbench::values_around(const scene::FlatParam& param) {
   return text;
 }
 
-std::string Workbench::vary_from_here(const StudyRequest& request, const scene::View& view) {
+std::string Workbench::vary_from_here(const SweepRequest& request, const scene::View& view) {
   try {
     const std::shared_ptr<const LiveFrame> live = session_->latest();
-    for (const StudyAxis& axis : request.axes) require_allowed(axis.address, axis.values);
+    for (const SweepAxis& axis : request.axes) require_allowed(axis.address, axis.values);
     timeline::Moment moment = session_->moment();
     const int frame = moment.frame;
     if (!live->is_frame_end || live->is_running || frame != live->frame ||
@@ -594,14 +594,14 @@ std::string Workbench::vary_from_here(const StudyRequest& request, const scene::
     run.threads = live->threads;
     run.simd = live->simd;
     std::vector<std::string> chosen;
-    for (const StudyAxis& axis : request.axes) chosen.push_back(axis.address);
-    study_.start({options_.folder, options_.session.threads, options_.backend}, std::move(run),
+    for (const SweepAxis& axis : request.axes) chosen.push_back(axis.address);
+    sweep_.start({options_.folder, options_.session.threads, options_.backend}, std::move(run),
                  std::move(moment), live->scene->fps, request,
                  forecast::longer_steps(*live->scene, chosen));
     say(Message::Kind::note, "a sweep from frame " +
                                  std::to_string(scene::number_of(*live->scene, frame)) +
-                                 " goes to " + study_.progress().folder.string() + "; " +
-                                 study_.progress().command + " makes it again");
+                                 " goes to " + sweep_.progress().folder.string() + "; " +
+                                 sweep_.progress().command + " makes it again");
     return {};
   } catch (const UsageError& error) {
     const bool is_value = error.where.starts_with("-p ");

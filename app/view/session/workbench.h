@@ -17,7 +17,7 @@
 #include "app/view/session/edit.h"
 #include "app/view/session/objects.h"
 #include "app/view/session/session.h"
-#include "app/view/session/study.h"
+#include "app/view/session/view_sweep.h"
 
 namespace neve::app::view::session {
 
@@ -99,8 +99,8 @@ class Workbench {
   static std::string values_around(const scene::FlatParam& param);
   /// Starts a sweep whose runs begin at the shown frame. @param view  of its tiles
   /// @return why it did not start; "" if it did
-  std::string vary_from_here(const StudyRequest& request, const scene::View& view);
-  Study& study() { return study_; }
+  std::string vary_from_here(const SweepRequest& request, const scene::View& view);
+  ViewSweep& sweep() { return sweep_; }
   /// Returns the command that renders the scene as it is now, for the clipboard. If the scene has
   /// no file, one is written into the folder. @return "" after an error
   std::string command();
@@ -163,7 +163,7 @@ class Workbench {
   std::filesystem::file_time_type file_time_{};
   std::filesystem::file_time_type failed_time_{};  ///< of the file that reload_error_ is about
   std::string reload_error_;
-  Study study_;
+  ViewSweep sweep_;
   std::unique_ptr<Session> session_;  ///< last: its thread calls back
 };
 

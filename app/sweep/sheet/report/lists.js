@@ -69,7 +69,7 @@ function makeTile(row) {
 function sealTile(tile, row) {
   const column = columns[state.colour], outcome = outcomeText(row.at);
   const seal = make('span', {className: 'seal'}, make('em', {textContent: outcome,
-    className: study.outcomes[pointOf(row.at)].undecided ? 'undecided' : ''}));
+    className: sweep.outcomes[pointOf(row.at)].undecided ? 'undecided' : ''}));
   const s = column && summaryOf(column, row.at), twins = column && twinsOf(column);
   if (twins) {
     for (const [label, own] of [['coarse', twins.coarse], [row.full ? 'full' : 'expected', twins.full]]) {
@@ -104,11 +104,11 @@ function sealHint() {
 }
 
 function tileLayout(width) {
-  const across = study.across, least = width < 600 ? 140 : 180, most = Math.max(1, Math.floor(width / least));
+  const across = sweep.across, least = width < 600 ? 140 : 180, most = Math.max(1, Math.floor(width / least));
   const fits = across > 1 && across <= most + 2 && width / across >= 120;
   const count = fits ? across : Math.min(most, Math.max(rows.length / seeds, 2));
   const side = Math.min(320, Math.floor(width / count));
-  return {count, side, height: Math.round(side * study.tile[1] / study.tile[0]) + (hasSeals ? (hasTwins ? 100 : 82) : 40)};
+  return {count, side, height: Math.round(side * sweep.tile[1] / sweep.tile[0]) + (hasSeals ? (hasTwins ? 100 : 82) : 40)};
 }
 
 function startTiles() {
@@ -252,7 +252,7 @@ function startTable() {
     by('table-hint').textContent = `A metric has its mean over ${seeds} seeds, from min to max, and its letters: ` +
       'points that share one are too close to call, and sorting by ranks keeps their order.';
   }
-  if (study.predicts)
+  if (sweep.predicts)
     by('table-hint').textContent += ' Columns called full have what coarse copies forecast for full resolution, with intervals that hold ' +
       `four times in five, or what the ${hasSeeds ? 'seeds there gave, from min to max' : 'run there gave, with how far another seed may lie'}; those that share a letter ` +
       'are too close to call.';

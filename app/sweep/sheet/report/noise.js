@@ -1,16 +1,16 @@
 // ---- points of several seeds: which differences are larger than noise -------------------------------
 /** Runs of each point; they follow each other and differ in their seed alone. */
-const seeds = study.seeds, hasSeeds = seeds > 1;
+const seeds = sweep.seeds, hasSeeds = seeds > 1;
 /** Tiles say how often the snow breaks, or what is predicted for full resolution. */
-const hasSeals = hasSeeds || study.predicts;
-const hasTwins = hasSeeds && study.predicts;  // coarse whiskers beside those of full resolution
+const hasSeals = hasSeeds || sweep.predicts;
+const hasTwins = hasSeeds && sweep.predicts;  // coarse whiskers beside those of full resolution
 const isPredicted = column => Boolean(column) && column.help.startsWith('full_');
 const pointOf = at => Math.floor(at / seeds);
 const drawOf = at => at % seeds;
 /** The axis of the seeds, -1 without. */
 const seedAxis = axes.findIndex(axis => axis.isSeed);
 
-for (const own of study.noise || []) {
+for (const own of sweep.noise || []) {
   const column = columns.find(c => c.kind === 'metric' && c.help === own.metric);
   column.isNoise = own.noise;
   column.isUnknown = !own.known;  // too few runs ended to say what is noise
@@ -39,8 +39,8 @@ function pointText(column, at) {
 
 /** "breaks in 1 of 4: here" */
 function outcomeText(at) {
-  const outcome = study.outcomes[pointOf(at)], {broken} = rows[at];
-  if (study.predicts || !outcome.undecided || broken === null) return outcome.text;
+  const outcome = sweep.outcomes[pointOf(at)], {broken} = rows[at];
+  if (sweep.predicts || !outcome.undecided || broken === null) return outcome.text;
   return outcome.text + (broken ? ': here' : ': not here');
 }
 
@@ -60,7 +60,7 @@ function colourPlace(column, at) {
 
 /** A metric of coarse runs and of full resolution, on one scale; null where seeds give only one of them. */
 function twinsOf(column) {
-  if (!hasSeeds || !study.predicts || !column.points) return null;
+  if (!hasSeeds || !sweep.predicts || !column.points) return null;
   const name = isPredicted(column) ? column.help.slice('full_'.length) : 'full_' + column.help;
   const other = columns.find(c => c.points && c.help === name);
   if (!other) return null;
@@ -92,7 +92,7 @@ function lettersOf(column, summary) {
   const isMany = summary.groups.length > 3;
   return (isMany ? [summary.groups[0]] : summary.groups).map((group, k) => {
     const square = make('strong', {textContent: isMany ? summary.letters : [...summary.letters.match(/[a-z]\d*/g)][k]});
-    square.style.background = `rgb(${study.groupColours[group % study.groupColours.length]})`;
+    square.style.background = `rgb(${sweep.groupColours[group % sweep.groupColours.length]})`;
     return square;
   });
 }

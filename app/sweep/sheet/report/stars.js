@@ -4,7 +4,7 @@
  * kept by the browser, and the command or the file that bring it to the folder are offered.
  */
 const starColumn = columns.findIndex(column => column.kind === 'star');
-const starKey = 'neve ' + study.star + ' by settings';
+const starKey = 'neve ' + sweep.star + ' by settings';
 const noMark = {star: false, note: ''};
 const isSame = (a, b) => a.star === b.star && a.note === b.note;
 
@@ -71,7 +71,7 @@ function starCommands() {
     const end = !star ? ' --remove' : isNoteChanged ? ' --note ' + shellWord(note) : '';
     groups.set(end, [...groups.get(end) || [], row.run]);
   }
-  return [...groups].map(([end, runs]) => `${study.star} ${runs.join(',')}${end}`).join(' && ');
+  return [...groups].map(([end, runs]) => `${sweep.star} ${runs.join(',')}${end}`).join(' && ');
 }
 
 /** With those that were taken away here: the folder still has them. */
@@ -115,7 +115,7 @@ function startStars() {
       `${open.length === 1 ? 'is' : 'are'} in this browser alone. In the folder with `,
       make('code', {textContent: command, title: command}), ' ', copyButton(command, 'copy the command'),
       ' or ', make('button', {type: 'button', textContent: 'stars.json', onclick: downloadStars,
-                              title: 'download it, for ' + study.star + ' --read stars.json'}));
+                              title: 'download it, for ' + sweep.star + ' --read stars.json'}));
   });
 }
 

@@ -41,7 +41,7 @@ function startDraws() {
         (failed ? ' \u2715' : broken === null ? '' : broken ? ' breaks' : ' holds');
     });
     words.textContent = outcomeText(at);
-    words.className = study.outcomes[pointOf(at)].undecided ? 'undecided' : '';
+    words.className = sweep.outcomes[pointOf(at)].undecided ? 'undecided' : '';
   });
 }
 
@@ -103,7 +103,7 @@ function playOn() {
 
 function setPlaying(isOn) {
   clearInterval(playTimer);
-  playTimer = isOn ? setInterval(playOn, Math.max(33, 1000 / (study.fps || 24))) : 0;
+  playTimer = isOn ? setInterval(playOn, Math.max(33, 1000 / (sweep.fps || 24))) : 0;
   by('play').textContent = isOn ? '\u275a\u275a' : '\u25b6';
   by('play').setAttribute('aria-label', isOn ? 'pause' : 'play');
   by('play').setAttribute('aria-pressed', String(isOn));
@@ -112,9 +112,9 @@ function setPlaying(isOn) {
 /** The frame, and its time where it is the same in all runs that are shown. */
 function momentText(frame) {
   const shown = state.mode === 'one' ? [state.run] : [runAt('a'), runAt('b')];
-  const [fps, ...others] = new Set(shown.map(at => rows[at].fps ?? study.fps));
+  const [fps, ...others] = new Set(shown.map(at => rows[at].fps ?? sweep.fps));
   return 'frame ' + frame +
-    (fps > 0 && others.length === 0 ? `, ${((frame - study.firstNumber) / fps).toFixed(3)} s` : '');
+    (fps > 0 && others.length === 0 ? `, ${((frame - sweep.firstNumber) / fps).toFixed(3)} s` : '');
 }
 
 function startTime() {
@@ -179,7 +179,7 @@ function setMode(mode) {
 
 function startStage() {
   const plates = by('plates'), plate = name => plates.querySelector(`[data-plate="${name}"]`);
-  const [width, height] = study.tile;
+  const [width, height] = sweep.tile;
   plates.style.setProperty('--shape', `${width} / ${height}`);
   plates.style.setProperty('--ratio', String(width / height));
   for (const image of plates.querySelectorAll('img')) {

@@ -1,6 +1,6 @@
 /// "Vary from here": sweeps of a kept frame, in the session and by clicks.
 
-#include "app/view/session/study.h"
+#include "app/view/session/view_sweep.h"
 #include "tests/support/needs.h"
 #include "tests/view/view_support.h"
 
@@ -13,9 +13,9 @@ app::Json json_in(const std::filesystem::path& file) {
   return app::parse_json(std::string_view(read_text(file)));
 }
 
-class Study : public testing::Test {
+class ViewSweeps : public testing::Test {
  protected:
-  Study() {
+  ViewSweeps() {
     session::WorkbenchOptions options;
     options.folder = folder / "out";
     options.program = NEVE_BINARY;
@@ -30,24 +30,24 @@ class Study : public testing::Test {
     rest_at(bench->session(), frame);
   }
 
-  std::string vary(const std::vector<session::StudyAxis>& axes, int last) {
+  std::string vary(const std::vector<session::SweepAxis>& axes, int last) {
     return bench->vary_from_here({axes, last, false}, bench->document().scene()->views.front());
   }
 
-  const session::StudyProgress& wait_for_study() {
+  const session::ViewSweepProgress& wait_for_sweep() {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(100);
-    while (bench->study().is_running() && std::chrono::steady_clock::now() < end) {
-      bench->study().poll();
+    while (bench->sweep().is_running() && std::chrono::steady_clock::now() < end) {
+      bench->sweep().poll();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    return bench->study().progress();
+    return bench->sweep().progress();
   }
 
   /// "" where the program has no OpenGL here.
   std::string hash_of(int run, int frame) {
     char name[8];
     std::snprintf(name, sizeof name, "%04d", run);
-    const app::Json json = json_in(bench->study().progress().folder / "runs" / name / "run.json");
+    const app::Json json = json_in(bench->sweep().progress().folder / "runs" / name / "run.json");
     for (const app::Json& made : json["frames"])
       if (made["frame"] == frame) return made["state_hash"];
     return "";
@@ -57,7 +57,7 @@ class Study : public testing::Test {
   std::unique_ptr<session::Workbench> bench;
 };
 
-TEST_F(Study, EveryRunIsTheRunOfTheViewWithItsChangeAtThatFrame) {
+TEST_F(ViewSweeps, EveryRunIsTheRunOfTheViewWithItsChangeAtThatFrame) {
   go_to(1);
   bench->set("solver.gravity", "[3, -9.81, 0]");  // by hand, before
   go_to(2);
@@ -65,9 +65,9 @@ TEST_F(Study, EveryRunIsTheRunOfTheViewWithItsChangeAtThatFrame) {
   bench->session().show_frame(2);
   rest_at(bench->session(), 2);
   ASSERT_EQ(vary({{"material.snow.hardening", "4, 10"}}, 4), "");
-  const session::StudyProgress done = wait_for_study();
-  if (done.state == session::StudyProgress::State::failed) SKIP_OR_FAIL(done.error);
-  ASSERT_EQ(done.state, session::StudyProgress::State::done);
+  const session::ViewSweepProgress done = wait_for_sweep();
+  if (done.state == session::ViewSweepProgress::State::failed) SKIP_OR_FAIL(done.error);
+  ASSERT_EQ(done.state, session::ViewSweepProgress::State::done);
   EXPECT_EQ(done.runs, 2);
   EXPECT_EQ(done.ok, 2);
   EXPECT_DOUBLE_EQ(done.share, 1);
@@ -96,7 +96,7 @@ TEST_F(Study, EveryRunIsTheRunOfTheViewWithItsChangeAtThatFrame) {
   EXPECT_EQ(app::parse_json(std::string_view(same.output))["started"], 0);
 }
 
-TEST_F(Study, WhatCannotVaryIsRefusedWithWhatCan) {
+TEST_F(ViewSweeps, WhatCannotVaryIsRefusedWithWhatCan) {
   go_to(1);
   const std::string restart = vary({{"solver.cell_size", "0.04, 0.05"}}, 4);
   EXPECT_TRUE(contains(restart,
@@ -107,23 +107,23 @@ TEST_F(Study, WhatCannotVaryIsRefusedWithWhatCan) {
   EXPECT_TRUE(contains(vary({{"material.snow.hardening", "1, 2"}}, 1), "at or after frame 1"));
   EXPECT_TRUE(contains(vary({}, 4), "no parameter is chosen"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/vary_0001"));
-  EXPECT_FALSE(bench->study().is_running());
+  EXPECT_FALSE(bench->sweep().is_running());
 }
 
-TEST_F(Study, ASecondSweepOfAFrameHasItsOwnFolderAndASweepCanBeStopped) {
+TEST_F(ViewSweeps, ASecondSweepOfAFrameHasItsOwnFolderAndASweepCanBeStopped) {
   go_to(1);
   ASSERT_EQ(vary({{"material.snow.hardening", "4, 10"}}, 4), "");
   EXPECT_TRUE(contains(vary({{"material.snow.hardening", "4, 10"}}, 4), "in progress"));
-  bench->study().stop();
-  const session::StudyProgress first = wait_for_study();
-  EXPECT_NE(first.state, session::StudyProgress::State::failed) << first.error;
+  bench->sweep().stop();
+  const session::ViewSweepProgress first = wait_for_sweep();
+  EXPECT_NE(first.state, session::ViewSweepProgress::State::failed) << first.error;
   ASSERT_EQ(vary({{"material.snow.hardening", "4"}}, 40000), "");
-  EXPECT_NE(bench->study().progress().folder, first.folder);
-  bench->study().stop();
-  EXPECT_EQ(wait_for_study().state, session::StudyProgress::State::stopped);
+  EXPECT_NE(bench->sweep().progress().folder, first.folder);
+  bench->sweep().stop();
+  EXPECT_EQ(wait_for_sweep().state, session::ViewSweepProgress::State::stopped);
 }
 
-TEST_F(Study, ItsRunsTakeTheCoresAndTheRendererOfTheView) {
+TEST_F(ViewSweeps, ItsRunsTakeTheCoresAndTheRendererOfTheView) {
   session::WorkbenchOptions options;
   options.folder = folder / "out";
   options.program = NEVE_BINARY;
@@ -134,8 +134,8 @@ TEST_F(Study, ItsRunsTakeTheCoresAndTheRendererOfTheView) {
       std::function<void()>());
   go_to(1);
   ASSERT_EQ(vary({{"material.snow.hardening", "4"}}, 2), "");
-  bench->study().stop();
-  const std::string command = wait_for_study().command;
+  bench->sweep().stop();
+  const std::string command = wait_for_sweep().command;
   EXPECT_TRUE(contains(command, "--threads 1")) << command;
   EXPECT_TRUE(contains(command, "--backend osmesa")) << command;
 }

@@ -1,4 +1,4 @@
-#include "app/sweep/plan/study_forecast.h"
+#include "app/sweep/plan/sweep_forecast.h"
 
 #include <fmt/core.h>
 
@@ -233,9 +233,9 @@ ForecastEffort small_effort(const SweepPlan& plan, const std::vector<std::size_t
   return {std::clamp(share * all, least, max_seconds / usual_seconds * cores)};
 }
 
-StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
+SweepForecast foresee_sweep(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                             const ForecastEffort& effort, int cores) {
-  StudyForecast result;
+  SweepForecast result;
   for (const PlannedRun& item : plan.runs) {
     result.work.push_back({item.run.work, item.run.work, item.run.work});
     result.drawing.push_back(start_seconds + tile_seconds * item.run.frames.count());
@@ -274,15 +274,15 @@ StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t
   return result;
 }
 
-forecast::Cost StudyForecast::seconds(std::size_t run) const {
+forecast::Cost SweepForecast::seconds(std::size_t run) const {
   return seconds_per_work * work[run] + forecast::Cost{drawing[run], drawing[run], drawing[run]};
 }
 
-double StudyForecast::cost(std::size_t run) const {
+double SweepForecast::cost(std::size_t run) const {
   return work[run].expected + drawing[run] / usual_seconds;
 }
 
-forecast::Cost StudyForecast::seconds_of_all(const std::vector<std::size_t>& chosen,
+forecast::Cost SweepForecast::seconds_of_all(const std::vector<std::size_t>& chosen,
                                              int cores) const {
   forecast::Cost sum, longest;
   for (const std::size_t k : chosen) {
@@ -295,7 +295,7 @@ forecast::Cost StudyForecast::seconds_of_all(const std::vector<std::size_t>& cho
 }
 
 std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
-                         const StudyForecast& forecast) {
+                         const SweepForecast& forecast) {
   constexpr double much_longer = 1.5;  // than the median
   constexpr std::size_t max_named = 5;
   std::vector<std::size_t> order = chosen;
@@ -317,7 +317,7 @@ std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& 
 namespace {
 
 /// "the budget is enough for about 12 of 40 runs"; "" if all fit.
-std::string budget_text(const std::vector<std::size_t>& chosen, const StudyForecast& forecast,
+std::string budget_text(const std::vector<std::size_t>& chosen, const SweepForecast& forecast,
                         int cores, double budget) {
   if (budget <= 0 || forecast.seconds_of_all(chosen, cores).expected <= budget) return {};
   double sum = 0;
@@ -333,7 +333,7 @@ std::string budget_text(const std::vector<std::size_t>& chosen, const StudyForec
 }  // namespace
 
 std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
-                          const StudyForecast& forecast, int cores, double budget) {
+                          const SweepForecast& forecast, int cores, double budget) {
   std::string text = fmt::format(
       "forecast: {}{}, about {} on {}", count_text(chosen.size(), "run"), seeds_text(plan.sweep),
       duration_text(forecast.seconds_of_all(chosen, cores).expected), count_text(cores, "core"));

@@ -1,7 +1,7 @@
 'use strict';
 // ---- the sweep: columns, runs, axes. Nothing here draws. -----------------------------------------
-const study = JSON.parse(document.getElementById('data').textContent);
-const {columns, rows} = study;
+const sweep = JSON.parse(document.getElementById('data').textContent);
+const {columns, rows} = sweep;
 
 const isGiven = value => value !== null && value !== undefined && value !== '';
 const isNumber = value => typeof value === 'number';
@@ -52,7 +52,7 @@ function makeScale(c) {
   const good = rows.filter(row => row.state === 'ok').map(row => row.cells[c]).filter(isGiven);
   const isMeasured = columns[c].kind === 'metric' && good.length > 0;
   // Intervals of predictions reach beyond the values.
-  const own = (study.noise || []).find(noise => columns[c].kind === 'metric' && noise.metric === columns[c].help);
+  const own = (sweep.noise || []).find(noise => columns[c].kind === 'metric' && noise.metric === columns[c].help);
   const ends = own ? own.points.flatMap(point => point ? [point.min, point.max] : []) : [];
   const [low, high] = extent(isMeasured ? [...good, ...ends] : values);
   const isLog = low > 0 && high > 20 * low;
@@ -136,27 +136,27 @@ function axisOfLevels(axis, k) {
 }
 
 function axisOfRuns() {
-  const firsts = rows.filter(row => row.at % study.seeds === 0), last = Math.max(1, firsts.length - 1);
+  const firsts = rows.filter(row => row.at % sweep.seeds === 0), last = Math.max(1, firsts.length - 1);
   const stops = firsts.map((row, k) => ({text: row.name, place: k / last}));
-  return makeAxis('run', stops, rows.map((_, at) => Math.floor(at / study.seeds)), false);
+  return makeAxis('run', stops, rows.map((_, at) => Math.floor(at / sweep.seeds)), false);
 }
 
 /** Runs of a point, one after the other. */
 function axisOfSeeds() {
   const column = columns.find(c => c.kind === 'seed');
-  const stops = rows.slice(0, study.seeds).map((row, k) => (
-    {text: cellText(row, column.at), place: k / (study.seeds - 1)}));
-  return {...makeAxis('seed', stops, rows.map((_, at) => at % study.seeds), true), isSeed: true};
+  const stops = rows.slice(0, sweep.seeds).map((row, k) => (
+    {text: cellText(row, column.at), place: k / (sweep.seeds - 1)}));
+  return {...makeAxis('seed', stops, rows.map((_, at) => at % sweep.seeds), true), isSeed: true};
 }
 
 function makePointAxes() {
-  const levelled = study.axes.map(axisOfLevels).filter(axis => axis.texts.length > 1);
+  const levelled = sweep.axes.map(axisOfLevels).filter(axis => axis.texts.length > 1);
   if (levelled.length > 0) return levelled;
   const varied = columns.filter(c => c.kind === 'parameter' && c.scale && c.scale.count > 1);
   return varied.length > 0 ? varied.map(axisOfColumn) : [axisOfRuns()];
 }
 const axes = makePointAxes();
-if (study.seeds > 1) axes.push(axisOfSeeds());
+if (sweep.seeds > 1) axes.push(axisOfSeeds());
 
 /** A run that has a stop on every axis. */
 const isOnAxes = at => axes.every(axis => axis.stopOf[at] >= 0);

@@ -1,4 +1,4 @@
-#include "app/view/session/study.h"
+#include "app/view/session/view_sweep.h"
 
 #include <fmt/core.h>
 
@@ -18,26 +18,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_study_runs = 100;
-constexpr double study_grace = 10;  // s
-constexpr auto study_interval = std::chrono::milliseconds(300);
+constexpr int max_sweep_runs = 100;
+constexpr double sweep_grace = 10;  // s
+constexpr auto sweep_interval = std::chrono::milliseconds(300);
 
-std::vector<std::string> axes_of(const StudyRequest& request) {
+std::vector<std::string> axes_of(const SweepRequest& request) {
   std::vector<std::string> axes;
-  for (const StudyAxis& axis : request.axes) axes.push_back(axis.address + "=" + axis.values);
+  for (const SweepAxis& axis : request.axes) axes.push_back(axis.address + "=" + axis.values);
   return axes;
 }
 
 /// Counts the values in "5, 10, 20", roughly: lists in lists count as more.
-std::size_t values_of(const StudyAxis& axis) {
+std::size_t values_of(const SweepAxis& axis) {
   return 1 + static_cast<std::size_t>(std::count(axis.values.begin(), axis.values.end(), ','));
 }
 
 }  // namespace
 
-void Study::start(const StudyPlace& place, record::RunRecord run, timeline::Moment moment,
-                  double fps, const StudyRequest& request,
-                  const std::vector<std::string>& longer_steps) {
+void ViewSweep::start(const SweepPlace& place, record::RunRecord run, timeline::Moment moment,
+                      double fps, const SweepRequest& request,
+                      const std::vector<std::string>& longer_steps) {
   if (is_running()) throw UsageError("", "a sweep is in progress", "wait for it, or stop it");
   if (request.axes.empty()) throw UsageError("", "no parameter is chosen", "find one to vary");
   const int start = moment.scene ? scene::number_of(*moment.scene, 0) : 0;
@@ -52,7 +52,7 @@ void Study::start(const StudyPlace& place, record::RunRecord run, timeline::Mome
   options.backend = place.backend;
   if (request.has_longer_steps) options.overrides = longer_steps;
   options.frames = setup::FrameRange{setup::FrameRange::from_start, start + request.last_frame};
-  options.out = (here / "study.cdb").string();
+  options.out = (here / "sweep.cdb").string();
   // A line of tiles would be as wide as the picture, and they small.
   if (const std::size_t count = request.axes.size() == 1 ? values_of(request.axes[0]) : 0;
       count > 3)
@@ -63,22 +63,22 @@ void Study::start(const StudyPlace& place, record::RunRecord run, timeline::Mome
     timeline::write_origin(options.file, std::move(run), std::move(moment));
     // A wrong request is refused here, before a process starts.
     runs = static_cast<int>(sweep::plan::plan_sweep(options).runs.size());
-    if (runs > max_study_runs)
-      throw UsageError("", fmt::format("{} runs are more than {}", runs, max_study_runs),
+    if (runs > max_sweep_runs)
+      throw UsageError("", fmt::format("{} runs are more than {}", runs, max_sweep_runs),
                        "give fewer values, or use neve sweep in a terminal");
-    sweep_.emplace(options, program_, here / "log", study_grace);
+    sweep_.emplace(options, program_, here / "log", sweep_grace);
     progress_ = {};
     progress_.command = options::shell_line(options::words_of(options));
   } catch (...) {
     fs::remove_all(here, error);
     throw;
   }
-  progress_.state = StudyProgress::State::running;
+  progress_.state = ViewSweepProgress::State::running;
   progress_.runs = runs;
   progress_.folder = options.out;
 }
 
-void Study::look() {
+void ViewSweep::look() {
   const std::optional<sweep::jobs::SweepProgress> found = sweep_->progress();
   if (!found) return;
   const RunCounts counts = found->counts();
@@ -87,8 +87,8 @@ void Study::look() {
   progress_.share = found->share();
 }
 
-void Study::end(int code) {
-  using State = StudyProgress::State;
+void ViewSweep::end(int code) {
+  using State = ViewSweepProgress::State;
   const bool is_whole = code == exit_ok || code == exit_runs_failed;
   progress_.state = is_whole                 ? State::done
                     : code == exit_resumable ? State::stopped
@@ -99,10 +99,10 @@ void Study::end(int code) {
   sweep_.reset();
 }
 
-bool Study::poll() {
+bool ViewSweep::poll() {
   if (!sweep_) return false;
   const auto now = sweep::jobs::Child::Clock::now();
-  if (now - looked_at_ < study_interval) return false;
+  if (now - looked_at_ < sweep_interval) return false;
   looked_at_ = now;
   const std::optional<int> code = sweep_->poll();
   try {
@@ -114,8 +114,8 @@ bool Study::poll() {
   return true;
 }
 
-std::filesystem::path Study::pack() const {
-  const fs::path file = progress_.folder.parent_path() / "study.tar";
+std::filesystem::path ViewSweep::pack() const {
+  const fs::path file = progress_.folder.parent_path() / "sweep.tar";
   const std::optional<fs::path> tar = output::find_program("tar");
   if (!tar) throw IoError("cannot pack the sweep: the program tar is not installed", file.string());
   const output::ProcessResult done = output::run_process(
@@ -126,7 +126,7 @@ std::filesystem::path Study::pack() const {
   return file;
 }
 
-void Study::stop() {
+void ViewSweep::stop() {
   if (sweep_) sweep_->stop();
 }
 

@@ -7,14 +7,14 @@
 
 #include "app/sweep/jobs/local.h"
 #include "app/sweep/plan/order.h"
-#include "app/sweep/plan/study_forecast.h"
+#include "app/sweep/plan/sweep_forecast.h"
 #include "app/sweep/plan/sweep_options.h"
 #include "tests/cli/run_neve.h"
 
 namespace neve::app::sweep {
 namespace {
 
-class StudyForecasts : public testing::Test {
+class SweepForecasts : public testing::Test {
  protected:
   plan::SweepPlan plan_of(const std::string& axes) {
     folder_.write("scene.toml", test::tiny_scene);
@@ -33,11 +33,11 @@ class StudyForecasts : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(StudyForecasts, StiffSnowAndLateFramesCostMore) {
+TEST_F(SweepForecasts, StiffSnowAndLateFramesCostMore) {
   const plan::SweepPlan plan =
       plan_of("\"material.snow.youngs_modulus\" = [2e4, 2e6]\nframes = [4, 40]\n");
-  const plan::StudyForecast forecast =
-      plan::foresee_study(plan, all(plan), plan::whole_effort(1), 1);
+  const plan::SweepForecast forecast =
+      plan::foresee_sweep(plan, all(plan), plan::whole_effort(1), 1);
   ASSERT_EQ(forecast.own.size(), 4u);
   EXPECT_GT(forecast.work[1].expected, forecast.work[0].expected);
   EXPECT_GT(forecast.work[2].expected, forecast.work[0].expected);
@@ -51,24 +51,24 @@ TEST_F(StudyForecasts, StiffSnowAndLateFramesCostMore) {
 }
 
 /// Counts of steps, not of seconds, bound the copies.
-TEST_F(StudyForecasts, CostsAreTheSameAtAnyNumberOfThreads) {
+TEST_F(SweepForecasts, CostsAreTheSameAtAnyNumberOfThreads) {
   const plan::SweepPlan plan = plan_of("\"material.snow.hardening\" = [2, 5, 10, 20]\n");
   const auto work = [&](int cores) {
     std::vector<double> list;
-    for (const forecast::Cost& cost : plan::foresee_study(plan, all(plan), {1e6}, cores).work)
+    for (const forecast::Cost& cost : plan::foresee_sweep(plan, all(plan), {1e6}, cores).work)
       list.push_back(cost.expected);
     return list;
   };
   EXPECT_EQ(work(1), work(3));
 }
 
-TEST_F(StudyForecasts, ARunWithoutACopyCostsAsTheNearestWithOne) {
+TEST_F(SweepForecasts, ARunWithoutACopyCostsAsTheNearestWithOne) {
   const plan::SweepPlan plan =
       plan_of("\"material.snow.youngs_modulus\" = [2e4, 2.1e4, 1.9e6, 2e6]\nframes = [4, 20]\n");
-  const plan::StudyForecast whole = plan::foresee_study(plan, all(plan), plan::whole_effort(1), 1);
-  plan::StudyForecast some;
+  const plan::SweepForecast whole = plan::foresee_sweep(plan, all(plan), plan::whole_effort(1), 1);
+  plan::SweepForecast some;
   for (double effort = 1e4; some.own.size() < 4; effort *= 1.07)
-    some = plan::foresee_study(plan, all(plan), {effort}, 1);
+    some = plan::foresee_sweep(plan, all(plan), {effort}, 1);
   ASSERT_EQ(some.own.size(), 4u) << "efforts grow by less than a copy costs";
   for (const std::size_t k : {2u, 3u, 4u, 5u})
     EXPECT_EQ(std::count(some.own.begin(), some.own.end(), k), 0) << "corners have copies first";
@@ -80,10 +80,10 @@ TEST_F(StudyForecasts, ARunWithoutACopyCostsAsTheNearestWithOne) {
   EXPECT_GT(some.work[5].expected, some.work[3].expected);
 }
 
-TEST_F(StudyForecasts, TheLongestRunsAreNamedAndABudgetIsCompared) {
+TEST_F(SweepForecasts, TheLongestRunsAreNamedAndABudgetIsCompared) {
   const plan::SweepPlan plan = plan_of("frames = [4, 4, 5, 80]\n");
-  const plan::StudyForecast forecast =
-      plan::foresee_study(plan, all(plan), plan::whole_effort(1), 1);
+  const plan::SweepForecast forecast =
+      plan::foresee_sweep(plan, all(plan), plan::whole_effort(1), 1);
   const auto text = [&](double budget) {
     return plan::forecast_text(plan, all(plan), forecast, 2, budget);
   };

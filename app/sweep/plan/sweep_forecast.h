@@ -24,7 +24,7 @@ ForecastEffort small_effort(const SweepPlan& plan, const std::vector<std::size_t
                             int cores);
 
 /// Costs are in explicit steps of one particle.
-struct StudyForecast {
+struct SweepForecast {
   std::vector<forecast::Cost> work;  ///< of every run of the plan, after the common beginning
   std::vector<double> drawing;       ///< s, of its tiles and of the start of its process
   forecast::Cost beginning;          ///< of all common beginnings, unless taken from a run
@@ -43,17 +43,17 @@ struct StudyForecast {
 /// Copies as many of the chosen runs as the effort allows, ends of axes first. Any other run is
 /// taken to cost as the copied one that is nearest to it, in proportion to the steps that both take
 /// at rest. An interrupt leaves the forecast of snow at rest.
-StudyForecast foresee_study(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
+SweepForecast foresee_sweep(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
                             const ForecastEffort& effort, int cores);
 
 /// "the longest: run 4, 3 min; run 7, 2 min; most take about 20 s": those that take much longer
 /// than most, "" without.
 std::string longest_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
-                         const StudyForecast& forecast);
+                         const SweepForecast& forecast);
 
 /// The forecast in one or two lines, for a sweep that starts. @param budget  s; 0: none
 std::string forecast_text(const SweepPlan& plan, const std::vector<std::size_t>& chosen,
-                          const StudyForecast& forecast, int cores, double budget);
+                          const SweepForecast& forecast, int cores, double budget);
 
 /// True of a run that no limit of its scene refuses.
 bool is_possible(const PlannedRun& item);
