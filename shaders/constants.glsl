@@ -21,15 +21,15 @@ const vec3 background_bottom = vec3(0.190f, 0.215f, 0.260f);
 
 // Matte surfaces.
 const float facing_wrap = 0.3f;  // how far light reaches around an edge
-const float facing_least = 0.65f;
+const float facing_min = 0.65f;
 const float facing_gain = 0.35f;
 // Light that has gone through snow is bluer: red is absorbed first.
 const vec3 absorption = vec3(0.90f, 0.78f, 0.66f);
-const float ambient_least = 0.08f;
+const float ambient_min = 0.08f;
 const float ambient_gain = 0.92f;
 const float ambient_share = 0.75f;
 const float inside_gain = 0.6f;  // light that was scattered inside
-const float inside_least = 0.15f;
+const float inside_min = 0.15f;
 const float value_contrast = 0.6f;  // of colours that show values: lifts the shadows
 const float rim_light = 0.35f;      // of solids, of the sky's colour
 
@@ -63,7 +63,7 @@ const float even_noise_row = 0.00583715f;
 const float line_brightness = 0.34f;
 const float line_veil_first = 0.08f;  // lines a sample: closer than that they fade
 const float line_veil_last = 0.3f;    // closer than that they are a grey veil
-const float ground_least = 0.004f;    // share over the background from which it is drawn
+const float ground_min = 0.004f;    // share over the background from which it is drawn
 
 // Smoke on its way through the grid.
 const int brick_side = 4;           // texels

@@ -40,7 +40,7 @@ void main() {
 
   vec3 from_center = p - fade_center;
   float left = exp(-dot(from_center, from_center) / (fade_distance * fade_distance));
-  if (left < ground_least) discard;
+  if (left < ground_min) discard;
 
   float line = max(line_cover(on_grid.x, span.x), line_cover(on_grid.y, span.y));
 #ifdef GHOST

@@ -50,12 +50,12 @@ float sky_light(vec3 p) {
 // values stay readable.
 vec3 lit(vec3 albedo, vec3 n, float key, float open_sky, float contrast) {
   float facing = max(0.0, (dot(n, toward_light) + facing_wrap) / (1.0 + facing_wrap));
-  facing = mix(1.0, facing, contrast) * (facing_least + facing_gain * facing);
+  facing = mix(1.0, facing, contrast) * (facing_min + facing_gain * facing);
   vec3 shade = pow(vec3(key), absorption * contrast);
   float open = mix(1.0, open_sky, contrast);
   vec3 ambient = mix(bounce_color, sky_color, 0.5 + 0.5 * n.y) *
-                 (ambient_least + ambient_gain * open) * ambient_share;
-  vec3 inside = scatter_color * (inside_gain * open * (1.0 - key) + inside_least);
+                 (ambient_min + ambient_gain * open) * ambient_share;
+  vec3 inside = scatter_color * (inside_gain * open * (1.0 - key) + inside_min);
   return albedo * (sun_color * facing * shade * key_intensity + (ambient + inside) * ambient_intensity);
 }
 

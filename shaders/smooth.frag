@@ -8,7 +8,7 @@ uniform sampler2D samples;
 out vec4 out_color;
 
 // Contrast from which there is an edge: of the brightest neighbour, and at least.
-const float edge_share = 0.16, edge_least = 0.04;
+const float edge_share = 0.16, edge_min = 0.04;
 const int longest = 12;  // pixels that an edge is followed to either side
 
 float brightness(vec4 color) { return dot(color.rgb, vec3(0.299, 0.587, 0.114)); }
@@ -25,7 +25,7 @@ void main() {
         mb = brightness(texelFetch(samples, b, 0));
   float most = max(m, max(max(mr, ml), max(mt, mb))), least = min(m, min(min(mr, ml), min(mt, mb)));
   float contrast = most - least;
-  if (contrast < max(edge_least, edge_share * most)) return;
+  if (contrast < max(edge_min, edge_share * most)) return;
 
   // The edge runs along the axis across which brightness bends least.
   float mtr = brightness(texelFetch(samples, ivec2(r.x, t.y), 0)),

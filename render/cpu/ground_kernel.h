@@ -68,7 +68,7 @@ NEVE_INLINE void ground_lanes(const GroundJob& job, light::GBufferTile& tile, in
   const Points3<V> from_center = ray * z + all_points<V>(-job.fade_center);
   const V left =
       rough_decay(square_of(from_center) * (1 / (job.fade_distance * job.fade_distance)));
-  is_seen &= left >= all<V>(light::ground_least);
+  is_seen &= left >= all<V>(light::ground_min);
   if (!any_lane(is_seen)) return;
 
   I number{};

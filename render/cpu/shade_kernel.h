@@ -63,15 +63,15 @@ NEVE_INLINE Points3<V> lit(const ShadeJob& job, const Points3<V>& albedo, const 
   const float wrap = light::facing_wrap;
   const V raw = larger_lanes((along(n, job.toward_light) + wrap) * (1 / (1 + wrap)), V{});
   const V facing =
-      mix_lanes(all<V>(1), raw, contrast) * (light::facing_least + light::facing_gain * raw);
+      mix_lanes(all<V>(1), raw, contrast) * (light::facing_min + light::facing_gain * raw);
   const V log_key = rough_log2(larger_lanes(key, all<V>(1e-30f))) * contrast;
   const V direct = facing * job.key_intensity;
   const V open = mix_lanes(all<V>(1), open_sky, contrast);
   const V up = 0.5f + 0.5f * n.y;
-  const V around = (light::ambient_least + light::ambient_gain * open) *
+  const V around = (light::ambient_min + light::ambient_gain * open) *
                    (light::ambient_share * job.ambient_intensity);
   const V inside =
-      (light::inside_gain * open * (1 - key) + light::inside_least) * job.ambient_intensity;
+      (light::inside_gain * open * (1 - key) + light::inside_min) * job.ambient_intensity;
   const auto channel = [&](float Vec3f::*c) NEVE_INLINE_BODY {
     return direct * rough_exp2(log_key * (light::absorption.*c)) * (light::sun_color.*c) +
            around * mix_lanes(all<V>(light::bounce_color.*c), all<V>(light::sky_color.*c), up) +

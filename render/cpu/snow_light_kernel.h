@@ -100,7 +100,7 @@ NEVE_INLINE SnowLightParts<V> snow_light_lanes(const SnowLightJob& job, int at,
     parts.sun.*part = key * (facing_sun * arriving + shining + spark * sun);
     parts.open_sun.*part = key * (facing_sun + shining + spark);
     const V around = ambient_share * job.ambient *
-                     (light::ambient_least +
+                     (light::ambient_min +
                       light::ambient_gain * (1 + contrast * (filled(open, returned.*c) - 1)));
     const V ambient = around * ((light::bounce_color.*c) +
                                 ((light::sky_color.*c) - (light::bounce_color.*c)) * up);

@@ -9,7 +9,7 @@ namespace {
 
 /// Contrast from which there is an edge, of 255: at least, and as a share of the brightest
 /// neighbour.
-constexpr int edge_least = 10, edge_share_of_256 = 41;
+constexpr int edge_min = 10, edge_share_of_256 = 41;
 /// Pixels that an edge is followed to either side.
 constexpr int longest = 12;
 
@@ -108,7 +108,7 @@ void mark_row(const std::uint8_t* row, const std::uint8_t* above, const std::uin
         std::max(std::max(std::max(row[left], row[right]), row[x]), std::max(above[x], below[x]));
     const int least =
         std::min(std::min(std::min(row[left], row[right]), row[x]), std::min(above[x], below[x]));
-    is_edge[x] = (most - least >= edge_least) & (256 * (most - least) >= edge_share_of_256 * most);
+    is_edge[x] = (most - least >= edge_min) & (256 * (most - least) >= edge_share_of_256 * most);
   };
   mark(0, 0, std::min(1, width - 1));
   for (int x = 1; x < width - 1; ++x) mark(x, x - 1, x + 1);

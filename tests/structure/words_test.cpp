@@ -34,10 +34,11 @@ constexpr Allowed all_allowed[] = {
 
 /// Names of code that must not have these words, and the names that may.
 constexpr std::string_view banned_in_names =
-    "most_[a-zA-Z]|least_[a-zA-Z]|[Cc]heckup|[Ss]tud(y|ies)";
+    "(most|least)_[a-zA-Z]|_(most|least)$|[Cc]heckup|[Ss]tud(y|ies)";
 constexpr std::string_view allowed_names[] = {
     "at_most", "at_least",
-    "least_J_P",  // a member of sim::Warnings, named so in saved states
+    "least_J_P",     // a member of sim::Warnings, named so in saved states
+    "include_most",  // nearly all, not the greatest
 };
 
 bool is_word(char c) {

@@ -44,7 +44,7 @@ Best Best::parse(const std::string& flag, const std::string& text) {
   Best best;
   std::string name = text;
   if (name.ends_with(min_suffix)) {
-    best.is_least = true;
+    best.is_min = true;
     name.resize(name.size() - std::string(min_suffix).size());
   }
   std::vector<std::string> known;
@@ -61,7 +61,7 @@ Best Best::parse(const std::string& flag, const std::string& text) {
 }
 
 std::string Best::text() const {
-  return metric_infos()[metric].name + std::string(is_least ? min_suffix : "");
+  return metric_infos()[metric].name + std::string(is_min ? min_suffix : "");
 }
 
 std::vector<std::size_t> points_to_refine(const Manifest& manifest,
@@ -81,7 +81,7 @@ std::vector<std::size_t> points_to_refine(const Manifest& manifest,
     // Points without the metric are no worse and no better than each other.
     if (!is_measured(a) || !is_measured(b)) return is_measured(a) && !is_measured(b);
     const double x = points[a].metrics[best.metric].mean, y = points[b].metrics[best.metric].mean;
-    return best.is_least ? x < y : x > y;
+    return best.is_min ? x < y : x > y;
   });
   std::vector<std::size_t> runs;
   for (std::size_t k = 0; k < std::min(count, order.size()); ++k)

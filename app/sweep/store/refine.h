@@ -12,7 +12,7 @@ namespace neve::app::sweep::store {
 /// A metric by which points are best, and which end of it.
 struct Best {
   std::size_t metric = 0;  ///< of metric_infos()
-  bool is_least = false;
+  bool is_min = false;
 
   /// "spread" or "spread:least". @throws UsageError for another word
   static Best parse(const std::string& flag, const std::string& text);
