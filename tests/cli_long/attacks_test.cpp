@@ -12,7 +12,8 @@ namespace {
 
 class Attacks : public Cli, public testing::WithParamInterface<const char*> {};
 
-/// Attacks end within 30 s of processors and 500 MB each, and not with exit code 1 or a signal.
+/// Attacks end within 30 s of processors (cards 120 s) and 500 MB each, and not with exit code 1 or
+/// a signal.
 TEST_P(Attacks, EndWithinTheirLimits) {
   const auto python = python_with("json");
   if (!python) SKIP_OR_FAIL("no python3; install python3");
