@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 
 #include "app/output/atomic_file.h"
@@ -33,7 +34,10 @@ class Costs : public CostlyCli {
   }
   double seconds_of(const std::string& command) {
     double least = 1e9;
-    for (int k = 0; k < 2; ++k) least = std::min(least, cost_of(command).seconds);
+    for (int k = 0; k < 2; ++k) {
+      std::filesystem::remove_all(folder / "o");  // what is made there before is not made again
+      least = std::min(least, cost_of(command).seconds);
+    }
     return least;
   }
   void expect_flat(const char* kind, const Write& write) {
@@ -138,7 +142,7 @@ TEST_F(Costs, OfCurvesBodiesAndDustGrowWithTheirLength) {
     return std::string(digits);
   };
   const auto one_step = [](const std::string& file) {
-    return "render --frames 0 --quiet --no-movie --replace --out o " + file;
+    return "render --frames 0 --quiet --no-movie --out o " + file;
   };
   expect_flat("keyframes of a curve", [&](int times) {
     return one_step(scene_with("[[curve]]\nparameter = \"material.snow.hardening\"\nkeyframes = [" +
@@ -163,10 +167,10 @@ TEST_F(Costs, OfCurvesBodiesAndDustGrowWithTheirLength) {
     }));
   };
   expect_flat("bodies that snow moves", [&](int times) {
-    return "render --frames 1 --quiet --no-movie --replace --out o " + bodies(7 * times, "");
+    return "render --frames 1 --quiet --no-movie --out o " + bodies(7 * times, "");
   });
   expect_flat("joints and springs", [&](int times) {
-    return "render --frames 1 --quiet --no-movie --replace --out o " +
+    return "render --frames 1 --quiet --no-movie --out o " +
            bodies(7 * times,
                   "joint = \"hinge\"\njoint_point = [0, 9, 0]\njoint_stiffness = 5\n"
                   "spring_place = [0, 9, 0]\nspring_stiffness = 9\n");
