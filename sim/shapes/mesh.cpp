@@ -21,6 +21,8 @@ using Corner = std::uint32_t;
 
 /// m, across a mesh: cells are no smaller.
 constexpr double min_extent = 1e-9;
+/// Of the volume, and with it of the mass, that lines measure: what nobody sees in a film.
+constexpr double max_volume_error = 0.02;
 
 /// @return whether the triangles cover the polygon and nothing else
 bool add_triangles(const std::vector<Corner>& corners, SolidMesh& closed) {
@@ -129,6 +131,11 @@ SolidMesh solid_mesh(const files::PolygonMesh& mesh, const std::string& name, Fi
     measure_winding(solid, name);
   else
     read_parts(solid, part, edges.part_count);
+  if (solid.reading.volume_error > max_volume_error)
+    throw ShapeError(
+        name + ": its " + std::to_string(solid.reading.parts) +
+        " parts lie in and across one another in so many layers that the volume of "
+        "them together cannot be measured. Unite them in the program that made the mesh");
   if (!(solid.volume > 1e-14 * box))
     throw ShapeError(is_open
                          ? edges.defect

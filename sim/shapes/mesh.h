@@ -21,6 +21,7 @@ struct MeshReading {
   std::size_t nested = 0;        ///< parts in another that make no difference: it is filled
   std::size_t cavities = 0;      ///< parts in another that are empty
   double crossed = 0;            ///< share of the volume that parts which cross have in common
+  double volume_error = 0;       ///< about, share of the volume: few lines through parts that cross
   double inside_out = 0;         ///< volume wound inward, which is left out, as a share of the rest
   std::size_t near_welds = 0;    ///< vertices that nearly coincided with another
   std::size_t open_edges = 0;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -43,7 +44,8 @@ class Parts {
         containers_(count),
         volume_(count, 0.0),
         turn_(count, 1),
-        share_(count, 1) {
+        share_(count, 1),
+        count_(count, 0) {
     missing_.from = 0.5 * (bounds_.min + bounds_.max);  // keeps digits, as enclosed_by_faces()
   }
 
@@ -58,7 +60,7 @@ class Parts {
   void find_volumes();
   void find_containers();
   void find_shares();
-  PartCounts parts_around(const Vec3d& p, std::uint32_t but);
+  std::vector<std::uint32_t> parts_around(const Vec3d& p, std::uint32_t but);
   bool contains(std::uint32_t outer, std::uint32_t inner) const {
     return std::ranges::binary_search(containers_[inner], outer);
   }
@@ -80,11 +82,14 @@ class Parts {
   std::vector<int> turn_;   ///< of each part, how it is wound: 1 outward, -1 inward
   std::vector<int> share_;  ///< how often the faces of each part count in the moments: -1, 0, 1
   std::size_t tests_ = 0;
+  std::vector<int> count_;  ///< of each part, its winding number about a place; 0 between places
+  std::vector<std::uint32_t> seen_;
   // Sums of lengths over lines, m.
   double wrong_ = 0;  ///< that the faces together count wrong
   double crossed_ = 0, inside_out_ = 0;
-  double missed_ = 0;  ///< that the faces by their shares count wrong, more or less
-  Moments missing_;    ///< what the faces by their shares lack, over m2
+  double missed_ = 0;           ///< that the faces by their shares count wrong, more or less
+  Moments missing_;             ///< what the faces by their shares lack, over m2
+  double missing_squares_ = 0;  ///< m2, of what they lack on each line
   std::vector<std::tuple<double, int, std::uint32_t>> meetings_;
   std::vector<std::uint32_t> chain_;
 };
@@ -100,9 +105,9 @@ void Parts::find_volumes() {
   }
 }
 
-/// Finds the other parts that have p inside.
-PartCounts Parts::parts_around(const Vec3d& p, std::uint32_t but) {
-  PartCounts around;
+/// Finds the other parts that have p inside, in order.
+std::vector<std::uint32_t> Parts::parts_around(const Vec3d& p, std::uint32_t but) {
+  seen_.clear();
   const auto [begin, end] = columns_.at(p);
   tests_ += static_cast<std::size_t>(end - begin);
   for (const std::uint32_t* t = begin; t != end; ++t) {
@@ -110,15 +115,21 @@ PartCounts Parts::parts_around(const Vec3d& p, std::uint32_t but) {
     const auto [a, b, c] = corners(*t);
     const int w = winding(a, b, c, p);
     if (w == 0 || meeting_x(a, b, c, p) <= p.x()) continue;
-    add(around, part_[*t], w);
-    tests_ += around.size();
+    if (count_[part_[*t]] == 0) seen_.push_back(part_[*t]);
+    count_[part_[*t]] += w;
   }
+  tests_ += seen_.size();
+  std::vector<std::uint32_t> around;
+  for (const std::uint32_t part : seen_)
+    if (std::exchange(count_[part], 0) != 0) around.push_back(part);
+  std::ranges::sort(around);
   return around;
 }
 
 /// Finds the parts around the middle of every triangle of a part.
 void Parts::find_containers() {
   std::vector<bool> is_begun(volume_.size(), false);
+  std::vector<std::uint32_t> common;
   for (std::uint32_t t = 0; t < part_.size(); ++t) {
     std::vector<std::uint32_t>& containers = containers_[part_[t]];
     if (is_begun[part_[t]] && containers.empty()) continue;
@@ -127,15 +138,16 @@ void Parts::find_containers() {
       continue;
     }
     const auto [a, b, c] = corners(t);
-    const PartCounts around = parts_around((a + b + c) / 3, part_[t]);
-    if (!is_begun[part_[t]])
-      for (const auto& [other, w] : around) containers.push_back(other);
+    std::vector<std::uint32_t> around = parts_around((a + b + c) / 3, part_[t]);
+    if (is_begun[part_[t]]) {
+      common.clear();
+      std::ranges::set_intersection(containers, around, std::back_inserter(common));
+      containers = common;
+    } else {
+      containers = std::move(around);
+    }
     is_begun[part_[t]] = true;
-    std::erase_if(containers, [&](std::uint32_t other) {
-      return std::ranges::find(around, other, &PartCounts::value_type::first) == around.end();
-    });
   }
-  for (std::vector<std::uint32_t>& containers : containers_) std::ranges::sort(containers);
   tests_ = 0;
 }
 
@@ -234,6 +246,8 @@ bool Parts::measure_line(const Vec3d& p) {
     if (depth < 0 && mesh_.inside == Inside::positive) inside_out_ += length;
     if (depth > 1 && do_cross(around)) crossed_ += length;
   }
+  const double lacking = missing_.volume - missing_before.volume;
+  missing_squares_ += lacking * lacking;
   return true;
 }
 
@@ -249,11 +263,17 @@ void Parts::measure() {
     const double u = std::fmod(0.5 + n / golden, 1), v = std::fmod(0.5 + n / (golden * golden), 1);
     if (!measure_line(bounds_.min + Vec3d(0, u * size.y(), v * size.z()))) break;
   }
-  if (n == 0) return find_moments(0);
-  const double area = size.y() * size.z() / n;
-  find_moments(area);
-  if (std::abs(wrong_) * area <= min_overlap * std::abs(mesh_.volume)) return;
-  mesh_.volume += wrong_ * area;
+  const double area = size.y() * size.z() / std::max(n, 1);
+  find_moments(n > 0 ? area : 0);
+  if (n > 0 && std::abs(wrong_) * area <= min_overlap * std::abs(mesh_.volume)) return;
+  // The faces by their shares are exact for parts in one another, and lines find what they lack.
+  mesh_.volume = mesh_.moments ? mesh_.moments->volume : mesh_.volume + wrong_ * area;
+  const double lacking = missing_.volume / std::max(n, 1);
+  const double spread =
+      std::sqrt(std::max(missing_squares_ / std::max(n, 1) - lacking * lacking, 0.0));
+  mesh_.reading.volume_error = n > 1 ? spread * std::sqrt(n) * area / std::abs(mesh_.volume)
+                               : volume_.size() > 1 ? 1
+                                                    : 0;
   mesh_.reading.crossed = crossed_ * area / mesh_.volume;
   mesh_.reading.inside_out = inside_out_ * area / mesh_.volume;
 }

