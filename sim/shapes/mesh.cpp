@@ -21,7 +21,7 @@ using Corner = std::uint32_t;
 
 /// m, across a mesh: cells are no smaller.
 constexpr double min_extent = 1e-9;
-/// Of the volume, and with it of the mass, that lines measure: what nobody sees in a film.
+/// Share of a volume, and of its mass, that lines may be wrong by: nobody sees it in a film.
 constexpr double max_volume_error = 0.02;
 
 /// @return whether the triangles cover the polygon and nothing else

@@ -271,9 +271,10 @@ void Parts::measure() {
   const double lacking = missing_.volume / std::max(n, 1);
   const double spread =
       std::sqrt(std::max(missing_squares_ / std::max(n, 1) - lacking * lacking, 0.0));
-  mesh_.reading.volume_error = n > 1 ? spread * std::sqrt(n) * area / std::abs(mesh_.volume)
-                               : volume_.size() > 1 ? 1
-                                                    : 0;
+  if (n > 1)
+    mesh_.reading.volume_error = spread * std::sqrt(n) * area / std::abs(mesh_.volume);
+  else if (volume_.size() > 1)
+    mesh_.reading.volume_error = 1;  // one line says nothing
   mesh_.reading.crossed = crossed_ * area / mesh_.volume;
   mesh_.reading.inside_out = inside_out_ * area / mesh_.volume;
 }
