@@ -72,6 +72,7 @@ class Parts {
   }
   /// @param area  m2, of the cross section of a line
   void find_moments(double area);
+  double volume_error(int n, double area) const;
 
   SolidMesh& mesh_;
   const std::vector<std::uint32_t>& part_;
@@ -264,19 +265,22 @@ void Parts::measure() {
     if (!measure_line(bounds_.min + Vec3d(0, u * size.y(), v * size.z()))) break;
   }
   const double area = size.y() * size.z() / std::max(n, 1);
-  find_moments(n > 0 ? area : 0);
+  find_moments(area);
   if (n > 0 && std::abs(wrong_) * area <= min_overlap * std::abs(mesh_.volume)) return;
   // The faces by their shares are exact for parts in one another, and lines find what they lack.
-  mesh_.volume = mesh_.moments ? mesh_.moments->volume : mesh_.volume + wrong_ * area;
-  const double lacking = missing_.volume / std::max(n, 1);
-  const double spread =
-      std::sqrt(std::max(missing_squares_ / std::max(n, 1) - lacking * lacking, 0.0));
-  if (n > 1)
-    mesh_.reading.volume_error = spread * std::sqrt(n) * area / std::abs(mesh_.volume);
-  else if (volume_.size() > 1)
-    mesh_.reading.volume_error = 1;  // one line says nothing
+  if (mesh_.moments) mesh_.volume = mesh_.moments->volume;
+  mesh_.reading.volume_error = volume_error(n, area);
   mesh_.reading.crossed = crossed_ * area / mesh_.volume;
   mesh_.reading.inside_out = inside_out_ * area / mesh_.volume;
+}
+
+/// Standard error of the volume by n lines, as a share of it: one line says nothing of parts in
+/// one another's way.
+double Parts::volume_error(int n, double area) const {
+  if (n < 2) return volume_.size() > 1 ? 1 : 0;
+  const double mean = missing_.volume / n;
+  return std::sqrt(n * std::max(missing_squares_ / n - mean * mean, 0.0)) * area /
+         std::abs(mesh_.volume);
 }
 
 void Parts::find_moments(double area) {
