@@ -129,9 +129,11 @@ void measure_winding(SolidMesh& mesh, const std::string& name) {
     const double w = winding.at(p, &looked);
     if (looked > max_looked)
       throw ShapeError(name +
-                       ": the mesh is open, and so many of its faces reach across it that it takes "
-                       "too long to say "
-                       "where its inside is; close its holes, or cut long faces into short ones");
+                       ": so many faces of the mesh reach across it that it takes too long to say "
+                       "where its inside is by winding numbers; " +
+                       (mesh.reading.open_edges > 0 ? "close its holes"
+                                                    : "fill = \"closed\" needs none of them") +
+                       ", or cut long faces into short ones");
     inside += w > 0.5;
     inside_out += w < -0.5;
     if (std::abs(w) > 0.5) filled[w < 0].add_point(p, (b.max - b.min).prod() / count);

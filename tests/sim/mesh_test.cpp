@@ -375,9 +375,32 @@ TEST(Mesh, AnOpenMeshWhoseFacesAllReachAcrossItIsRefused) {
     closed(book + faces, Fill::automatic);
     FAIL() << "is read";
   } catch (const sim::ShapeError& error) {
-    EXPECT_NE(std::string(error.what()).find("so many of its faces reach across it"),
+    EXPECT_NE(std::string(error.what()).find("so many faces of the mesh reach across it"),
               std::string::npos)
         << error.what();
+    EXPECT_NE(std::string(error.what()).find("close its holes"), std::string::npos) << error.what();
+  }
+}
+
+/// A double cone has no holes: its refusal names the way to fill it that asks no winding number.
+TEST(Mesh, AClosedMeshOfManyLongFacesIsRefusedForWindingNumbersAlone) {
+  std::string text = "v 0 0 -1\nv 0 0 1\n", faces;
+  constexpr int count = 10'000;
+  for (int k = 0; k < count; ++k) {
+    const double turn = 2 * std::numbers::pi * k / count;
+    text += "v " + std::to_string(std::cos(turn)) + " " + std::to_string(std::sin(turn)) + " 0\n";
+    const std::string here = std::to_string(3 + k), next = std::to_string(3 + (k + 1) % count);
+    faces += "f 2 " + here + " " + next + "\nf 1 " + next + " " + here + "\n";
+  }
+  // Corners have six digits.
+  EXPECT_NEAR(closed(text + faces).volume, 2 * std::numbers::pi / 3, 1e-5);
+  try {
+    closed(text + faces, Fill::winding);
+    FAIL() << "is read";
+  } catch (const sim::ShapeError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find("is open"), std::string::npos) << message;
+    EXPECT_NE(message.find("fill = \"closed\""), std::string::npos) << message;
   }
 }
 
