@@ -31,8 +31,8 @@ struct Check {
   double sound_at_hardest() const { return start.max_sound_speed * hardest.share_of_sound; }
 };
 
-/// Seeds the scene, takes some steps, and runs coarse copies: about four seconds, at most twenty
-/// where steps are short and snow is spread out.
+/// Seeds the scene, takes some steps, and runs coarse copies: four to twelve seconds, at most
+/// twenty where steps are short and snow is spread out.
 /// @param scene resolved is not needed
 /// @param coarsening  factor of --coarsen
 /// @param set  addresses that the command line gives values to

@@ -536,7 +536,7 @@ Found problem_of(const Scene& scene, const Export& e) {
   for (const std::string& name : e.bodies) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     return Problem{at + ".bodies", "there is no body or emitter " + toml::toml_string(name),
-                   advice::suggest_one_of(name, {"", names})};
+                   name_advice(name, names)};
   }
   if (e.dust || !mixes_emitters(scene)) return {};
   const bool needs_origin =

@@ -131,8 +131,9 @@ void measure_winding(SolidMesh& mesh, const std::string& name) {
       throw ShapeError(name +
                        ": so many faces of the mesh reach across it that it takes too long to say "
                        "where its inside is by winding numbers; " +
-                       (mesh.reading.open_edges > 0 ? "close its holes"
-                                                    : "fill = \"closed\" needs none of them") +
+                       (mesh.reading.open_edges > 0
+                            ? "close its holes"
+                            : "fill it by fill = \"closed\", which asks for none") +
                        ", or cut long faces into short ones");
     inside += w > 0.5;
     inside_out += w < -0.5;

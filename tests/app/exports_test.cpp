@@ -133,7 +133,7 @@ TEST(Exports, MistakesInASceneAreLocated) {
             std::string::npos);
   EXPECT_NE(error_of_export("[[export]]\nattributes = [\"speed\"]\n").find("\"kirchhoff\""),
             std::string::npos);
-  EXPECT_NE(error_of_export("[[export]]\nbodies = [\"bal\"]\n").find("did you mean ball?"),
+  EXPECT_NE(error_of_export("[[export]]\nbodies = [\"bal\"]\n").find("did you mean \"ball\"?"),
             std::string::npos);
   EXPECT_NE(error_of_export("[[export]]\nformat = \"csv\"\nsurface = true\n").find("use ply, vtp"),
             std::string::npos);

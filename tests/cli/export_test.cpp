@@ -582,7 +582,7 @@ TEST_F(Export, MistakesAreExplained) {
   expect_refused({"scene.toml", "--format", "ply,stl"}, 2, "ply or obj with --surface");
   expect_refused({"scene.toml", "--format", "ply", "--attributes", "id,JP"}, 2,
                  "did you mean J_P?");
-  expect_refused({"scene.toml", "--format", "ply", "--body", "bal"}, 2, "did you mean ball?");
+  expect_refused({"scene.toml", "--format", "ply", "--body", "bal"}, 2, "did you mean \"ball\"?");
   expect_refused({"scene.toml", "--format", "ply", "--at", "0.1", "--frames", "0-1"}, 2,
                  "cannot be combined");
   expect_refused({"scene.toml", "--format", "ply", "--up", "x"}, 2, "expected y, z");
