@@ -21,7 +21,7 @@ namespace neve::app::bench {
 
 namespace {
 
-constexpr const char* flip = "";
+constexpr const char* flip = "transfer = \"flip\"\nkernel = \"cubic\"\n";
 constexpr const char* mls = "transfer = \"mls\"\nkernel = \"quadratic\"\n";
 
 struct BoxSize {
