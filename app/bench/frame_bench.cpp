@@ -21,6 +21,7 @@ namespace neve::app::bench {
 
 namespace {
 
+// Rows say which transfer they take, and do not follow the defaults of scenes.
 constexpr const char* flip = "transfer = \"flip\"\nkernel = \"cubic\"\n";
 constexpr const char* mls = "transfer = \"mls\"\nkernel = \"quadratic\"\n";
 

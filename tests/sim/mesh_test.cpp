@@ -362,17 +362,23 @@ TEST(Mesh, AnOpenMeshIsFilledByWindingNumbers) {
   EXPECT_TRUE(solid->contains(solid->inner_point()));
 }
 
-/// None of them is ever far away: each question about the inside would look at all.
-TEST(Mesh, AnOpenMeshWhoseFacesAllReachAcrossItIsRefused) {
-  std::string book = "v 0 0 -1\nv 0 0 1\n", faces;
-  constexpr int count = 20'000;
+/// Vertices 1 and 2 are the ends of an axis, and count more lie on the unit circle around it.
+std::string poles_and_rim(int count) {
+  std::string text = "v 0 0 -1\nv 0 0 1\n";
   for (int k = 0; k < count; ++k) {
     const double turn = 2 * std::numbers::pi * k / count;
-    book += "v " + std::to_string(std::cos(turn)) + " " + std::to_string(std::sin(turn)) + " 0\n";
-    faces += "f 1 2 " + std::to_string(3 + k) + "\n";
+    text += "v " + std::to_string(std::cos(turn)) + " " + std::to_string(std::sin(turn)) + " 0\n";
   }
+  return text;
+}
+
+/// None of them is ever far away: each question about the inside would look at all.
+TEST(Mesh, AnOpenMeshWhoseFacesAllReachAcrossItIsRefused) {
+  constexpr int count = 20'000;
+  std::string book = poles_and_rim(count);
+  for (int k = 0; k < count; ++k) book += "f 1 2 " + std::to_string(3 + k) + "\n";
   try {
-    closed(book + faces, Fill::automatic);
+    closed(book, Fill::automatic);
     FAIL() << "is read";
   } catch (const sim::ShapeError& error) {
     EXPECT_NE(std::string(error.what()).find("so many faces of the mesh reach across it"),
@@ -384,18 +390,16 @@ TEST(Mesh, AnOpenMeshWhoseFacesAllReachAcrossItIsRefused) {
 
 /// A double cone has no holes: its refusal names the way to fill it that asks no winding number.
 TEST(Mesh, AClosedMeshOfManyLongFacesIsRefusedForWindingNumbersAlone) {
-  std::string text = "v 0 0 -1\nv 0 0 1\n", faces;
   constexpr int count = 10'000;
+  std::string cone = poles_and_rim(count);
   for (int k = 0; k < count; ++k) {
-    const double turn = 2 * std::numbers::pi * k / count;
-    text += "v " + std::to_string(std::cos(turn)) + " " + std::to_string(std::sin(turn)) + " 0\n";
     const std::string here = std::to_string(3 + k), next = std::to_string(3 + (k + 1) % count);
-    faces += "f 2 " + here + " " + next + "\nf 1 " + next + " " + here + "\n";
+    cone += "f 2 " + here + " " + next + "\nf 1 " + next + " " + here + "\n";
   }
   // Corners have six digits.
-  EXPECT_NEAR(closed(text + faces).volume, 2 * std::numbers::pi / 3, 1e-5);
+  EXPECT_NEAR(closed(cone).volume, 2 * std::numbers::pi / 3, 1e-5);
   try {
-    closed(text + faces, Fill::winding);
+    closed(cone, Fill::winding);
     FAIL() << "is read";
   } catch (const sim::ShapeError& error) {
     const std::string message = error.what();
